@@ -46,20 +46,16 @@ class GoldGoals(options.GoldCount):
 @click.command()
 @click.argument("levels", metavar="LEVEL...", nargs=-1, required=True, type=LevelPath())
 @click.option(
-    "--gold", "goals", type=GoldGoals(), default="0", show_default=True,
-    help="Gold to collect on the way. both: two runs a level, one to the exit and one with all gold.",
-)  # fmt: skip
+    "--gold", "goals", type=GoldGoals(), default="0", show_default=True, help="Gold to collect. both: two runs a level."
+)
 @options.seconds_option(10.0)
 @options.work_option
 @options.seed_option
 @click.option("--first", "first_only", is_flag=True, help="Stop each search at the first run that it finds.")
-@click.option("--jobs", type=options.JOBS, help="Levels at the same time. [default: one per core]")
+@click.option("--jobs", type=options.JOBS, default=cores, show_default="one per core", help="Levels at the same time.")
 @options.body_option
 @click.option(
-    "--replays",
-    metavar="FOLDER",
-    type=NEW_FOLDER,
-    help="Keep the runs in this folder. One that is there and still right is not searched again.",
+    "--replays", metavar="FOLDER", type=NEW_FOLDER, help="Keep runs in this folder; those still right are not searched."
 )
 @click.option("--improve", is_flag=True, help="Shorten the runs that are kept, too.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")
@@ -68,7 +64,7 @@ def check(
     goals: dict[str, int],
     replays: Path | None,
     as_json: bool,
-    jobs: int | None,
+    jobs: int,
     improve: bool,
     **task_options: Any,
 ) -> int:
@@ -92,55 +88,41 @@ def check(
       ninja-game check my-levels/ --gold both --replays my-levels/certificates --seconds 60
     """
     from ninja_game.cli.commands import BAD_INPUT, FAILED
-    from ninja_game.cli.terminal import complain
+    from ninja_game.cli.terminal import print_error
     from ninja_game.formats.load import load_levels
     from ninja_game.search.certify import Wanted, certify_all
 
     chosen = [level for path in levels for level in load_levels(path)]
     kept = list(_files(chosen, goals, replays))
     wanted = Wanted(goals, task_options, improve)
-    tally = _Tally()
+    broken = 0
+    without: dict[str, list[str]] = {goal: [] for goal in goals}
     with options.progress_line() as report:
-        results = certify_all(chosen, kept, wanted, jobs=jobs or cores(), report=report.of_level)
+        results = certify_all(chosen, kept, wanted, jobs=jobs, report=report.of_level)
         for level, files, found in zip(chosen, kept, results, strict=True):
-            tally.add(level, found)
-            if isinstance(found, LevelError):
-                complain(str(replace(found, file=level.file, line=level.line)))
-            elif isinstance(found, NinjaGameError):
-                complain(str(found))
-            else:
-                click.echo(json.dumps(_facts(level, found, files)) if as_json else _rows(level, found))
+            if isinstance(found, NinjaGameError):
+                broken += 1
+                placed = replace(found, file=level.file, line=level.line) if isinstance(found, LevelError) else found
+                print_error(str(placed))
+                continue
+            for goal, certified in found.items():
+                without[goal] += [] if certified.run else [shown_text(Path(level.file).stem)]
+            click.echo(json.dumps(_facts(level, found, files)) if as_json else _rows(level, found))
     if not as_json:
-        click.echo("\n".join(tally.lines(goals)))
-    return BAD_INPUT if tally.broken else FAILED if tally.without[next(iter(goals))] else 0
+        click.echo(_summary(len(chosen), broken, without))
+    return BAD_INPUT if broken else FAILED if without[next(iter(goals))] else 0
 
 
-class _Tally:
-    def __init__(self) -> None:
-        self.levels = 0
-        self.broken = 0
-        self.without: dict[str, list[str]] = {"exit": [], "gold": []}
-
-    def add(self, level: NamedLevel, found: Mapping[str, Certified] | NinjaGameError) -> None:
-        self.levels += 1
-        if isinstance(found, NinjaGameError):
-            self.broken += 1
-            return
-        for goal, certified in found.items():
-            if not certified.run:
-                self.without[goal].append(shown_text(Path(level.file).stem))
-
-    def lines(self, goals: Mapping[str, int]) -> Iterator[str]:
-        """The count in a line, and a line for each goal that some levels lack."""
-        first = self.without[next(iter(goals))]
-        levels = counted(self.levels, "level")
-        unplayable = f", {self.broken} cannot be played" if self.broken else ""
-        solved = self.levels - len(first) - self.broken
-        yield f"{levels}, {solved} solvable, {len(first)} not solved in the time{unplayable}"
-        if "exit" in goals and self.without["exit"] and self.levels > 1:
-            yield f"no run to the exit: {', '.join(self.without['exit'])}"
-        if "gold" in goals and self.without["gold"] and self.levels > 1:
-            yield f"no run with the gold: {', '.join(self.without['gold'])}"
+def _summary(levels: int, broken: int, without: Mapping[str, Sequence[str]]) -> str:
+    """The count in a line, and a line for each goal that some levels lack. ``without``: the names of those."""
+    failed = len(next(iter(without.values())))
+    unplayable = f", {broken} cannot be played" * bool(broken)
+    count = (
+        f"{counted(levels, 'level')}, {levels - failed - broken} solvable, {failed} not solved in the time{unplayable}"
+    )
+    goals = (("exit", "to the exit"), ("gold", "with the gold")) if levels > 1 else ()
+    lacking = [f"no run {words}: {', '.join(without[goal])}" for goal, words in goals if without.get(goal)]
+    return "\n".join([count, *lacking])
 
 
 def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | None) -> Iterator[dict[str, Path]]:

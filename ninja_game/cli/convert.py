@@ -81,7 +81,7 @@ def convert(
 
     output = Output(target, sources, force=force)
     texts = [named for source in sources for named in texts_of(source)]
-    level = options.level_given(level_path)
+    level = options.load_level_option(level_path)
     form = form or next((form for suffix, form in FORM_OF_NAME.items() if target.lower().endswith(suffix)), "")
     if level and form in ("ascii", "string"):
         raise click.UsageError("--level is for recordings: add --to replay or --to file")
@@ -172,10 +172,7 @@ def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterato
 @click.command()
 @click.argument("inputs", metavar="FILE", type=options.OLD_FILE)
 @click.option(
-    "-o",
-    "--output",
-    type=options.NEW_FILE,
-    help="The replay. [default: FILE's name and .replay.txt, in the current folder]",
+    "-o", "--output", type=options.NEW_FILE, help="The replay. [default: FILE's name and .replay.txt, in this folder]"
 )
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
 @options.play_on_option
@@ -202,7 +199,7 @@ def record(
     from ninja_game.formats.replay.text import parse_replay
     from ninja_game.runs.conversion import on_level, replay_texts
 
-    level = options.level_given(level_path)
+    level = options.load_level_option(level_path)
     recording = options.choose(load_replays(inputs, level=level, changed=True), "recordings", inputs, record)
     with options.heartbeat(lambda: "running the inputs"):
         (text,) = replay_texts([on_level(recording, level)], budget)

@@ -9,8 +9,8 @@ from typing import Any
 import click
 
 from ninja_game.budget import DATASET_MIB
-from ninja_game.cli.options import NEW_FILE, OLD_PATH, level_given, level_option, memory_option, with_progress
-from ninja_game.cli.terminal import complain
+from ninja_game.cli.options import NEW_FILE, OLD_PATH, level_option, load_level_option, memory_option, with_progress
+from ninja_game.cli.terminal import print_error
 from ninja_game.sim.rules import LIFETIME
 
 
@@ -63,37 +63,30 @@ def demonstrations(
     from ninja_game.errors import ArgumentError
     from ninja_game.files.writing import check_output
     from ninja_game.formats.load import load_replays
-    from ninja_game.learn.demonstrations import (
-        UnplayableRecordingError,
-        bytes_of,
-        demonstration,
-        require_minari,
-        write_minari,
-        write_npz,
-    )
+    from ninja_game.learn import demonstrations as learn
 
     if output is not None:
         check_output(output, keep=files)
     else:
-        require_minari()
-    level = level_given(level_path)
+        learn.require_minari()
+    level = load_level_option(level_path)
     recordings = [recording for file in files for recording in load_replays(file, level=level)]
     observation = parts[0] if len(parts) == 1 else list(parts)
     limit = max([LIFETIME, *(len(recording.inputs) for recording in recordings)])
     settings: dict[str, Any] = {"observation": observation, "flat": flat, "actions": actions, "time_limit": limit}
-    made, left_bytes = [], megabytes * 2**20
+    found, left_bytes = [], megabytes * 2**20
     for recording in with_progress(recordings, "recording"):
         try:
-            made.append(demonstration(recording, memory=memory, most_bytes=left_bytes, **settings))
-            left_bytes -= bytes_of(made[-1].observations)
-        except UnplayableRecordingError as error:
-            complain(f"left out: {error}")
-    if not made:
+            found.append(learn.demonstration(recording, memory=memory, most_bytes=left_bytes, **settings))
+            left_bytes -= learn.bytes_of(found[-1].observations)
+        except learn.UnplayableRecordingError as error:
+            print_error(f"left out: {error}")
+    if not found:
         raise ArgumentError("none of these recordings can be a demonstration")
     if output is not None:
-        write_npz(output, made)
+        learn.write_npz(output, found)
     else:
-        write_minari(str(dataset), made, **settings)
-    steps, passed = sum(len(each.rewards) for each in made), sum(each.outcome == "exit" for each in made)
-    left = f", {len(recordings) - len(made)} left out" * (len(made) < len(recordings))
-    click.echo(f"{output or dataset}: {len(made)} demonstrations, {steps:,} steps, {passed} to the exit{left}")
+        learn.write_minari(str(dataset), found, **settings)
+    steps, passed = sum(len(each.rewards) for each in found), sum(each.outcome == "exit" for each in found)
+    left = f", {len(recordings) - len(found)} left out" * (len(found) < len(recordings))
+    click.echo(f"{output or dataset}: {len(found)} demonstrations, {steps:,} steps, {passed} to the exit{left}")

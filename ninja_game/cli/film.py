@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.options import InputPath, Pixels, choose, heartbeat, level_given, level_option
-from ninja_game.cli.terminal import draw_unseen
+from ninja_game.cli.options import InputPath, Pixels, choose, heartbeat, level_option, load_level_option
+from ninja_game.cli.terminal import use_dummy_video
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
@@ -32,10 +32,7 @@ LARGE = 5_000_000  # bytes of a GIF
 @click.option("--speed", type=click.FloatRange(0.05, 16), default=1.0, show_default=True, help="1 is the game's speed.")
 @click.option("--from", "first", type=click.IntRange(min=0), default=0, help="First picture: after this many ticks.")
 @click.option(
-    "--to",
-    "last",
-    type=click.IntRange(min=0),
-    help="Last picture. [default: a second after the end; at most 20,000 pictures]",
+    "--to", "last", type=click.IntRange(min=0), help="Last picture. [default: a second after the end; 20,000 at most]"
 )
 @click.option(
     "--ghost", "ghosts", multiple=True, metavar="FILE", type=InputPath(dir_okay=False),
@@ -46,9 +43,7 @@ LARGE = 5_000_000  # bytes of a GIF
     help="Show the runs of this file, three at most, in pictures of their own beside the first.",
 )  # fmt: skip
 @click.option("--keys", is_flag=True, help="Show the keys that are down.")
-@click.option(
-    "--splits", is_flag=True, help="Show time and last splits, and how many ticks later (+) others are there."
-)
+@click.option("--splits", is_flag=True, help="Show time and last splits, and how far others are behind (+).")
 @click.option("--gold", is_flag=True, help="With --splits: a split for each piece of gold, too.")
 @level_option
 def film(
@@ -72,7 +67,7 @@ def film(
     """
     from ninja_game.formats.load import load_replays
 
-    level = level_given(level_path)
+    level = load_level_option(level_path)
     found = load_replays(replay, level=level)
     parts = found if found[0].episode and record is None else [choose(found, "recordings", replay, record)]
     path = output or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
@@ -89,7 +84,7 @@ def film(
         raise click.UsageError(f"--beside: {most} runs; at most {MOST_BESIDE}")
     if any(len(runs) != most for runs in beside_of):
         raise click.UsageError("--beside: as many runs for each level of the episode; another whole episode has them")
-    draw_unseen()
+    use_dummy_video()
     from ninja_game.play.replay.film import Film, length_of, section_of, write_film
 
     alone = len(parts) == 1
@@ -111,10 +106,10 @@ def film(
             write_film(films, path, report)
     except OSError as error:
         raise NinjaGameError(f"{path}: the film cannot be written: {error.strerror}") from None
-    click.echo(f"{shown_text(str(path))}: {length_of(films)} ticks{large(path)}")
+    click.echo(f"{shown_text(str(path))}: {length_of(films)} ticks{size_note(path)}")
 
 
-def large(path: Path) -> str:
+def size_note(path: Path) -> str:
     """What is said of a GIF that is large."""
     size = path.stat().st_size
     return f", {size / 1e6:.0f} MB; as .mp4 it would be smaller" if path.suffix == ".gif" and size > LARGE else ""

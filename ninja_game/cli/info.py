@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.options import LevelPath, level_given, level_option
+from ninja_game.cli.options import LevelPath, level_option, load_level_option
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.level import makes_object
@@ -53,9 +53,9 @@ def info(
 
     # A pipe has no width; a table truncated to 80 columns is of no use to whoever reads it.
     console = Console(highlight=False, emoji=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
-    given = level_given(level_path)
+    given = load_level_option(level_path)
     runs = [run for run in recordings_in(files, given) if not isinstance(run, Unreadable)]
-    levels = [level for file in files for level in load_levels(file)] if given is None else list(map(_level_of, runs))
+    levels = list(map(_level_of, runs)) if given else [level for file in files for level in load_levels(file)]
     if record is not None:
         levels = [level for level in levels if level.record == record]
         if not levels:
@@ -78,13 +78,13 @@ def _level_of(run: Recording) -> NamedLevel:
     return NamedLevel(run.name, run.author, run.comment, run.level, run.file, run.record, run.line)
 
 
-def _counts(level: NamedLevel) -> Counter[str]:
+def _kind_counts(level: NamedLevel) -> Counter[str]:
     from ninja_game.sim.kinds import KIND_NAMES
 
     return Counter(KIND_NAMES[spec.kind] for spec in filter(makes_object, level.level.objects))
 
 
-def _sorts(level: NamedLevel) -> Counter[str]:
+def _object_counts(level: NamedLevel) -> Counter[str]:
     """How many objects of each sort that a level's file has a word for: zap drones apart from laser drones.
 
     Of more objects than can be played, which take long, how many of each kind.
@@ -95,7 +95,7 @@ def _sorts(level: NamedLevel) -> Counter[str]:
 
     specs = list(filter(makes_object, level.level.objects))
     if len(specs) >= CAPACITY:
-        return _counts(level)
+        return _kind_counts(level)
     return Counter(best_form(spec)[0] or KIND_NAMES[spec.kind] for spec in specs)
 
 
@@ -106,7 +106,7 @@ def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
     facts: dict[str, Any] = {
         "file": level.file, "record": level.record, "line": level.line, "form": level.form, "name": level.name,
         "author": level.author, "comment": level.comment, "teaches": level.teaches, "says": level.says,
-        "objects": dict(_counts(level)),
+        "objects": dict(_kind_counts(level)),
         "level_digest": level_digest(level.level), "warnings": level_warnings(level.level, level.says),
     }  # fmt: skip
     if not run:
@@ -132,7 +132,7 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     console.print(Text(f"{file}, record {level.record}", "dim"))
     if picture:
         console.print(level_picture(level.level), soft_wrap=True)
-    objects = ", ".join(f"{count} {kind}" for kind, count in _sorts(level).items())
+    objects = ", ".join(f"{count} {kind}" for kind, count in _object_counts(level).items())
     console.print(Text(objects or "no objects"))
     if run:
         length = run.replay.length if run.replay.outcome else run.ticks - 1
@@ -163,7 +163,7 @@ def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict
     for title in ("objects", "gold", "last tick", "warnings"):
         table.add_column(title, justify="right")
     for level in levels:
-        counts = _counts(level)
+        counts = _kind_counts(level)
         run = recordings.get((level.file, level.record))
         warnings = len(level_warnings(level.level, level.says))
         place = f":{level.record}" if sizes[level.file] > 1 else ""

@@ -139,16 +139,16 @@ def levels() -> None:
 @click.command()
 @click.option("--seed", type=options.SEED, metavar="N", help="The same seed gives the same level. [default: any]")
 @click.option(
-    "--difficulty", type=click.IntRange(1, 10), default=4, show_default=True, metavar="D",
-    help="Difficulty, 1 to 10, on the scale that the game shows.",
-)  # fmt: skip
-@click.option(
-    "-o", "--output", metavar="FILE", type=NEW_FILE,
-    help="Where to write the level. [default: a new file in the current folder, named after the level]",
-)  # fmt: skip
-@click.option(
-    "--replay", metavar="FILE", type=NEW_FILE, help="Write the certificate too, the solver's run to the exit."
+    "--difficulty", type=click.IntRange(1, 10), default=4, show_default=True, help="On the scale that the game shows."
 )
+@click.option(
+    "-o",
+    "--output",
+    metavar="FILE",
+    type=NEW_FILE,
+    help="The level. [default: a new file in this folder, named after it]",
+)
+@click.option("--replay", metavar="FILE", type=NEW_FILE, help="Write the certificate too, the solver's run.")
 def generate(seed: int | None, difficulty: int, output: Path | None, replay: Path | None) -> int:
     """Make a new level, certified by the solver.
 

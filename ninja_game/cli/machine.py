@@ -8,7 +8,7 @@ import sqlite3
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
@@ -23,7 +23,6 @@ from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.player.player_data import PlayerData
-    from ninja_game.sim.level import Level
 
 ENTRY = """[Desktop Entry]
 Type=Application
@@ -75,7 +74,7 @@ UPDATES = (("update-mime-database", "mime"), ("update-desktop-database", "applic
 
 
 @click.command()
-@click.option("--remove", is_flag=True, help="Take it out again.")
+@click.option("--remove", is_flag=True, help="Remove it again.")
 def desktop(remove: bool) -> None:
     """Put the game into your menu of programs, with its icon and types of files.
 
@@ -136,8 +135,7 @@ def _quoted(word: str) -> str:
     return f'"{word}"'.replace("\\", "\\\\").replace("%", "%%")
 
 
-MOST_PROCESSES = 2
-"""Each compiles the rules again for what it makes of them; more would only wait for each other."""
+MOST_PROCESSES = 2  # each compiles the rules again for what it makes of them; more would only wait for each other
 
 EVERY = 0.5  # seconds between two looks whether another process is done
 
@@ -198,71 +196,49 @@ def compile_everything(processes: int, *, quiet: bool) -> None:
         click.echo(f"All is compiled, in {time.monotonic() - began:.0f} s: {code_folder()}")
 
 
+WORK = ("runs and traces", "verdicts", "many worlds", "the solver", "searches in spans of runs", "what agents observe")
+"""What ``compile_for`` does, in this order."""
+
+
 def compile_for(name: str) -> None:
     """Do a little work of that name: its kernels are in the cache then."""
     from ninja_game.formats.n14.level_string import parse_level_string
-    from ninja_game.search.solve import SMALL_LEVEL
+    from ninja_game.search.solve import SMALL_LEVEL, compile_solver
 
-    WORK[name](parse_level_string(SMALL_LEVEL))
+    level = parse_level_string(SMALL_LEVEL)
+    match name:
+        case "runs and traces":
+            from ninja_game.backend.memories import open_worlds
+            from ninja_game.sim.states import NO_CAUSE
 
+            worlds = open_worlds("compiled", level, box=False)
+            worlds.run(b"\0")
+            worlds.trace(b"\0", [worlds.observe(1)[0]], events=True)
+            worlds.step(0)
+            worlds.kill(NO_CAUSE, 0.0, 0.0)
+        case "verdicts":
+            from ninja_game.backend.memories import proven_memory
 
-def _runs(level: Level) -> None:
-    from ninja_game.backend.memories import open_worlds
-    from ninja_game.sim.states import NO_CAUSE
+            proven_memory("compiled")
+        case "many worlds":
+            from ninja_game.batch.difficulty import difficulty
 
-    worlds = open_worlds("compiled", level, box=False)
-    worlds.run(b"\0")
-    worlds.trace(b"\0", [worlds.observe(1)[0]], events=True)
-    worlds.step(0)
-    worlds.kill(NO_CAUSE, 0.0, 0.0)
+            difficulty(level, b"\2" * 20, tries=1)
+        case "the solver":
+            compile_solver()
+        case "searches in spans of runs":
+            from ninja_game.search.formula.methods import search_span
+            from ninja_game.search.formula.task import SpanTask
 
+            search_span(SpanTask(level, b"\2" * 9, 0, 9, measure="x"), lambda *_: False)
+        case "what agents observe" if find_spec("gymnasium"):
+            import numpy as np
 
-def _verdicts(_: Level) -> None:
-    from ninja_game.backend.memories import proven_memory
+            from ninja_game.learn.worlds import EnvWorlds
 
-    proven_memory("compiled")
-
-
-def _many_worlds(level: Level) -> None:
-    from ninja_game.batch.difficulty import difficulty
-
-    difficulty(level, b"\2" * 20, tries=1)
-
-
-def _solver(_: Level) -> None:
-    from ninja_game.search.solve import compile_solver
-
-    compile_solver()
-
-
-def _spans(level: Level) -> None:
-    from ninja_game.search.formula.methods import search_span
-    from ninja_game.search.formula.task import SpanTask
-
-    search_span(SpanTask(level, b"\2" * 9, 0, 9, measure="x"), lambda *_: False)
-
-
-def _observations(level: Level) -> None:
-    if find_spec("gymnasium") is None:
-        return
-    import numpy as np
-
-    from ninja_game.learn.worlds import EnvWorlds
-
-    worlds = EnvWorlds(level, 1)
-    worlds.reset()
-    worlds.step(np.zeros(1, np.uint8))
-
-
-WORK: dict[str, Callable[[Level], None]] = {
-    "runs and traces": _runs,
-    "verdicts": _verdicts,
-    "many worlds": _many_worlds,
-    "the solver": _solver,
-    "searches in spans of runs": _spans,
-    "what agents observe": _observations,
-}
-"""Work by its name, in the order in which it is done."""
+            environments = EnvWorlds(level, 1)
+            environments.reset()
+            environments.step(np.zeros(1, np.uint8))
 
 
 @click.group()

@@ -17,7 +17,7 @@ import click
 from ninja_game import __version__
 from ninja_game.backend.numba_import import remove_foreign_settings
 from ninja_game.cli.commands import BAD_INPUT, BROKEN_PIPE, COMMANDS, GROUPS, INTERNAL_ERROR, INTERRUPTED, TERMINATED
-from ninja_game.cli.terminal import complain, guard_terminal, say
+from ninja_game.cli.terminal import guard_terminal, print_error, say
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import protect_inputs
 from ninja_game.signals import Terminated, announced, end_on_signals, leave_signals, raising, received
@@ -93,9 +93,9 @@ class Commands(click.Group):
 
 
 def _stopped(error: BaseException | None) -> int:
-    """Say that a signal has stopped the command, and its exit code; 0 where none has come.
+    """Report that a signal stopped the command; its exit code, 0 without a signal.
 
-    Python makes another error of one that comes while it makes a class, and others lose it.
+    Python wraps one that arrives while a class is made in another error, and some libraries swallow it.
     """
     while error and not isinstance(error, (click.Abort, KeyboardInterrupt, Terminated)):
         error = error.__cause__ or error.__context__
@@ -103,7 +103,7 @@ def _stopped(error: BaseException | None) -> int:
     if not error:
         return 0
     announced.set()
-    complain("terminated" if isinstance(error, Terminated) else "interrupted")
+    print_error("terminated" if isinstance(error, Terminated) else "interrupted")
     return TERMINATED if isinstance(error, Terminated) else INTERRUPTED
 
 
@@ -112,20 +112,20 @@ def _failed(error: BaseException) -> int:
         case click.exceptions.NoArgsIsHelpError():
             say(error.format_message())
         case click.ClickException():
-            complain(error.format_message())
+            print_error(error.format_message())
             if isinstance(error, click.UsageError) and error.ctx:
                 say(f"Try '{error.ctx.command_path} --help'.")
         case NinjaGameError():
-            complain(str(error))
+            print_error(str(error))
         case MemoryError():
-            complain("not enough memory for that")
+            print_error("not enough memory for that")
         case OSError():
-            complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+            print_error(f"{error.filename}: {error.strerror}" if error.filename else str(error))
         case _:
             import traceback
 
             say("".join(traceback.format_exception(error)).rstrip())
-            complain("this is a fault of ninja-game, not of your input; please report it with the lines above")
+            print_error("this is a fault of ninja-game, not of your input; please report it with the lines above")
             return INTERNAL_ERROR
     return BAD_INPUT
 

@@ -9,27 +9,32 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
+from functools import reduce
 from pathlib import Path
 from threading import Event, Thread
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import click
 from click.shell_completion import CompletionItem
 
 from ninja_game.budget import RUN_BUDGET
+from ninja_game.cli.terminal import print_error
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import own_levels
 from ninja_game.files.writing import check_output
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
     from ninja_game.formats.recording import Recording
     from ninja_game.formats.replay.text import Replay
+    from ninja_game.runs.recording_reader import Unreadable
     from ninja_game.search.solve import Progress, Task
     from ninja_game.sim.level import Level
 
 T = TypeVar("T")
+F = TypeVar("F", bound=Callable[..., Any])
 N = TypeVar("N", "NamedLevel", "Recording")
 
 # When progress is shown.
@@ -66,14 +71,13 @@ class LevelPath(InputPath):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         from ninja_game.formats.links import is_link
 
-        if is_link(value):
-            return super().convert(value, param, ctx)
-        own = own_levels()
-        there = Path(value).exists() or "\0" in str(value)
-        if not there and str(value) not in own and not Path(value).suffix:
-            near = get_close_matches(str(value), own, 3, 0.5) or list(own)[:3]
-            self.fail(f"{value!r} does not exist; the game's own levels: {', '.join(near)}, ...", param, ctx)
-        return super().convert(value if there else own.get(str(value), value), param, ctx)
+        if not (is_link(value) or "\0" in str(value) or Path(value).exists()):
+            own, name = own_levels(), str(value)
+            if name not in own and not Path(name).suffix:
+                near = get_close_matches(name, own, 3, 0.5) or list(own)[:3]
+                self.fail(f"{value!r} does not exist; the game's own levels: {', '.join(near)}, ...", param, ctx)
+            value = own.get(name, value)
+        return super().convert(value, param, ctx)
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
         names = [CompletionItem(name) for name in own_levels() if name.startswith(incomplete)]
@@ -88,20 +92,17 @@ memory_option = click.option(
 jobs_option = click.option("--jobs", type=JOBS, help="How many workers run recordings. [default: one per core]")
 
 level_option = click.option(
-    "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False),
-    help="The level of recordings that do not hold theirs.",
-)  # fmt: skip
+    "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False), help="Level of recordings without one."
+)
 
 play_on_option = click.option(
-    "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False),
-    help="Play the inputs on this level, also where they were recorded on another one.",
-)  # fmt: skip
+    "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False), help="Play the inputs on this level."
+)
 
 
 budget_option = click.option(
-    "--budget", type=click.IntRange(1), default=RUN_BUDGET, show_default=True,
-    help="Most work of one run: ticks times objects. A run that is not over by then is refused.",
-)  # fmt: skip
+    "--budget", type=click.IntRange(1), default=RUN_BUDGET, show_default=True, help="Most ticks times objects of a run."
+)
 
 
 def _png_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
@@ -125,16 +126,21 @@ class Pixels(click.ParamType):  # type: ignore[type-arg, unused-ignore]
         return int(width), int(height)
 
 
-def window_options(command: Callable[..., T]) -> Callable[..., T]:
-    """The options of commands that open a window: its size in px, how many pictures, where the last one goes."""
-    png = click.Path(dir_okay=False)
-    for option in (
-        click.option("--screenshot", type=png, callback=_png_name, help="Write the last picture to this PNG file."),
-        click.option("--frames", type=click.IntRange(1, 10**9), help="Exit after this many pictures."),
-        click.option("--size", type=Pixels(), help="Size of the window in px, e.g. 1584x1200."),
-    ):
-        command = option(command)
-    return command
+def together(*options: Callable[[F], F]) -> Callable[[F], F]:
+    """Several options as one, in this order."""
+    return lambda command: reduce(lambda decorated, option: option(decorated), reversed(options), command)
+
+
+window_options = together(
+    click.option("--size", type=Pixels(), help="Size of the window in px, e.g. 1584x1200."),
+    click.option("--frames", type=click.IntRange(1, 10**9), help="Exit after this many pictures."),
+    click.option(
+        "--screenshot",
+        type=click.Path(dir_okay=False),
+        callback=_png_name,
+        help="Write the last picture to this PNG file.",
+    ),
+)
 
 
 def choose_level(path: Path, record: int | None) -> NamedLevel:
@@ -155,9 +161,28 @@ def choose(found: Sequence[N], what: str, path: Path, record: int | None) -> N:
     return found[0]
 
 
-def level_given(path: Path | None) -> Level | None:
+def load_level_option(path: Path | None) -> Level | None:
     """The level that ``level_option`` names."""
     return choose_level(path, None).level if path else None
+
+
+class Readable(Generic[T]):
+    """Items as they pass, without what cannot be read, which is reported on stderr; how many of each there were."""
+
+    def __init__(self, items: Iterable[T | Unreadable]) -> None:
+        self._items = items
+        self.count = self.unreadable = 0
+
+    def __iter__(self) -> Iterator[T]:
+        from ninja_game.runs.recording_reader import Unreadable
+
+        for item in self._items:
+            if isinstance(item, Unreadable):
+                self.unreadable += 1
+                print_error(item.message)
+            else:
+                self.count += 1
+                yield item
 
 
 def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
@@ -173,13 +198,13 @@ def heartbeat(text: Callable[[], str]) -> Iterator[None]:
     """Report progress on stderr meanwhile: the present state in a terminal, in a file a line now and then."""
     over, start = Event(), time.monotonic()
 
-    def tell_file() -> None:
+    def report_to_file() -> None:
         pause = LONG
         while not over.wait(pause):
             click.echo(f"ninja-game: {time.monotonic() - start:,.0f} s: {text()}", err=True)
             pause = EVERY
 
-    def tell_terminal() -> None:
+    def report_to_terminal() -> None:
         if over.wait(PATIENCE):
             return
         from rich.console import Console
@@ -191,16 +216,13 @@ def heartbeat(text: Callable[[], str]) -> Iterator[None]:
             while not over.wait(1 / REFRESHES):
                 live.update(Text(f"{time.monotonic() - start:4.0f} s  {text()}"), refresh=True)
 
-    teller = Thread(target=tell_terminal if sys.stderr.isatty() else tell_file, daemon=True)
-    teller.start()
+    reporter = Thread(target=report_to_terminal if sys.stderr.isatty() else report_to_file, daemon=True)
+    reporter.start()
     try:
         yield
     finally:
         over.set()
-        teller.join()
-
-
-F = TypeVar("F", bound=Callable[..., Any])
+        reporter.join()
 
 
 class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]
@@ -228,11 +250,6 @@ class Seconds(click.FloatRange):
         return seconds
 
 
-gold_option = click.option(
-    "--gold", type=GoldCount(), default=0, show_default=True, help="Collect this much gold on the way."
-)
-
-
 def seconds_option(default: float) -> Callable[[F], F]:
     return click.option(
         "--seconds", type=Seconds(min=0.1), default=default, show_default=True, help="Stop after this time."
@@ -244,16 +261,20 @@ work_option = click.option(
     help="Stop after about N simulated ticks per job instead: with one job, always the same result.",
 )  # fmt: skip
 smooth_option = click.option(
-    "--smooth",
-    type=click.IntRange(0, 10**6),
-    metavar="N",
-    help="In the end make the run look played: few key changes, at most N ticks longer.",
+    "--smooth", type=click.IntRange(0, 10**6), metavar="N", help="Fewer key changes, for at most N ticks more."
 )
 seed_option = click.option(
-    "--seed", type=SEED, default=1, show_default=True,
-    help="With one job, the same seed does the same work in the same order.",
-)  # fmt: skip
-search_jobs_option = click.option("--jobs", type=JOBS, help="Threads. [default: one per core]")
+    "--seed", type=SEED, default=1, show_default=True, help="With one job, the same seed does the same work."
+)
+search_jobs_option = click.option("--jobs", type=JOBS, default=cores, show_default="one per core", help="Threads.")
+shortening_options = together(
+    click.option("--gold", type=GoldCount(), default=0, show_default=True, help="Collect this much gold on the way."),
+    seconds_option(60.0),
+    work_option,
+    seed_option,
+    search_jobs_option,
+    smooth_option,
+)
 body_option = click.option(
     "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True, help="The ninja's body."
 )
@@ -311,7 +332,7 @@ def time_text(end_tick: int) -> str:
     return f"{end_tick} ticks ({seconds_text(end_tick)} s)"
 
 
-def plainer_run(task: Task, run: Replay, price: int | None) -> Replay:
+def simplified_run(task: Task, run: Replay, price: int | None) -> Replay:
     """The run without keys that do nothing, verified.
 
     ``price``: also with fewer key changes, at most so many ticks longer and with no less gold.

@@ -18,7 +18,6 @@ from ninja_game.files.reading import protect_inputs, read_utf8
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
 from ninja_game.files.writing import check_output, write_atomically
-from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
@@ -26,9 +25,9 @@ if TYPE_CHECKING:
 
 
 class SearchLog:
-    """The log of a long search: what it found after how many seconds, a line each, over all commands that went on.
+    """The log of a long search: what it found after how many seconds, a line each, over all its commands.
 
-    ``begun``: how many there were; ``spent``: seconds of them. Raises FileError for a file that is something else.
+    ``starts``: how many there were; ``seconds_spent``: in all of them. Raises FileError for another file.
     """
 
     HEAD = "# seconds spent, and what improve found"
@@ -41,33 +40,26 @@ class SearchLog:
         found = [re.match(r" *(\d{1,9}) s  ", line) for line in lines]
         if head != self.HEAD or None in found:
             raise FileError("not the log of a search", str(path), hint="name another file")
-        self._path, self._began = path, time.monotonic()
-        self.begun = sum(line.endswith("begins") for line in lines)
-        self.spent = max((int(match[1]) for match in found if match), default=0)
+        self._path, self._start = path, time.monotonic()
+        self.starts = sum(line.endswith("begins") for line in lines)
+        self.seconds_spent = max((int(match[1]) for match in found if match), default=0)
         self.note("begins")
 
     def note(self, what: str) -> None:
         with self._path.open("a", encoding="utf-8") as out:
-            out.write(f"{self.spent + time.monotonic() - self._began:8.0f} s  {what}\n")
+            out.write(f"{self.seconds_spent + time.monotonic() - self._start:8.0f} s  {what}\n")
 
 
 @click.command()
 @click.argument("level", type=options.LevelPath(dir_okay=False))
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's levels, counted from 0.")
-@options.gold_option
-@options.seconds_option(60.0)
-@options.work_option
-@options.seed_option
-@options.search_jobs_option
-@options.smooth_option
+@options.shortening_options
 @options.body_option
 @click.option(
     "-o", "--output", metavar="REPLAY", type=options.NEW_FILE,
     help="Where to keep the best run so far. [default: LEVEL's name and .replay.txt, in the current folder]",
 )  # fmt: skip
-def solve(
-    level: Path, record: int | None, output: Path | None, jobs: int | None, smooth: int | None, **task_options: Any
-) -> int:
+def solve(level: Path, record: int | None, output: Path | None, smooth: int | None, **task_options: Any) -> int:
     """Find a run to the exit, then shorten it.
 
     The best run so far is always in REPLAY, so that the search can be stopped at any time (Ctrl-C). Every run is played
@@ -84,7 +76,7 @@ def solve(
 
     chosen = options.choose_level(level, record)
     output = output or free_path(Path(), level.stem, REPLAY_SUFFIX)
-    task = Task(chosen.level, jobs=jobs or cores(), **task_options)
+    task = Task(chosen.level, **task_options)
     options.check_gold(task)
     save = options.saver(output, chosen)
     with options.progress_line() as report:
@@ -92,7 +84,7 @@ def solve(
     if run is None:
         click.echo(options.not_found_text(task, report.last))
         return FAILED
-    run = options.plainer_run(task, run, smooth)
+    run = options.simplified_run(task, run, smooth)
     save(run)
     click.echo(f"{shown_text(str(output))}: {options.time_text(run.end_tick)}, {run.gold} gold")
     return 0
@@ -102,17 +94,9 @@ def solve(
 @click.argument("replay", type=options.OLD_FILE)
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
 @options.level_option
-@options.gold_option
-@options.seconds_option(60.0)
-@options.work_option
-@options.seed_option
-@options.search_jobs_option
-@options.smooth_option
+@options.shortening_options
 @click.option(
-    "--resume",
-    metavar="LOG",
-    type=options.NEW_FILE,
-    help="Log better runs in this file; where it is there, go on from the best one, for what is left of the time.",
+    "--resume", metavar="LOG", type=options.NEW_FILE, help="Log better runs here; go on from those that it has."
 )
 @click.option(
     "-o", "--output", metavar="REPLAY", required=True, type=options.NEW_FILE, help="Where to keep the best run so far."
@@ -122,7 +106,6 @@ def improve(
     record: int | None,
     level_path: Path | None,
     output: Path,
-    jobs: int | None,
     smooth: int | None,
     resume: Path | None,
     **task_options: Any,
@@ -150,22 +133,21 @@ def improve(
     earlier = load_replays(output) if resume and output.exists() else []
     protect_inputs(on=True)  # what was read of the output may be replaced
     recording = options.choose(
-        load_replays(replay, level=options.level_given(level_path)), "recordings", replay, record
+        load_replays(replay, level=options.load_level_option(level_path)), "recordings", replay, record
     )
-    threads = jobs or cores()
-    task = Task(recording.level, body=recording.body, first=recording.inputs, jobs=threads, **task_options)
+    task = Task(recording.level, body=recording.body, first=recording.inputs, **task_options)
     options.check_gold(task)
     save = options.saver_of_better(output, recording, "improve")
     log = SearchLog(resume, [replay, output]) if resume else None
     if log and earlier:
         others = tuple(each.inputs for each in earlier if each.level == task.level)
-        left = max(0.1, task.seconds - log.spent)
-        task = replace(task, others=others, seconds=left, seed=task.seed + log.begun)
+        left = max(0.1, task.seconds - log.seconds_spent)
+        task = replace(task, others=others, seconds=left, seed=task.seed + log.starts)
     played = run_level(task.level, task.first, body=task.body)
     if played.outcome != "exit":
         known = next(iter(task.others), None)
         first = known or to_exit(
-            task.level, task.first[: played.ticks], task.seconds / 2, body=task.body, seed=task.seed, threads=threads
+            task.level, task.first[: played.ticks], task.seconds / 2, body=task.body, seed=task.seed, threads=task.jobs
         )
         if first is None:
             click.echo(f"{played.outcome} after {played.ticks} ticks, and no way to the exit found from there")
@@ -184,7 +166,7 @@ def improve(
     assert run is not None  # noqa: S101 - the first run is one
     if log:
         log.note("ended")
-    run = options.plainer_run(task, run, smooth)
+    run = options.simplified_run(task, run, smooth)
     save(run)
     gain = before[0] - run.end_tick
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
@@ -205,24 +187,19 @@ def improve(
     help="local: small changes; beam: promising states; exhaustive: all keys; auto: local and beam in turn.",
 )  # fmt: skip
 @click.option(
-    "--every", type=click.IntRange(min=1), default=1, show_default=True,
-    help="For exhaustive: ticks that each choice of keys lasts.",
-)  # fmt: skip
+    "--every", type=click.IntRange(min=1), default=1, show_default=True, help="For exhaustive: ticks that keys last."
+)
 @options.seconds_option(60.0)
 @options.seed_option
 @options.search_jobs_option
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
 @options.level_option
 @click.option(
-    "-o",
-    "--output",
-    metavar="REPLAY",
-    type=options.NEW_FILE,
-    help="Where to keep the best run so far. [default: nowhere]",
+    "-o", "--output", metavar="REPLAY", type=options.NEW_FILE, help="Where to keep the best run. [default: nowhere]"
 )
 def search(
     replay: Path, first: int, last: int, goal: str, maximise: str, minimise: str, rest: bool,
-    method: str, every: int, seconds: float, seed: int, jobs: int | None, record: int | None, level_path: Path | None,
+    method: str, every: int, seconds: float, seed: int, jobs: int, record: int | None, level_path: Path | None,
     output: Path | None,
 ) -> int:  # fmt: skip
     """Find other keys for a span of a run.
@@ -253,7 +230,7 @@ def search(
     if every > 1 and method != "exhaustive":
         raise click.UsageError("--every is for --method exhaustive")
     recording = options.choose(
-        load_replays(replay, level=options.level_given(level_path)), "recordings", replay, record
+        load_replays(replay, level=options.load_level_option(level_path)), "recordings", replay, record
     )
     save = options.saver_of_better(output, recording, "search") if output else None
     task = SpanTask(
@@ -277,9 +254,7 @@ def search(
             shown.say(f"{standing}  {ticks / 1e6:.1f}M ticks")
             return spent < seconds
 
-        found = search_span(
-            task, report, method=method, every=every, seed=seed, threads=jobs or cores(), missed=misses.append
-        )
+        found = search_span(task, report, method=method, every=every, seed=seed, threads=jobs, missed=misses.append)
     found = tuple(without_junk(task, each) for each in found)
     if save and found:
         save(record_replay(task.level, found[0].inputs, body=task.body))

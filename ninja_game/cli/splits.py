@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +13,7 @@ import click
 
 from ninja_game.cli import options
 from ninja_game.cli.commands import BAD_INPUT
-from ninja_game.cli.terminal import complain, data_output, draw_unseen
+from ninja_game.cli.terminal import data_output, use_dummy_video
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.formats.run_time import seconds_text
@@ -30,15 +30,11 @@ COLUMNS = (
 )  # fmt: skip
 
 format_option = click.option(
-    "--format", "form", type=click.Choice(["text", "json", "csv"]), default="text", show_default=True,
-    help="What is written.",
-)  # fmt: skip
+    "--format", "form", type=click.Choice(["text", "json", "csv"]), default="text", show_default=True, help="Output."
+)
 
 picture_option = click.option(
-    "--picture",
-    metavar="OUT.png",
-    type=options.NEW_FILE,
-    help="Draw the paths over the level, and the speeds, into this file.",
+    "--picture", metavar="OUT.png", type=options.NEW_FILE, help="Draw paths over the level, and speeds, into this file."
 )
 
 
@@ -48,7 +44,7 @@ picture_option = click.option(
     "--against",
     metavar="BEST",
     type=options.OLD_FILE,
-    help="The run that the others are measured against. [default: the fastest to the exit]",
+    help="The run to compare with. [default: the fastest to the exit]",
 )
 @click.option("--gold/--no-gold", default=True, help="A split for each piece of gold, or for none.")
 @options.level_option
@@ -75,10 +71,15 @@ def splits(
       ninja-game splits demos.txt --format csv > splits.csv
     """
     from ninja_game.runs.compare import SPLIT_EVENTS, run_splits
+    from ninja_game.runs.recording_reader import recordings_in
 
-    level, events = options.level_given(level_path), [name for name in SPLIT_EVENTS if gold or name != "gold-taken"]
-    found, unreadable = readable(files, level)
-    best = readable([against], level)[0][:1] if against else []
+    level, events = (
+        options.load_level_option(level_path),
+        [name for name in SPLIT_EVENTS if gold or name != "gold-taken"],
+    )
+    read = options.Readable(recordings_in(files, level))
+    found = list(read)
+    best = list(options.Readable(recordings_in([against], level)))[:1] if against else []
     # A run that costs too much ends the command: a table without it would be wrong.
     all_runs = list(options.with_progress((run_splits(each, events, budget) for each in [*best, *found]), "run"))
     bests, runs = all_runs[: len(best)], all_runs[len(best) :]
@@ -100,25 +101,10 @@ def splits(
         drawn = tables[0][0]
         paths = list(zip(titles([run.recording for run in drawn]), (run.positions for run in drawn), strict=True))
         draw(picture, drawn[0].recording.level, paths, [*files, *filter(None, [level_path, against])])
-    return BAD_INPUT if unreadable else 0
+    return BAD_INPUT if read.unreadable else 0
 
 
-def readable(files: Iterable[Path], level: Any) -> tuple[list[Recording], int]:
-    """The recordings of files, and how many of them cannot be read; those are reported on stderr."""
-    from ninja_game.runs.recording_reader import Unreadable, recordings_in
-
-    found, unreadable = [], 0
-    for each in recordings_in(files, level):
-        if isinstance(each, Unreadable):
-            unreadable += 1
-            complain(each.message)
-        else:
-            found.append(each)
-    return found, unreadable
-
-
-Table = tuple["list[RunSplits]", "list[SplitRow]"]
-"""The runs of a level, the best first, and the rows of their splits."""
+Table = tuple["list[RunSplits]", "list[SplitRow]"]  # the runs of a level, the best first, and the rows of their splits
 
 
 def table_of(group: Sequence[RunSplits], given: Sequence[RunSplits]) -> Table:
@@ -212,7 +198,7 @@ def _write_csv(tables: Sequence[Table]) -> None:
 
 def draw(picture: Path, level: Level, paths: Sequence[tuple[str, Any]], keep: Sequence[Path]) -> None:
     """Write the picture of runs of one level. Raises ArgumentError where it would replace one of ``keep``, OSError."""
-    draw_unseen()
+    use_dummy_video()
     from ninja_game.files.writing import write_atomically
     from ninja_game.play.replay.paths import paths_picture
     from ninja_game.play.window import png_of
@@ -253,7 +239,7 @@ def compare(
     from ninja_game.formats.load import load_replays
     from ninja_game.runs.compare import compare_runs
 
-    level = options.level_given(level_path)
+    level = options.load_level_option(level_path)
     ours = options.choose(load_replays(first, level=level), "recordings", first, record)
     theirs = options.choose(load_replays(second, level=level), "recordings", second, against_record)
     with options.heartbeat(lambda: "running both"):

@@ -1,4 +1,4 @@
-"""What is written to a terminal: no text steers it, whoever prints it and whatever it comes from."""
+"""Output to a terminal: control characters in it are escaped, wherever they come from."""
 
 from __future__ import annotations
 
@@ -23,8 +23,7 @@ _OURS = {
 
 _DATA = re.compile(r"(\n|\t)")
 
-_LONGEST_MESSAGE = 2000
-"""Characters of a line about what is wrong."""
+_LONGEST_MESSAGE = 2000  # characters of a line about what is wrong
 
 
 class Terminal(io.TextIOWrapper):
@@ -48,7 +47,7 @@ def data_output() -> TextIO:
 
 
 def guard_terminal() -> None:
-    """Let standard output and errors be written so where they are a terminal; files and pipes get every byte."""
+    """Wrap stdout and stderr in ``Terminal`` where they are one; files and pipes get every byte."""
     for name, ours in _OURS.items():
         stream = getattr(sys, name)
         # Names of levels may hold what the terminal's encoding has not.
@@ -57,12 +56,12 @@ def guard_terminal() -> None:
             setattr(sys, name, Terminal(stream, ours))
 
 
-def draw_unseen() -> None:
-    """Let what is drawn from now on need no display, unless the user has chosen one."""
+def use_dummy_video() -> None:
+    """Draw without a display from now on, unless the user has chosen a video driver."""
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 
-def complain(message: str) -> None:
+def print_error(message: str) -> None:
     """Write what is wrong on stderr, each line with the program's name."""
     for line in message.split("\n"):
         say(f"ninja-game: {shown_text(line, _LONGEST_MESSAGE)}")

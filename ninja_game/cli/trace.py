@@ -15,7 +15,7 @@ import click
 
 from ninja_game.cli import options
 from ninja_game.cli.commands import BAD_INPUT, FAILED
-from ninja_game.cli.terminal import complain, data_output
+from ninja_game.cli.terminal import data_output
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
@@ -69,10 +69,10 @@ def trace(
     if digests + bool(against) + bool(output) > 1:
         raise click.UsageError("--digests, --against and --output cannot be used together")
     how = workers | {
-        "level": options.level_given(level_path), "ticks": ticks, "after": after or 0,
+        "level": options.load_level_option(level_path), "ticks": ticks, "after": after or 0,
         "objects": objects or digests or against is not None, "events": not digests and not against,
     }  # fmt: skip
-    traces = Traces(files, record=record, **how)
+    traces = _traces(files, record=record, **how)
     different = 0
     if digests:
         for trace in traces:
@@ -87,26 +87,10 @@ def trace(
     return BAD_INPUT if traces.unreadable else FAILED if different else 0
 
 
-class Traces:
-    """The traces of all recordings, one after the other; what cannot be read is reported on stderr and counted."""
+def _traces(files: Sequence[Path], **how: Any) -> options.Readable[FiledTrace]:
+    from ninja_game.runs.archive import trace_all
 
-    def __init__(self, files: Sequence[Path], **how: Any) -> None:
-        from ninja_game.runs.archive import trace_all
-
-        self.items = options.with_progress(trace_all(files, **how), "trace")
-        self.count = 0
-        self.unreadable = 0
-
-    def __iter__(self) -> Iterator[FiledTrace]:
-        from ninja_game.runs.recording_reader import Unreadable
-
-        for item in self.items:
-            if isinstance(item, Unreadable):
-                self.unreadable += 1
-                complain(item.message)
-            else:
-                self.count += 1
-                yield item
+    return options.Readable(options.with_progress(trace_all(files, **how), "trace"))
 
 
 def _digests(trace: FiledTrace) -> dict[str, Any]:
@@ -126,10 +110,12 @@ def _expected(against: Path, record: int | None, how: dict[str, Any]) -> Iterato
 
     if is_trace(against):
         return (trace for trace in read_traces(against) if record is None or trace.record == record)
-    return iter(Traces([against], record=record, **how))
+    return iter(_traces([against], record=record, **how))
 
 
-def _compare(traces: Traces, expected: Iterator[FiledTrace], against: Path, record: int | None) -> int:
+def _compare(
+    traces: options.Readable[FiledTrace], expected: Iterator[FiledTrace], against: Path, record: int | None
+) -> int:
     """How many runs differ from the expected ones; each is reported with its first difference.
 
     Runs are paired by file and record, else by record alone; with ``record`` each is compared with that one.
@@ -154,7 +140,7 @@ def _compare(traces: Traces, expected: Iterator[FiledTrace], against: Path, reco
     return different
 
 
-def _write(traces: Traces, output: Path | None, files: Sequence[Path]) -> None:
+def _write(traces: options.Readable[FiledTrace], output: Path | None, files: Sequence[Path]) -> None:
     """Write the table: to the terminal, to a .npz file, or as CSV to any other file."""
     from ninja_game.files.writing import write_atomically
     from ninja_game.runs.trace_files import write_csv, write_npz

@@ -12,7 +12,7 @@ import click
 
 from ninja_game.cli.commands import BAD_INPUT, FAILED
 from ninja_game.cli.options import NEW_FILE, InputPath, budget_option, jobs_option, with_progress
-from ninja_game.cli.terminal import complain
+from ninja_game.cli.terminal import print_error
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
@@ -41,22 +41,14 @@ if TYPE_CHECKING:
 @click.option("--strict", is_flag=True, help="Accept only what a board can rely on: see docs/verification.md.")
 @jobs_option
 @click.option(
-    "--workers",
-    type=click.Choice(["threads", "processes"]),
-    help="Kind of workers. [default: threads for compiled runs, else processes]",
+    "--workers", type=click.Choice(["threads", "processes"]), help="Workers. [default: threads for compiled runs]"
 )
 @click.option("--cluster", metavar="ADDRESS", default="", help="Run on the Dask cluster with this scheduler.")
 @click.option(
-    "--resume",
-    metavar="LOG",
-    type=NEW_FILE,
-    help="Log finished work in this file; what it already has is not run again.",
+    "--resume", metavar="LOG", type=NEW_FILE, help="Log finished work in this file; what it has is not run again."
 )
 @click.option(
-    "--report",
-    metavar="OUT",
-    type=NEW_FILE,
-    help="Write all results and their sums to this file: JSON if it ends in .json, else a table.",
+    "--report", metavar="OUT", type=NEW_FILE, help="Write results and sums to this file: JSON for .json, else a table."
 )
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per recording, for programs.")
 @click.option("-q", "--quiet", is_flag=True, help="Only recordings that fail, and the summary.")
@@ -103,7 +95,7 @@ def verify(
         for result in with_progress(results, "run"):
             totals.add(result)
             if isinstance(result, Unreadable):
-                complain(result.message)
+                print_error(result.message)
             elif as_json:
                 click.echo(json.dumps(result.as_json()))
             elif not (quiet and result.good):

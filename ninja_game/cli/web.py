@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.commands import FAILED
-from ninja_game.cli.film import large
+from ninja_game.cli.film import size_note
 from ninja_game.cli.options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, InputPath, jobs_option
 from ninja_game.cli.splits import as_json, draw, show, table_of
-from ninja_game.cli.terminal import draw_unseen
+from ninja_game.cli.terminal import use_dummy_video
 from ninja_game.errors import ArgumentError, FileError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import cache_folder, data_folder
@@ -382,11 +382,11 @@ def _line(form: str, row: Mapping[str, Any]) -> str:
 
 
 def _film(runs: Sequence[Recording], output: Path) -> None:
-    draw_unseen()
+    use_dummy_video()
     from ninja_game.play.replay.film import Film, write_film
 
     write_film([Film(runs[0], ghosts=tuple(runs[1:]), keys=True)], output)
-    if said := large(output):
+    if said := size_note(output):
         click.echo(f"{shown_text(str(output))}{said}", err=True)
 
 

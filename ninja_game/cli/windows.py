@@ -15,13 +15,8 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument("level", required=False, type=options.LevelPath())
-@click.option(
-    "--record", type=click.IntRange(0, 10**6), default=0, help="Begin with this level of the file, counted from 0."
-)
-@click.option(
-    "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True,
-    help="The ninja's body: the circle of the classic rules, or a box of the same size.",
-)  # fmt: skip
+@click.option("--record", type=click.IntRange(0, 10**6), default=0, help="The first level of the file, from 0.")
+@options.body_option
 @click.option("--practice", is_flag=True, help="No time limit, nothing counts.")
 @click.option("--replay", type=options.InputPath(dir_okay=False), help="Watch the recordings of this file or link.")
 @options.level_option
@@ -106,10 +101,7 @@ def edit(level: Path | None, record: int, **window: Any) -> int:
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
 @options.play_on_option
 @click.option(
-    "--against",
-    multiple=True,
-    type=options.OLD_FILE,
-    help="Compare with the runs of the same level in this file; may be given several times.",
+    "--against", multiple=True, type=options.OLD_FILE, help="Compare with this file's runs; may be given several times."
 )
 @click.option("--tick", type=click.IntRange(0, 10**6), default=0, help="Put the cursor on this tick.")
 @options.window_options
@@ -133,7 +125,7 @@ def tas(
     """
     from ninja_game.tas.files import open_run, runs_of_level
 
-    opened = open_run(file, record=record, level=options.level_given(level_path))
+    opened = open_run(file, record=record, level=options.load_level_option(level_path))
     others = [run for path in against for run in runs_of_level(path, opened.recording)]
     from ninja_game.play.main import run_app
     from ninja_game.tas_editor.opening import OpeningScreen, open_tas_editor
@@ -161,10 +153,7 @@ FIGURES = (
 @click.argument("figure", metavar="[FIGURE]", required=False, type=click.Choice(FIGURES))
 @options.window_options
 @click.option(
-    "-o",
-    "--output",
-    type=options.NEW_FILE,
-    help="Open no window: write the figure to this .png file, or its demonstration to this .gif file.",
+    "-o", "--output", type=options.NEW_FILE, help="Open no window: write a .png of it, or a .gif of its demonstration."
 )
 def lab(figure: str | None, output: Path | None, **window: Any) -> int:
     """Drag, paint and watch: figures about how the world works.

@@ -13,7 +13,7 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import SETTINGS, user_folder
 from ninja_game.files.writing import write_atomically
-from ninja_game.player.settings import Settings, glance
+from ninja_game.player.settings import Settings, read_usable_settings
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.theme import PALETTES, Theme, palette_named
 
@@ -93,7 +93,7 @@ def open_at_once(size: tuple[int, int] | None) -> Window:
 
     ``size``: as of ``Window``. Raises NinjaGameError where there is no display.
     """
-    settings = glance(user_folder() / SETTINGS)
+    settings = read_usable_settings(user_folder() / SETTINGS)
     try:
         window = Window(size, settings)
     except pygame.error as error:

@@ -19,8 +19,8 @@ from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import CELEBRATING, DEAD, EXPLOSIVE, FALL, HARD_BULLET, OUTCOME_DEAD
 from ninja_game.simulation import Body, SaveState, Simulation
 
-Moment = tuple[SaveState, bytes, int, int, bool]
-"""A save-state with the recording, the lifetime, the tick of the end, whether the player gave up."""
+AttemptState = tuple[SaveState, bytes, int, int, bool]
+"""A save-state with the inputs, the lifetime, the tick of the end, whether the player gave up."""
 
 
 class Attempt:
@@ -28,8 +28,8 @@ class Attempt:
 
     ``lifetime``: ticks left, which gold adds to. ``inputs``: the recording, one byte per tick. ``score``: ticks, taken
     at the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assists``: what
-    helped, practice or its tools, so that it does not count as a record. ``spared``: a death was refused, so that its
-    keys alone no longer make this run.
+    helped, practice or its tools, so that it does not count as a record. ``death_refused``: the ninja was invincible
+    when it would have died, so that its keys alone no longer make this run.
     """
 
     def __init__(
@@ -50,9 +50,9 @@ class Attempt:
         self.inputs = bytearray()
         self.score = 0
         self.ended_tick = -1
-        self.own_hand = False
+        self.self_inflicted = False
         self.assists = {"practice"} if self.practice_mode else set()
-        self.spared = False
+        self.death_refused = False
 
     @property
     def assisted(self) -> bool:
@@ -73,7 +73,7 @@ class Attempt:
     @property
     def killer(self) -> str:
         """What killed the ninja, one of ``records.KILLERS``: asked right after the tick of its death."""
-        return SELF if self.own_hand else killer_of(self.simulation.world)
+        return SELF if self.self_inflicted else killer_of(self.simulation.world)
 
     def tick(self, held: int, *, invincible: bool = False) -> None:
         """Run one tick with what is held: 1 left + 2 right + 4 jump. ``invincible``: a death in it is refused."""
@@ -84,7 +84,7 @@ class Attempt:
         keys = pressed(held, was_held)
         if invincible and running:
             self.assists.add("invincible")
-            self.spared |= spared_tick(self.simulation, keys)
+            self.death_refused |= tick_without_death(self.simulation, keys)
         else:
             self.simulation.step_keys(keys)
         # The input is sampled after all physics of the tick, and only by a ninja that lives and is not celebrating.
@@ -110,24 +110,24 @@ class Attempt:
     def give_up(self, draw: float, dx: float, dy: float) -> None:
         """The suicide key: ``draw`` (0…1) below 0.3 explodes; (dx, dy) is the corpse's impulse."""
         if self.outcome == "running":
-            self.own_hand = True
+            self.self_inflicted = True
             self._kill(EXPLOSIVE if draw < 0.3 else HARD_BULLET, dx, dy)
 
     def _kill(self, cause: int, dx: float, dy: float) -> None:
         self.simulation.kill(cause, dx, dy)
         self.ended_tick = self.simulation.tick
 
-    def save(self) -> Moment:
-        return self.simulation.save(), bytes(self.inputs), self.lifetime, self.ended_tick, self.own_hand
+    def save(self) -> AttemptState:
+        return self.simulation.save(), bytes(self.inputs), self.lifetime, self.ended_tick, self.self_inflicted
 
-    def restore(self, moment: Moment) -> None:
-        state, inputs, self.lifetime, self.ended_tick, self.own_hand = moment
+    def restore(self, moment: AttemptState) -> None:
+        state, inputs, self.lifetime, self.ended_tick, self.self_inflicted = moment
         self.simulation.restore(state)
         self.inputs[:] = inputs
         self.score = level_score(self.gold, self.ended_tick) if self.outcome == "exit" else 0
         self.assists.add("save-states")
 
-    def rewound(self) -> None:
+    def after_rewind(self) -> None:
         """Take note that the simulation was put back to an earlier tick of this recording."""
         tick = self.simulation.tick
         ended = self.outcome != "running"
@@ -136,7 +136,7 @@ class Attempt:
         if not ended:
             # After a death by the player's own hand ticks went on without input.
             self.inputs.extend(bytes(tick - len(self.inputs)))
-            self.ended_tick, self.score, self.own_hand = -1, 0, False
+            self.ended_tick, self.score, self.self_inflicted = -1, 0, False
         self.assists.add("rewind")
 
     def replay(self, name: str = "", author: str = "") -> Replay:
@@ -150,7 +150,7 @@ class Attempt:
 _MOST_TRIES = 20  # more than any place has killers: a ninja that is still crushed after so many tries is dead
 
 
-def spared_tick(simulation: Simulation, keys: int) -> bool:
+def tick_without_death(simulation: Simulation, keys: int) -> bool:
     """One tick of a run on the plain memory that goes on; whether a death was refused.
 
     An object that kills stands still for the tick and is not met; a landing that kills is met at half the speed.

@@ -1,8 +1,8 @@
 """All data of a player as one file, and back: a zip that the game in a window and the one in a page exchange.
 
-Taking one in merges it: a best is replaced only by a better one, progress only moves forward, of two counts the larger
-stays, and no file of the player's is overwritten. So it may be taken in twice. It may be anybody's: all of it is looked
-at first, and taken in whole or not at all.
+Importing merges: a best is replaced only by a better one, progress only moves forward, of two counts the larger stays,
+and no file of the player's is overwritten. So a backup may be imported twice. It is untrusted: all of it is checked
+first, and imported whole or not at all.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ def write_backup(player: PlayerData, path: Path) -> list[str]:
                     archive.writestr(ZipInfo(name), content, ZIP_DEFLATED)
         try:
             _unpacked(packed.getvalue())
-            _opened(copy).connection.close()
+            _open_records(copy).connection.close()
         except ValueError as error:
             messages.append(f"too large to be taken in: {error}; keep a copy of {player.folder} instead")
     write_atomically(path, packed.getvalue())
@@ -139,11 +139,11 @@ def read_backup(player: PlayerData, data: bytes) -> list[str]:
         try:
             files, left_out = _unpacked(data)
             path.write_bytes(files.pop(RECORDS))
-            store = _opened(path)
+            store = _open_records(path)
         except ValueError as error:
             raise FileError("this is not a backup of a player's data", found=shown_text(str(error))) from None
         with closing(store.connection):
-            replays, taken = _take(player, store, files)
+            replays, taken = _merge_all(player, store, files)
         if SETTINGS in taken:
             (settings := path.with_name(SETTINGS)).write_bytes(files[SETTINGS])
             site = read_settings(settings)[0].site
@@ -159,7 +159,7 @@ def _unpacked(data: bytes) -> tuple[dict[str, bytes], list[str]]:
         name = entry.filename
         if not (problem := _problem(name, entry.file_size)):
             content = unpacked(archive, entry)
-            files[name] = _without_home(content) if name.startswith(f"{EDITING}/") else content
+            files[name] = _without_path(content) if name.startswith(f"{EDITING}/") else content
         elif not name.endswith("/"):
             left_out.append(_left_out(name, problem))
     if RECORDS not in files:
@@ -167,7 +167,7 @@ def _unpacked(data: bytes) -> tuple[dict[str, bytes], list[str]]:
     return files, left_out
 
 
-def _without_home(autosave: bytes) -> bytes:
+def _without_path(autosave: bytes) -> bytes:
     """A level under edit as one that has no file: the path of another machine means nothing here."""
     level = ""
     with suppress(*DAMAGED):
@@ -175,7 +175,7 @@ def _without_home(autosave: bytes) -> bytes:
     return json.dumps({"path": "", "digest": "", "level": level}, indent=1).encode()
 
 
-def _opened(path: Path) -> Store:
+def _open_records(path: Path) -> Store:
     """The records of a backup. Raises ValueError where they hold too much, or a trigger, which would do something."""
     try:
         with closing(sqlite3.connect(path)) as db, bounded(db):
@@ -220,19 +220,19 @@ def _our_schema() -> set[tuple[str, ...]]:
         return set(db.execute(_SCHEMA))
 
 
-def _take(player: PlayerData, store: Store, files: dict[str, bytes]) -> tuple[int, list[str]]:
+def _merge_all(player: PlayerData, store: Store, files: dict[str, bytes]) -> tuple[int, list[str]]:
     """Take in records and files; how many more replays there are now, and which files are new."""
-    opened = cache(lambda folder: _Folder(player.folder / folder))
+    opened = cache(lambda folder: _TargetFolder(player.folder / folder))
     with ExitStack() as undo:
         with player.store.change() as db:
             replays = _merge(player, store, db)
             paths = map(PurePosixPath, sorted(files, key=lambda name: name.endswith(BRANCHES)))
-            taken = [str(path) for path in paths if opened(path.parent).takes(path, files, undo)]
+            taken = [str(path) for path in paths if opened(path.parent).add(path, files, undo)]
         undo.pop_all()
     return replays, taken
 
 
-class _Folder:
+class _TargetFolder:
     """A folder of the player's that takes files in, beside others of their names."""
 
     def __init__(self, path: Path) -> None:
@@ -244,10 +244,10 @@ class _Folder:
         """What a file says; for one that cannot be read what no file says."""
         with suppress(FileError, OSError):
             content = read_bytes(self._tree.root / name, MOST_BYTES)
-            return _without_home(content) if self._tree.root.name == EDITING else content
+            return _without_path(content) if self._tree.root.name == EDITING else content
         return b"\0"
 
-    def takes(self, name: PurePosixPath, files: Mapping[str, bytes], undo: ExitStack) -> bool:
+    def add(self, name: PurePosixPath, files: Mapping[str, bytes], undo: ExitStack) -> bool:
         """Put one of the files there if it is not there yet; whether it was not. ``undo``: gets what takes it back."""
         content = files[str(name)]
         if name.name.endswith(BRANCHES):
@@ -308,7 +308,7 @@ def _replay(theirs: Records, number: int, memory: str) -> Replay | None:
     return None
 
 
-def _sound(column: str, value: str | int) -> bool:
+def _is_valid(column: str, value: str | int) -> bool:
     if isinstance(value, int):
         return 0 <= value < _COUNT_LIMIT
     words = {"killer": KILLERS, "body": (*BODIES, WITH_HELP)}.get(column)
@@ -327,7 +327,7 @@ def _merge_episodes(mine: Records, theirs: Records, replay_of: Callable[[int], R
         replays = [replay_of(number) for number in best.replays] if best else []
         whole = [replay for replay in replays if replay is not None]
         possible = sum(level_score(replay.gold, replay.final_tick) for replay in whole)
-        if whole and len(whole) == len(replays) and _sound("episode", episode) and 0 <= score <= possible:
+        if whole and len(whole) == len(replays) and _is_valid("episode", episode) and 0 <= score <= possible:
             mine.episode_passed(episode, score, whole)
 
 
@@ -341,7 +341,7 @@ def _merge_numbers(
     db.executemany(
         f"INSERT INTO {table} ({', '.join(names)}) VALUES ({', '.join('?' * len(names))}) "
         f"ON CONFLICT ({', '.join(keys)}) DO UPDATE SET {joined}",
-        [row for row in rows if all(map(_sound, names, row))],
+        [row for row in rows if all(map(_is_valid, names, row))],
     )
 
 

@@ -134,7 +134,7 @@ class Catalogue:
         self.problems += [problem] if problem else []
         return pack
 
-    def singles(self) -> list[Entry]:
+    def single_levels(self) -> list[Entry]:
         """Every level as a single one: the player's, also those in folders of packs, the game's, then those of zips."""
         packs = sorted(self.packs(), key=lambda pack: not pack.changeable)
         return self.own() + [entry for pack in packs for entry in pack.levels]
@@ -167,11 +167,11 @@ def _name_among(packs: Sequence[PackIndex], index: PackIndex, file: str) -> str:
     """What a pack is called: its title, with author, version or ``file`` where that tells it from its namesakes."""
     alike = [each for each in packs if each.name == index.name]
     authors, versions = {each.author for each in alike}, {each.version for each in alike}
-    told = replace(
+    distinct = replace(
         index, author=index.author if len(authors) > 1 else "", version=index.version if len(versions) > 1 else ""
     )
     same_title = len(alike) > 1 and [each.title for each in packs].count(index.title) > 1
-    return f"{told.title} ({file})" if same_title else told.title
+    return f"{distinct.title} ({file})" if same_title else distinct.title
 
 
 class _ReadFile(NamedTuple):

@@ -13,21 +13,10 @@ from ninja_game.formats.pack.pack import certificate_name
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import GAME, YOURS, Entry, Episode
+from ninja_game.player import progress
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
-from ninja_game.player.progress import (
-    HELPED,
-    LOCKED,
-    UNLOCKED,
-    WITH_HELP,
-    Mark,
-    Marks,
-    Progress,
-    complete_columns,
-    has_all_gold,
-    medal_of,
-    reached,
-)
+from ninja_game.player.progress import LOCKED, UNLOCKED, WITH_HELP, Mark, Marks, Place, Progress, has_all_gold, medal_of
 from ninja_game.player.records import Records, Statistics
 from ninja_game.player.settings import Settings, read_settings, write_changes
 from ninja_game.player.store import Store, Work
@@ -42,7 +31,7 @@ class PlayerData:
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = user_folder() if folder is None else folder
         self._messages: list[str] = []
-        self._given: set[str] = set()
+        self._reported: set[str] = set()
         self._progress: dict[str, Progress] = {}
         self._certified: dict[str, tuple[object, Replay | None]] = {}
         try:
@@ -76,8 +65,8 @@ class PlayerData:
 
     def new_messages(self) -> str:
         """The messages that this method has not given yet, as one text."""
-        new = [message for message in self.messages if message not in self._given]
-        self._given.update(new)
+        new = [message for message in self.messages if message not in self._reported]
+        self._reported.update(new)
         return " ".join(new)
 
     def open_records(self) -> None:
@@ -98,8 +87,12 @@ class PlayerData:
             self._progress[pack] = Progress(self.store, pack)
         return self._progress[pack]
 
+    def beaten_in(self, episode: Episode) -> Place:
+        """The farthest place that the player has reached by right in an episode's column."""
+        return self.progress_in(episode.pack).columns[episode.column].beaten
+
     def episode_state(self, episode: Episode) -> str:
-        """Whether an episode is unlocked, "cheated" or locked; the first of a column never is."""
+        """Whether an episode is unlocked, "cheated" or locked; the first of a column is always unlocked."""
         state = self.progress_in(episode.pack).state(episode.number)
         return state if self.catalogue.preceding(episode) else UNLOCKED
 
@@ -115,24 +108,21 @@ class PlayerData:
             return ""
         if self.episode_state(before) == LOCKED:
             return f"Finish episode {before.code} first"
-        number, level = self.progress_in(before.pack).columns[before.column].beaten
+        number, level = self.beaten_in(before)
         left = len(before.levels) - level * (number == before.number)
         return f"Finish {left} more level{'s' * (left != 1)} of episode {before.code} first"
 
     def reached(self, entry: Entry, mark: Mark | None) -> str:
         """A sentence: what the player has reached in a level, whose mark this is; the same on every screen."""
         if mark is None and self.marks.is_passed(entry.digest):
-            return HELPED
+            return progress.HELPED
         episode = None if mark else self.catalogue.episode_of(entry)
-        if (
-            episode
-            and entry.position
-            and self.progress_in(episode.pack).columns[episode.column].beaten > entry.position
-        ):
+        if episode and entry.position and self.beaten_in(episode) > entry.position:
             return "Skipped, not passed yet"
         mine = entry.source == YOURS or (entry.source != GAME and entry.named.author == self.settings.name != "")
         run = self._certificate(entry) if mine and mark is None else None
-        return reached(entry, mark) or (f"Certified: {seconds_text(run.end_tick)} s" if run else "Not passed yet")
+        certified = f"Certified: {seconds_text(run.end_tick)} s" if run else ""
+        return progress.reached(entry, mark) or certified or "Not passed yet"
 
     def _certificate(self, entry: Entry) -> Replay | None:
         """A level's certificate to the exit, read again when its file has changed: lists ask in each picture."""
@@ -156,7 +146,7 @@ class PlayerData:
 
     @property
     def columns_complete(self) -> int:
-        return complete_columns(self.progress, self.catalogue.episodes.keys())
+        return progress.complete_columns(self.progress, self.catalogue.episodes.keys())
 
     @property
     def columns_present(self) -> int:

@@ -51,10 +51,10 @@ class LevelContext:
     """A level by itself, of a file, of an episode. Subclasses, below, say what follows.
 
     ``entry``: the level to play now. ``lifetime``: ticks at its start. ``notices``: of what was saved.
-    ``onward``: the label for where it goes from a passed level.
+    ``next_label``: the label for where it goes from a passed level.
     """
 
-    onward = "next level"
+    next_label = "next level"
 
     def __init__(self, data: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False) -> None:
         self.data = data
@@ -66,7 +66,7 @@ class LevelContext:
         self._ghosts: tuple[tuple[str, int, str], list[PacedRun]] = ("", -1, ""), []
 
     @property
-    def leads_on(self) -> bool:
+    def has_next(self) -> bool:
         """Whether something else comes after this level is passed; else it begins again."""
         return True
 
@@ -129,13 +129,13 @@ class LevelContext:
         raise NotImplementedError
 
     @property
-    def helps(self) -> bool:
+    def shows_hints(self) -> bool:
         """Whether words help in the level: not once it has been passed, nor where the player does not want them."""
         marks, level = self.data.marks, self.entry.digest
         return self.data.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
 
     def sayings(self) -> tuple[Saying, ...]:
-        if not self.helps:
+        if not self.shows_hints:
             return ()
         with suppress(LevelError):
             return read_sayings(self.entry.named.says)
@@ -149,7 +149,7 @@ class LevelContext:
         """Called when an attempt is left or started again, whether it has ended or not: counts one that has not."""
         if attempt.outcome == "running" and attempt.simulation.tick:
             # Starting again must not wait for the disk.
-            self.data.store.later(count_of(self.data, self.entry, attempt))
+            self.data.store.defer(count_of(self.data, self.entry, attempt))
 
     def restart(self) -> bool:
         """Called when the level starts again; whether it is another one, since its file has changed.
@@ -199,7 +199,7 @@ class LevelRun(LevelContext):
         return changed
 
     @property
-    def leads_on(self) -> bool:
+    def has_next(self) -> bool:
         return bool(self._ahead())
 
     def _ahead(self) -> list[Entry]:
@@ -235,11 +235,11 @@ class LevelRun(LevelContext):
         data, episode = self.data, self.data.catalogue.episode_of(entry)
         if episode is None or entry.position is None or data.episode_state(episode) != UNLOCKED:
             return
-        if data.progress_in(episode.pack).columns[episode.column].beaten != entry.position:
+        if data.beaten_in(episode) != entry.position:
             return
         position = entry.position[1]
         while True:
-            note_progress(data, episode, position, kept=noted_unfinished(data.store)[0] in {"", episode.key})
+            note_progress(data, episode, position, kept=load_unfinished(data.store)[0] in {"", episode.key})
             position += 1
             if position == len(episode.levels) or not data.marks.is_passed(episode.levels[position].digest):
                 return
@@ -255,7 +255,7 @@ class FileRun(LevelRun):
         self._levels = levels
 
     @property
-    def leads_on(self) -> bool:
+    def has_next(self) -> bool:
         return len(self._levels) > 1
 
     def advance(self) -> Navigation:
@@ -293,7 +293,7 @@ class EpisodeRun(LevelContext):
 
     def skip_to_furthest(self) -> None:
         """Go to where a run that skipped levels had come, if that is in this episode."""
-        beaten = self.data.progress_in(self.episode.pack).columns[self.episode.column].beaten
+        beaten = self.data.beaten_in(self.episode)
         if beaten[0] == self.episode.number and 0 < beaten[1] < len(self.episode.levels) and not self.practice_mode:
             self.whole, self.position = False, beaten[1]
             self.entry = self.episode.levels[self.position]
@@ -394,9 +394,9 @@ def note_progress(
     progress, goal = data.progress_in(episode.pack), following.number if following else None
     progress.level_passed((episode.number, position), levels=levels, following=goal, legitimate=legitimate)
     if legitimate and kept and position < levels - 1:
-        note_unfinished(data.store, episode.key, replays)
+        save_unfinished(data.store, episode.key, replays)
     elif legitimate and kept:
-        note_unfinished(data.store, following.key if following else "")
+        save_unfinished(data.store, following.key if following else "")
 
 
 def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | None:
@@ -419,7 +419,7 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
 
 def unfinished_run(data: PlayerData, asked: Episode | None = None) -> EpisodeRun | None:
     """The run of an episode, or of that played last, where it was left; None where it has not been begun or is over."""
-    key, replays = noted_unfinished(data.store)
+    key, replays = load_unfinished(data.store)
     if asked is None:
         episodes = (episode for pack in data.catalogue.packs() for episode in pack.episodes.values())
         asked = next((episode for episode in episodes if key and episode.key == key), None)
@@ -438,14 +438,14 @@ def unfinished_run(data: PlayerData, asked: Episode | None = None) -> EpisodeRun
 _PLACE = "episode left half-way"
 
 
-def note_unfinished(store: Store, key: str, replays: Sequence[Replay] = ()) -> None:
+def save_unfinished(store: Store, key: str, replays: Sequence[Replay] = ()) -> None:
     """Note the episode with which play goes on, "" for none, and its runs. Raises sqlite3.Error."""
     with store.change() as db:
         value = json.dumps([key, *map(write_replay, replays)])
         db.execute("REPLACE INTO fact (name, value) VALUES (?, ?)", (_PLACE, value))
 
 
-def noted_unfinished(store: Store) -> tuple[str, list[Replay]]:
+def load_unfinished(store: Store) -> tuple[str, list[Replay]]:
     """The key of the episode that play goes on with, and its runs; ("", []) without one, or for a damaged one."""
     for (value,) in store.rows("SELECT value FROM fact WHERE name = ?", (_PLACE,), [str]):
         try:

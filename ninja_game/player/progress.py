@@ -17,8 +17,7 @@ COLUMNS = 10
 COLOURS = 9  # colours of the ninja beyond the first one; each complete column unlocks one (presentation.md §3)
 
 OVERCLOCK_COLUMNS = 6
-FASTEST_TICK_GAIN = 10
-"""ms that overclock can take off a tick's 25."""
+FASTEST_TICK_GAIN = 10  # ms that overclock can take off a tick's 25
 
 _ANNOUNCED = "columns announced"
 
@@ -160,11 +159,9 @@ def _advanced(present: Place, episode: int, goal: Place) -> Place:
 
 
 NO_MEDAL = "with help: no medal"
-HELPED = f"Passed {NO_MEDAL}"
-"""What a run that is assisted, and a pass by it, are called on every screen."""
+HELPED = f"Passed {NO_MEDAL}"  # what a run that is assisted, and a pass by it, are called on every screen
 
-WITH_HELP = "with help"
-"""In the place of the body in marks of such passes: they open what follows, and are no records."""
+WITH_HELP = "with help"  # in the place of the body in marks of such passes: they open what follows, and are no records
 
 
 class Mark(NamedTuple):
@@ -193,7 +190,7 @@ class Marks:
         return (self.of(level) or self.of(level, WITH_HELP)) is not None
 
     def passed(self, level: str, tick: int, gold: int, body: str = "circle") -> Mark:
-        """Take note of a passed run: what is better in it stays. Raises sqlite3.Error."""
+        """Record a passed run: the earlier tick and the larger gold stay. Raises sqlite3.Error."""
         with self.store.change() as db:
             before = self.of(level, body) or Mark(tick, gold)
             mark = Mark(min(tick, before.fastest), max(gold, before.most_gold))

@@ -86,8 +86,6 @@ class Records:
     def __init__(self, store: Store) -> None:
         self.store = store
 
-    # --- replays ---
-
     def keep_replay(self, replay: Replay) -> int:
         """Save a replay because the player asked for it; its id."""
         with self.store.change() as db:
@@ -128,8 +126,6 @@ class Records:
         found = (SavedReplay(*row) for row in self.store.rows(query, values, _SAVED_KINDS))
         return [saved for saved in found if saved.outcome in OUTCOMES and saved.body in BODIES]
 
-    # --- levels ---
-
     def level_best(self, digest: str, body: str = "circle") -> SavedReplay | None:
         found = self._saved(f"{_BEST} AND level_best.level = ?", body, digest)
         return found[0] if found else None
@@ -148,8 +144,6 @@ class Records:
             db.execute("REPLACE INTO level_best (level, body, replay) VALUES (?, ?, ?)", (level, replay.body, number))
             db.execute(_DROP_UNNEEDED)
         return True
-
-    # --- episodes ---
 
     def episode_best(self, key: str, body: str = "circle") -> EpisodeBest | None:
         which, where = (key, body), "WHERE episode = ? AND body = ?"

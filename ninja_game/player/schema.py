@@ -13,8 +13,7 @@ APPLICATION_ID = 0x6E696E6A  # tells our files from other people's SQLite files
 
 OPENING_SECONDS = 1.0  # how long a start waits for another program that has locked the file
 
-MOST_CELL_BYTES = 2**26
-"""The largest value, and row; SQLite itself makes values of a gigabyte where a file asks for it."""
+MOST_CELL_BYTES = 2**26  # the largest value, and row; SQLite itself makes values of a gigabyte where a file asks for it
 
 MOST_STEPS = 30
 """Millions of instructions of SQLite to look through a file: some four seconds; the records of years take one."""

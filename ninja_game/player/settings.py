@@ -25,8 +25,7 @@ VERSION = 1
 BINDING_TABLES = {"keys": "keys", "pad": "pad-buttons"}
 
 COMMENT = "Settings of ninja-game. What is missing or wrong here has its default; comments stay."
-MAX_BYTES = 2**16
-"""More than this is not a file of settings; a number of so many digits is read within 0.1 s."""
+MAX_BYTES = 2**16  # more than this is not a file of settings; a number of so many digits is read within 0.1 s
 
 LOCK_SECONDS = 1.0
 
@@ -124,9 +123,8 @@ class Settings:
     particles: int = _number(100, "look", 0, 100, "share of the particles that are shown, percent", 5)
     show_ghost: bool = _flag(True, "look", "a run to race against plays along")
     ghost: str = _text(
-        "best", "look", "|".join(GHOSTS), "'best', 'next', 'silver', 'gold' or 'author'",
-        "your best run, or a medal's pace",
-    )  # fmt: skip
+        "best", "look", "|".join(GHOSTS), "'best', 'next', 'silver', 'gold' or 'author'", "your best, or a medal's pace"
+    )
     show_keys: bool = _flag(False, "look", "the keys that are held, while one plays")
     show_frame_time: bool = _flag(False, "look", "ms that a picture takes")
     frame_limit: int = _number(0, "look", 0, 1000, "pictures a second; 0: as the display")
@@ -180,9 +178,6 @@ RULES: dict[str, SettingRule] = {each.name: each.metadata["rule"] for each in fi
 """By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""
 
 
-# --- reading ---
-
-
 def read_settings(path: Path) -> tuple[Settings, list[str]]:
     """The settings in a file, and messages about what in it could not be used.
 
@@ -203,7 +198,7 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
     return _settings_of(data)
 
 
-def glance(path: Path) -> Settings:
+def read_usable_settings(path: Path) -> Settings:
     """The settings in a file as far as they can be used, for what cannot wait: no message, no file moved."""
     try:
         with _long_numbers():
@@ -261,9 +256,6 @@ def _shown(value: object) -> str:
 
 def key_of(name: str) -> str:
     return name.replace("_", "-")
-
-
-# --- writing ---
 
 
 def write_changes(before: Settings, after: Settings, path: Path) -> None:

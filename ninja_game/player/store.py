@@ -42,8 +42,6 @@ class Store:
         self._pending: list[Work] = []
         self.connection = self._first_connection()
 
-    # --- opening ---
-
     def _first_connection(self) -> sqlite3.Connection:
         if self.path is None:
             return open_database(":memory:")
@@ -78,7 +76,7 @@ class Store:
     def _move_aside(self, path: Path, why: str, text: str) -> None:
         self.report(f"{text}. They are kept as {quarantine(path, why).name}; new ones are begun.")
 
-    def _open_again(self) -> None:
+    def _reopen(self) -> None:
         """Try once more to open the file; what was saved in memory meanwhile waits in ``_pending``."""
         if not self.problem or self.path is None:
             return
@@ -90,8 +88,6 @@ class Store:
         self.connection.close()
         self.connection, self.problem = connection, ""
         self.epoch += 1
-
-    # --- reading ---
 
     def rows(self, query: str, values: Sequence[object], kinds: Sequence[type]) -> list[tuple[Any, ...]]:
         """The rows that a query finds, if their values are of these ``kinds``; damaged rows are left out and reported.
@@ -114,8 +110,6 @@ class Store:
         """Note a message for the player, once."""
         if message not in self.messages:
             self.messages.append(message)
-
-    # --- writing ---
 
     @contextmanager
     def change(self) -> Iterator[sqlite3.Connection]:
@@ -144,7 +138,7 @@ class Store:
 
         Gives its notices and ''; or why it is not on the disk, in which case it is tried again with the next save.
         """
-        self._open_again()
+        self._reopen()
         self._pending.append(work)
         if not self.problem:
             return self._save_pending()
@@ -154,13 +148,13 @@ class Store:
         except sqlite3.Error:
             return [], self.problem
 
-    def later(self, work: Work) -> None:
+    def defer(self, work: Work) -> None:
         """Do ``work`` with the next save or ``flush``: for what need not be on the disk at once."""
         self._pending.append(work)
 
     def flush(self) -> None:
         if self._pending:
-            self._open_again()
+            self._reopen()
             if not self.problem:
                 self._save_pending()
 

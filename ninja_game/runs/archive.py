@@ -77,7 +77,7 @@ def verify_all(
 ) -> Iterator[Result]:
     """A verdict on every recording in files and folders, then in ``chunks``, in order.
 
-    What cannot be read is said and stops nothing.
+    What cannot be read is reported and stops nothing.
 
     ``jobs``: how many run at a time, by default as many as there are cores. ``processes``: on processes instead of
     threads; by default where the interpreter's lock would be in the way, on the plain memory. ``cluster``: address of a
@@ -93,10 +93,10 @@ def verify_all(
     """
     counting = levels or [level for path in bundled_levels() for level in load_levels(path)]
     names = {level_digest(each.level): each.name or f"{each.file}:{each.record}" for each in counting}
-    asked = Asked(
+    options = VerifyOptions(
         memory, levels[0].level if len(levels) == 1 else None, (*names,) if levels or strict else None, budget
     )
-    for result in _verify_all(chain(chunks_in(paths, record), chunks), asked, jobs, processes, cluster, resume):
+    for result in _verify_all(chain(chunks_in(paths, record), chunks), options, jobs, processes, cluster, resume):
         if isinstance(result, Unreadable):
             yield result
         else:
@@ -106,7 +106,7 @@ def verify_all(
 
 
 @dataclass(frozen=True)
-class Asked:
+class VerifyOptions:
     """What results depend on besides their chunks: ``verify_chunk``'s arguments."""
 
     memory: str
@@ -121,28 +121,33 @@ class Asked:
 
 
 def _verify_all(
-    chunks: Iterable[Chunk], asked: Asked, jobs: int | None, processes: bool | None, cluster: str, resume: Path | None
+    chunks: Iterable[Chunk],
+    options: VerifyOptions,
+    jobs: int | None,
+    processes: bool | None,
+    cluster: str,
+    resume: Path | None,
 ) -> Iterator[Result]:
     if processes is None:
-        processes = asked.memory == "both" or choose_memory(asked.memory) == "plain"
+        processes = options.memory == "both" or choose_memory(options.memory) == "plain"
     with ExitStack() as stack:
         log = stack.enter_context(CheckpointLog(resume)) if resume else None
         if cluster or log is not None:  # an empty log counts as false
-            chunks = (self_contained(chunk, asked.level) for chunk in chunks)
-        batches = batched(chunks, log, asked.context())
+            chunks = (self_contained(chunk, options.level) for chunk in chunks)
+        batches = batched(chunks, log, options.context())
         # Few recordings are done before a second worker has started.
         first = next(batches, ())
         second = next(batches, ())
         if not cluster and not second:
-            yield from _record_results(zip([first], [_verify(asked, first)], strict=True), log)
+            yield from _record_results(zip([first], [_verify(options, first)], strict=True), log)
             return
         pool: Workers = stack.enter_context(workers(jobs or cores(), processes=processes, cluster=cluster))
         all_jobs = chain(filter(None, (first, second)), batches)
         try:
             if cluster:
-                done = _isolate_failing(pool, partial(_verify_as_text, asked), all_jobs, results_from_text)
+                done = _isolate_failing(pool, partial(_verify_as_text, options), all_jobs, results_from_text)
             else:
-                done = _isolate_failing(pool, partial(_verify, asked), all_jobs, lambda found, _: list(found))
+                done = _isolate_failing(pool, partial(_verify, options), all_jobs, lambda found, _: list(found))
             yield from _record_results(done, log)
         except (CancelledError, ConnectionError) as error:
             if not cluster:
@@ -156,7 +161,7 @@ def batched(chunks: Iterable[Chunk], log: CheckpointLog | None, context: str = "
     batch: list[Chunk] = []
     weight = 0
     for chunk in chunks:
-        batch.append(chunk if log is None else _looked_up(chunk, log, context))
+        batch.append(chunk if log is None else _with_log_key(chunk, log, context))
         weight += 0 if batch[-1].done else chunk.weight
         if weight >= JOB_WEIGHT or len(batch) >= 16 * JOB_WEIGHT:
             yield tuple(batch)
@@ -165,22 +170,23 @@ def batched(chunks: Iterable[Chunk], log: CheckpointLog | None, context: str = "
         yield tuple(batch)
 
 
-def _looked_up(chunk: Chunk, log: CheckpointLog, context: str) -> Chunk:
+def _with_log_key(chunk: Chunk, log: CheckpointLog, context: str) -> Chunk:
     """The chunk with its key in the checkpoint log; without its text if its results are there."""
     key = sha256(f"{context}{chunk.digest}".encode()).hexdigest()
     return Chunk(chunk.file, key=key, done=True) if key in log else replace(chunk, key=key)
 
 
-def _verify(asked: Asked, job: Job) -> list[list[Result]]:
-    counting = None if asked.counting is None else frozenset(asked.counting)
+def _verify(options: VerifyOptions, job: Job) -> list[list[Result]]:
+    counting = None if options.counting is None else frozenset(options.counting)
     return [
-        [] if chunk.done else verify_chunk(chunk, asked.memory, asked.level, counting, asked.budget) for chunk in job
+        [] if chunk.done else verify_chunk(chunk, options.memory, options.level, counting, options.budget)
+        for chunk in job
     ]
 
 
-def _verify_as_text(asked: Asked, job: Job) -> str:
+def _verify_as_text(options: VerifyOptions, job: Job) -> str:
     """Verdicts as JSON, for workers of a cluster: the answer is checked when it comes back."""
-    return results_as_text(_verify(asked, job))
+    return results_as_text(_verify(options, job))
 
 
 def _isolate_failing(

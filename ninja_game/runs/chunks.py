@@ -108,7 +108,7 @@ def verify_chunk(
     counting: Container[str] | None = None,
     budget: int = RUN_BUDGET,
 ) -> list[Result]:
-    """A verdict on every recording of a chunk, in order; what cannot be read is said and stops nothing.
+    """A verdict on every recording of a chunk, in order; what cannot be read is reported and stops nothing.
 
     ``level``: what recordings that do not hold theirs are played on; the rest as for ``verify_recording``.
     Raises NinjaGameError where nothing can be judged.
@@ -229,7 +229,7 @@ class CheckpointLog:
             # Empty, or its writer died in the first line; a shorter beginning may be that of anything.
             whole = 0
         else:
-            raise self._odd(1, first, f"{json.dumps(HEADER)}; start another file")
+            raise self._bad_line(1, first, f"{json.dumps(HEADER)}; start another file")
         self._file.truncate(whole)
         self._file.seek(whole)
         if not whole:
@@ -245,11 +245,11 @@ class CheckpointLog:
             try:
                 self._places[_parse(line)[0]] = whole
             except (ValueError, RecursionError):
-                raise self._odd(number, line, "a line that `ninja-game verify --resume` wrote") from None
+                raise self._bad_line(number, line, "a line that `ninja-game verify --resume` wrote") from None
             whole += len(line)
         return whole
 
-    def _odd(self, number: int, line: bytes, expected: str) -> FormatError:
+    def _bad_line(self, number: int, line: bytes, expected: str) -> FormatError:
         what, found = "not a checkpoint log that can be resumed", repr(line[:60].decode("utf-8", "replace"))
         return FormatError(what, str(self.path), number, found=found, expected=expected)
 

@@ -33,8 +33,7 @@ RADII = {kind.name: kind.disc or kind.box or 0.0 for kind in HAZARDS}
 """How far from its place in a trace a hazard kills, px: the shot of a turret and the tip of a rocket are points."""
 GUNS = {"gauss turret": TURRET_PRE_FIRE, "homing launcher": LAUNCHER_FLIGHT}
 """Hazards that kill by what they shoot, and their status number while that is under way."""
-DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)
-"""Right, down, left, up, as a thwump's direction numbers them."""
+DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)  # right, down, left, up, as a thwump's direction numbers them
 LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}  # what strikes along a line, farther than it goes by itself
 
 

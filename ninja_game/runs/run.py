@@ -114,7 +114,9 @@ def run_level(
     ArgumentError for another body or memory and for invalid inputs, BudgetError for a run that is not over
     when its budget is.
     """
-    return drained(run_in_slices(level, inputs_of(inputs), body=body, memory=memory, digest=digest, budget=budget))
+    return run_to_completion(
+        run_in_slices(level, inputs_of(inputs), body=body, memory=memory, digest=digest, budget=budget)
+    )
 
 
 def inputs_of(given: Iterable[SupportsIndex]) -> bytes:
@@ -165,7 +167,7 @@ def run_in_slices(
     return RunResult(OUTCOME_NAMES[world.outcome()], world.gold(), places, states, in_time, final_digest)
 
 
-def drained(slices: Generator[None, None, T]) -> T:
+def run_to_completion(slices: Generator[None, None, T]) -> T:
     """The value of a generator that pauses between slices of work, without a pause."""
     while True:
         try:

@@ -71,22 +71,6 @@ class RunTrace:
         return self.ninja.tobytes(), self.objects.tobytes(), self.ids, self.kinds, self.events
 
 
-def trace_level(
-    level: Level,
-    inputs: Iterable[SupportsIndex],
-    *,
-    body: Body = "circle",
-    memory: str = "auto",
-    with_objects: bool = True,
-    events: bool = False,
-) -> RunTrace:
-    """Run all of ``inputs``, whatever happens, and record ninja and objects after each tick (canonical numbers).
-
-    ``with_objects``: record objects too. ``events``: record the names of what happens. Raises what ``run_level`` does.
-    """
-    return _trace(level, inputs_of(inputs), body, memory, with_objects=with_objects, events=events)
-
-
 def trace_recording(
     recording: Recording,
     *,
@@ -105,24 +89,22 @@ def trace_recording(
     with named_errors(recording):
         inputs = recording.replay.playback(min(recording.ticks + after, MAX_TICKS) if ticks is None else ticks)
         more = after if ticks is None else None
-        return _trace(
-            recording.level, inputs, recording.body, memory,
+        return trace_level(
+            recording.level, inputs, body=recording.body, memory=memory,
             with_objects=objects, events=events, after=more, budget=budget,
         )  # fmt: skip
 
 
-def _trace(
-    level: Level,
-    inputs: bytes,
-    body: Body,
-    memory: str,
-    *,
-    with_objects: bool,
-    events: bool,
-    after: int | None = None,
-    budget: int = NO_LIMIT,
-) -> RunTrace:
-    """The trace of all inputs, or of those up to ``after`` ticks behind the first exit contact or death."""
+def trace_level(
+    level: Level, inputs: Iterable[SupportsIndex], *, body: Body = "circle", memory: str = "auto",
+    with_objects: bool = True, events: bool = False, after: int | None = None, budget: int = NO_LIMIT,
+) -> RunTrace:  # fmt: skip
+    """Run all of ``inputs``, whatever happens, and record the ninja after each tick (canonical numbers).
+
+    ``with_objects``: record objects too. ``events``: record the names of what happens. ``after``: end so many ticks
+    behind the first exit contact or death. Raises what ``run_level`` does.
+    """
+    inputs = inputs_of(inputs)
     check_inputs(inputs)
     world = open_worlds(
         memory, level, box=is_box(body), at_once=True, ticks=min(len(inputs), affordable_ticks(level, budget))

@@ -18,7 +18,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
 from ninja_game.levels.findings import RunProblem, in_run
 from ninja_game.runs.recording_reader import named_errors
-from ninja_game.runs.run import RunResult, drained, run_in_slices
+from ninja_game.runs.run import RunResult, run_in_slices, run_to_completion
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Simulation
@@ -113,7 +113,7 @@ def verify_recording(
     when its ``budget`` of work is (``ninja_game.budget``), OutOfRangeError for a run that leads out of its world,
     SelfTestError where no run can be judged.
     """
-    return drained(verify_in_slices(recording, memory, counting, budget))
+    return run_to_completion(verify_in_slices(recording, memory, counting, budget))
 
 
 def verify_in_slices(

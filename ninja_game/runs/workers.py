@@ -31,8 +31,7 @@ R = TypeVar("R")
 
 AHEAD = 4  # jobs in flight for each worker: enough that none waits
 
-TRIES = 3
-"""How often a job may take a process with it before it is given up; a cluster's scheduler counts by itself."""
+TRIES = 3  # how often a job may take a process with it before it is given up; a cluster's scheduler counts by itself
 
 WORKER_BYTES = 2 << 30  # memory of a worker process, where the system has such limits
 JOB_SECONDS = 3600  # processor time of one job there

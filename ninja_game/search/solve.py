@@ -11,7 +11,7 @@ from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from contextlib import suppress
 from functools import cache, cached_property
 from math import inf
-from threading import Event
+from threading import Event, Lock
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import Replay
@@ -207,12 +207,20 @@ SMALL_LEVEL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
 """What is played so that kernels are compiled; machine code does not depend on it."""
 
 
-@cache
+_COMPILING = Lock()
+
+
 def compile_solver() -> None:
     """Compile all kernels: a small level is solved first, so that no clock runs while Numba works.
 
-    Raises MemoryUnavailableError without Numba.
+    Once in a process; a second thread waits for the first. Raises MemoryUnavailableError without Numba.
     """
+    with _COMPILING:
+        _compile_once()
+
+
+@cache
+def _compile_once() -> None:
     for gold in (0, -1):
         _Job(SharedProgress(Task(parse_level_string(SMALL_LEVEL), gold=gold, work=30_000), None), 0).compile()
 

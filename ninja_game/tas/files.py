@@ -19,7 +19,7 @@ from ninja_game.formats.links import is_link
 from ninja_game.formats.load import load_levels, load_replays, texts_of
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel, form_of
-from ninja_game.formats.recording import Recording, holds_recordings
+from ninja_game.formats.recording import Recording, holds_recordings, parse_replays
 from ninja_game.formats.replay.input_text import Inputs, read_inputs
 from ninja_game.formats.replay.notations import in_our_notation, is_tas_text
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
@@ -67,10 +67,10 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     files in them stay, and so do those of the game. A level, or a text without ticks for ``level``, is a new run.
     Raises ReplayError, DemoError, LevelError; OSError for a file that cannot be opened.
     """
-    texts = [text for _, text in texts_of(path)]
-    if not any(map(holds_recordings, texts)):
-        return _begun_on(path, "".join(texts), record, level)
-    recordings = load_replays(path, level=level, changed=True)
+    texts = list(texts_of(path))
+    if not any(holds_recordings(text) for _, text in texts):
+        return _begun_on(path, "".join(text for _, text in texts), record, level)
+    recordings = [each for file, text in texts for each in parse_replays(text, file=file, level=level, changed=True)]
     if record is None and len(recordings) > 1:
         raise ReplayError(f"{len(recordings)} recordings", str(path), hint="say which one with --record")
     recording = next((each for each in recordings if each.record == (record or 0)), None)

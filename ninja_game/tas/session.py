@@ -87,14 +87,14 @@ class Session:
         return list(self.branches.all), self.branches.watched
 
     @property
-    def has_tail(self) -> bool:
-        """Whether there are keys or names of ticks behind its end.
+    def tail_behind(self) -> str:
+        """The end behind which there are keys or names of ticks, "exit" or "dead"; "" where there are none.
 
         Behind a death they keep the run from being a replay with claims; behind an exit they are left out of it.
         """
         self.timeline.simulate(len(self.timeline))
-        end, _ = self.timeline.end
-        return end >= 0 and has_tail(self.track, end + 1)
+        end, outcome = self.timeline.end
+        return outcome if end >= 0 and has_tail(self.track, end + 1) else ""
 
     @property
     def ticks_per_frame(self) -> int:

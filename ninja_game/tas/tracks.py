@@ -88,7 +88,7 @@ class InputTrack:
 
         Raises ReplayError for a name that replay texts cannot hold, ArgumentError for a tick that there cannot be.
         """
-        name = name.strip().replace('"', "'")
+        name = marker_name(name)
         if name and not is_marker_name(name):
             raise not_a_marker(name)
         if not 0 <= tick <= MAX_TICKS:
@@ -101,6 +101,11 @@ class InputTrack:
     def first_difference(self, other: InputTrack) -> int:
         """The first tick whose input differs; the length of the shorter one if none does."""
         return first_difference(self.inputs, other.inputs)
+
+
+def marker_name(text: str) -> str:
+    """What a text is as the name of a tick: replay texts write names in quotes, so it holds none."""
+    return text.strip().replace('"', "'")
 
 
 def first_difference(ours: bytes, theirs: bytes) -> int:

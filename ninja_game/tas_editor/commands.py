@@ -117,10 +117,9 @@ class RunCommands(DocumentCommands):
         self.app.push(FormPanel(self.app, title, fields, "Save", on_accept))
 
     def saved_text(self, path: Path) -> str:
-        session, tail = self.session, ""
-        if session.has_tail:
-            died = session.timeline.end[1] == "dead"
-            tail = ", with what is behind its end (Ctrl+E removes it)" if died else ", without what is behind its exit"
+        session, behind_exit = self.session, ", without what is behind its exit"
+        behind_death = ", with what is behind its end (Ctrl+E removes it)"
+        tail = {"dead": behind_death, "exit": behind_exit}.get(session.tail_behind, "")
         branches = " and its branches beside it" * branches_path(path).exists()
         replay = session.about.replay
         nobody = "; its player is unknown" * (not (replay.author or replay.co_authors))
@@ -133,7 +132,7 @@ class RunCommands(DocumentCommands):
         return self.session.track.made != NONE and not known
 
     def keep(self) -> None:
-        if self.session.has_tail and self.session.timeline.end[1] == "dead":
+        if self.session.tail_behind == "dead":
             self.app.notify("Keys are pressed behind the death: take them out first, with Ctrl+E")
             return
         about, track = self.session.about, self.session.track

@@ -69,12 +69,10 @@ def _safe(text: str) -> str:
 HEIGHT = 1.08  # height of a line of text for letters of size 1; capitals are 0.675 of the size
 _CAP_SHARE = 0.675
 _TOP = 0.1
-WEIGHTS = (0.95, 1.42)
-"""Width of the strokes of plain and bold letters, on the glyphs' grid."""
+WEIGHTS = (0.95, 1.42)  # width of the strokes of plain and bold letters, on the glyphs' grid
 SPACING = 1.18  # free space between two letters, on the grid, stroke ends not counted
 _FINE = 4
-_LOWERED = 0.8
-"""Height of a tall letter under an accent, as a share of its own."""
+_LOWERED = 0.8  # height of a tall letter under an accent, as a share of its own
 _COMMANDS = re.compile(r"([MLQOAD])([^MLQOAD]*)")
 
 
@@ -94,8 +92,7 @@ def _read_glyphs() -> dict[str, tuple[float, str]]:
 _STROKES = _read_glyphs()
 GLYPHS = {name: glyph for name, glyph in _STROKES.items() if not unicodedata.combining(name)}
 MARKS = {name: path for name, (_, path) in _STROKES.items() if unicodedata.combining(name)}
-ABOVE = 230
-"""The combining class of marks above a letter."""
+ABOVE = 230  # the combining class of marks above a letter
 
 
 class Glyph(NamedTuple):

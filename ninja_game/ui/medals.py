@@ -11,8 +11,7 @@ from ninja_game.ui.theme import Theme, mixed
 
 _METALS = {"bronze": "#b8743a", "silver": "#b4bcc6", "gold": "#e3b021", "author": "#5fb2a5"}
 _INK = pygame.Color("#1d1d22")
-_LARGE = 30.0
-"""Size from which a medal shows its relief, px."""
+_LARGE = 30.0  # size from which a medal shows its relief, px
 MEDALS = tuple(reversed(pars.MEDALS))
 
 
@@ -61,8 +60,7 @@ def draw_stamp(
         draw_medal(surface, theme, medal, x, y, size * stamp * (1 + 0.6 * sin(pi * stamp)), shine=shine)
 
 
-STAMP_SEEN = 0.2
-"""How far a stamp has come when it is first seen."""
+STAMP_SEEN = 0.2  # how far a stamp has come when it is first seen
 
 
 def draw_all_gold(surface: pygame.Surface, theme: Theme, x: float, y: float, size: float = 11) -> None:

@@ -29,7 +29,7 @@ _LIFT = 40  # how much higher or lower the layers lie from one level to another,
 Numbers = Iterator[float]
 
 
-def lay_ground(surface: pygame.Surface, palette: Palette, stage: pygame.Rect, area: pygame.Rect) -> None:
+def draw_scenery(surface: pygame.Surface, palette: Palette, stage: pygame.Rect, area: pygame.Rect) -> None:
     """Draw what is behind everything into the part ``area`` of a stage, px."""
     if palette.scenery:
         surface.blit(ground(stage.size, palette), area, area.move(-stage.x, -stage.y))
@@ -40,11 +40,11 @@ def lay_ground(surface: pygame.Surface, palette: Palette, stage: pygame.Rect, ar
 @lru_cache(maxsize=_KEPT)
 def ground(size: tuple[int, int], palette: Palette) -> pygame.Surface:
     """The sky and the layers of a palette that has a scenery, painted once; nobody may draw on it."""
-    return pygame.transform.smoothscale(painted(palette), size)
+    return pygame.transform.smoothscale(scenery_sheet(palette), size)
 
 
 @lru_cache(maxsize=_SHEETS)
-def painted(palette: Palette) -> pygame.Surface:
+def scenery_sheet(palette: Palette) -> pygame.Surface:
     """The ground on its small sheet: sky, sun or moon, layers; nobody may draw on it."""
     scenery = palette.scenery
     sky, horizon, far, near = (getattr(palette, role) for role in GROUND_ROLES)

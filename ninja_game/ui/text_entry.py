@@ -16,8 +16,7 @@ from ninja_game.ui.widgets import PAD, TEXT, Widget
 MAX_ENTRY = 40  # how many characters can be typed unless a field says otherwise
 _NO_TEXT = {"tab", "escape", "return", "kp_enter", "up", "down", "pageup", "pagedown", "insert"}
 _FUNCTION_KEY = re.compile("f[0-9]+")
-TEXT_LINE = TEXT + 4.0
-"""Height of a line where there are several, px."""
+TEXT_LINE = TEXT + 4.0  # height of a line where there are several, px
 DOUBLE_MS = 400  # a second click within so many ms selects a word, a third one everything
 
 
@@ -256,7 +255,7 @@ class EditedText:
     def select_word(self, place: int) -> None:
         """Select the word, or what stands between two words, around a place."""
         place = min(place, len(self.text) - 1)
-        kind = [_kind(each) for each in self.text]
+        kind = [_character_class(each) for each in self.text]
         first = last = max(0, place)
         while first > 0 and kind[first - 1] == kind[place]:
             first -= 1
@@ -281,7 +280,7 @@ class EditedText:
             self.text, self.cursor, self.anchor = self._past.pop()
 
     def erase(self, direction: int, *, word: bool = False) -> None:
-        """Take out what is selected; else the character, or the word, at the right (1) or left (-1)."""
+        """Delete what is selected; else the character, or the word, at the right (1) or left (-1)."""
         if self.cursor == self.anchor:
             self.step(direction, word=word, select=True)
         self.put("")
@@ -297,5 +296,5 @@ class EditedText:
         return place
 
 
-def _kind(char: str) -> int:
+def _character_class(char: str) -> int:
     return 0 if char.isspace() else 1 if char.isalnum() else 2

@@ -224,16 +224,11 @@ def _read_palettes() -> dict[str, Palette]:
     table = {role: values for role, *values in map(str.split, asset_lines("palettes.txt"))}
     sceneries = ["" if scenery == "none" else scenery for scenery in table["scenery"]]
     columns = zip(table["palette"], table["danger-by-shape"], sceneries, *(table[role] for role in ROLES), strict=True)
-    return {
-        name: Palette(
-            name,
-            danger == "yes",
-            **dict(zip(ROLES, map(pygame.Color, colours), strict=True)),
-            scenery=scenery,
-            mood=None,
-        )
-        for name, danger, scenery, *colours in columns
-    }
+    palettes = {}
+    for name, danger, scenery, *colours in columns:
+        inks: dict[str, Any] = dict(zip(ROLES, map(pygame.Color, colours), strict=True))
+        palettes[name] = Palette(name, danger == "yes", **inks, scenery=scenery)
+    return palettes
 
 
 PALETTES = _read_palettes()

@@ -13,8 +13,7 @@ import pygame
 from ninja_game.ui.theme import Area, Theme, inside
 
 PAD = 8
-TEXT = 11
-"""Size of ordinary text, px."""
+TEXT = 11  # size of ordinary text, px
 
 T = TypeVar("T")
 

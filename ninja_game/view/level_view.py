@@ -22,7 +22,7 @@ from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.ui.theme import Palette, Theme, palette_named
 from ninja_game.view.effects.effects import Effects
 from ninja_game.view.effects.particles import Particles
-from ninja_game.view.ninja.ninja_animation import NinjaAnimation, draw_ghost, draw_ninja, draw_ragdoll
+from ninja_game.view.ninja.ninja_animation import NinjaAnimation, draw_ninja, draw_ragdoll
 from ninja_game.view.ninja.ragdoll import Ragdoll
 from ninja_game.view.sprites.backdrop import Backdrop
 from ninja_game.view.sprites.drawing import DrawTarget, drawing, shared_book
@@ -158,7 +158,7 @@ class LevelView:
     def _follow_options(self) -> None:
         options = self.context.settings
         self.effects.gore = not options.reduced_gore
-        self.particles.thin = (0.35 if options.reduced_motion else 1.0) * options.particles / 100
+        self.particles.share_shown = (0.35 if options.reduced_motion else 1.0) * options.particles / 100
         self.ninja_animation.squashes = not options.reduced_motion
 
     def _follow_blasts(self, world: World) -> None:
@@ -260,7 +260,7 @@ class LevelView:
         return None if whole else changed
 
     def _shift(self, *, shaken: bool) -> None:
-        """Have all that is drawn on the stage lie beside its place, if the picture is shaken."""
+        """Shift all that is drawn on the stage while the picture shakes."""
         turn, reach = 2.4 * self.effects.now, self._shake * self.canvas.scale * shaken
         dx, dy = round(reach * cos(turn)), round(reach * sin(turn))
         self._origin = self.canvas.stage.move(dx, dy).topleft
@@ -298,7 +298,8 @@ class LevelView:
         draw_moving(target, self.simulation.world, self.object_animation, fraction)
         if self.context.settings.show_ghost:
             for ghost in self.ghosts:
-                draw_ghost(target, ghost.ninja_animation, ghost.place(fraction), fraction, ghost.colour(target.palette))
+                at, colour = ghost.place(fraction), ghost.colour(target.palette)
+                draw_ninja(target, ghost.ninja_animation, at, fraction, colour, ghost=True)
         self._draw_ninja(fraction)
         Particles.draw(self.particles.front, target, now)
         if self.context.settings.sound_cues:

@@ -32,11 +32,9 @@ _SIDES: tuple[tuple[float, float, float, float], ...] = (
 )  # fmt: skip
 """A line just inside each side of a cell: each cell has its own edge states."""
 
-_THINKER = 9.0
-"""Radius of the ring round an object that thinks, px."""
+_THINKER = 9.0  # radius of the ring round an object that thinks, px
 
-_SMALLEST = 1.0
-"""Half size, px, at which a point is drawn: the tip of a rocket."""
+_SMALLEST = 1.0  # half size, px, at which a point is drawn: the tip of a rocket
 
 
 @dataclass(frozen=True)

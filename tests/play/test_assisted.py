@@ -32,7 +32,7 @@ def test_an_invincible_ninja_survives_every_death_of_the_help(page: Page) -> Non
         attempt.tick(keys & 7, invincible=True)
     assert mortal.outcome == "dead"
     assert attempt.outcome == "running"
-    assert attempt.spared
+    assert attempt.death_refused
     assert attempt.assisted
     assert attempt.simulation.tick == len(page.inputs)
 
@@ -42,7 +42,7 @@ def test_a_landing_that_kills_is_softened() -> None:
     for _ in range(120):
         attempt.tick(0, invincible=True)
     assert attempt.outcome == "running"
-    assert attempt.spared
+    assert attempt.death_refused
 
 
 def test_an_invincible_run_without_danger_is_the_same_run(recording: Recording) -> None:
@@ -51,7 +51,7 @@ def test_an_invincible_run_without_danger_is_the_same_run(recording: Recording) 
         plain.tick(keys & 7)
         attempt.tick(keys & 7, invincible=True)
     assert attempt.simulation.digest() == plain.simulation.digest()
-    assert not attempt.spared
+    assert not attempt.death_refused
 
 
 @pytest.mark.parametrize("settings", [{"game_speed": 80}, {"invincible": True}])
@@ -84,7 +84,7 @@ def test_no_replay_is_kept_of_a_run_that_keys_alone_do_not_make(stage: tuple[App
     app.push(screen)
     press("confirm")
     frames(app, 120)
-    assert screen.attempt.spared
+    assert screen.attempt.death_refused
     screen.keep_replay()
     assert app.notice == "No replay: only the invincible could survive this run"
     screen.copy_link()

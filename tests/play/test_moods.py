@@ -23,11 +23,11 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.settings import BY_COLUMN
 from ninja_game.sim import kinds
-from ninja_game.ui.scenery import grain, ground, painted
+from ninja_game.ui.scenery import grain, ground, scenery_sheet
 from ninja_game.ui.theme import MOODS, PALETTES, Palette, palette_named
 from ninja_game.view.sprites import moving_sprites as moving, static_sprites as static
 from ninja_game.view.sprites.drawing import SpriteBook, SpriteKey
-from ninja_game.view.sprites.light import EXIT_OPEN, LOOKS, Look, light_picture
+from ninja_game.view.sprites.light import EXIT_OPEN, STYLES, LightStyle, light_picture
 
 Colours = NDArray[np.float64]
 
@@ -45,13 +45,13 @@ LEAST = 18.0
 LEAST_SHARE = 0.3
 """How much of a drawing has to stand out; the rest is shading and highlights."""
 
-THINGS: dict[str, tuple[SpriteKey, Look | None]] = {
-    "mine": (static.mine(), LOOKS[kinds.MINE]), "turret": (static.turret_base(0), LOOKS[kinds.TURRET]),
-    "launcher": (static.launcher_base(0), LOOKS[kinds.LAUNCHER]), "drone": (moving.drone(0, 0, 0, 0), None),
+THINGS: dict[str, tuple[SpriteKey, LightStyle | None]] = {
+    "mine": (static.mine(), STYLES[kinds.MINE]), "turret": (static.turret_base(0), STYLES[kinds.TURRET]),
+    "launcher": (static.launcher_base(0), STYLES[kinds.LAUNCHER]), "drone": (moving.drone(0, 0, 0, 0), None),
     "thwump": (moving.thwump(0, 0), None), "floor guard": (moving.floor_guard(0, 0), None),
     "rocket": (moving.rocket(1), None), "block": (moving.bounce_block(1), None), "pad": (static.launch_pad(0), None),
-    "one-way": (static.one_way(), None), "exit": (static.exit_door(0), LOOKS[kinds.EXIT]),
-    "open exit": (static.exit_door(8), EXIT_OPEN), "switch": (static.exit_switch(0), LOOKS[kinds.SWITCH]),
+    "one-way": (static.one_way(), None), "exit": (static.exit_door(0), STYLES[kinds.EXIT]),
+    "open exit": (static.exit_door(8), EXIT_OPEN), "switch": (static.exit_switch(0), STYLES[kinds.SWITCH]),
     "door": (static.door(1, 0), None), "trap": (static.door_switch(2, 0), None),
     "lock": (static.door_switch(1, 0), None), "gold": (static.gold(), None),
 }  # fmt: skip
@@ -92,7 +92,7 @@ def plain_ground(palette: Palette) -> Colours:
     return np.unique(rgba(ground((66, 50), palette))[:, :3] // 6 * 6 + 3, axis=0)
 
 
-def lit(colours: Colours, palette: Palette, look: Look, share: float = 1.0) -> Colours:
+def lit(colours: Colours, palette: Palette, look: LightStyle, share: float = 1.0) -> Colours:
     """Those colours in the middle of a light, or with some share of it."""
     glow = light_picture(look, 1.0, palette)
     *colour, alpha = glow.get_at(glow.get_rect().center)
@@ -100,10 +100,10 @@ def lit(colours: Colours, palette: Palette, look: Look, share: float = 1.0) -> C
 
 
 @lru_cache
-def grounds(palette: Palette, own: Look | None = None) -> Colours:
+def grounds(palette: Palette, own: LightStyle | None = None) -> Colours:
     """What may lie around a thing with that light: the ground, in its light, and half way out in that of others."""
     plain = plain_ground(palette)
-    lights = [lit(plain, palette, look, 0.5) for look in (*LOOKS.values(), EXIT_OPEN)]
+    lights = [lit(plain, palette, look, 0.5) for look in (*STYLES.values(), EXIT_OPEN)]
     return np.concatenate([plain, *lights, lit(plain, palette, own) if own else plain])
 
 
@@ -203,7 +203,7 @@ def test_each_level_of_an_episode_has_its_tone_and_what_stands_on_it_looks_the_s
     assert {tone.base for tone in tones} == {MOODS[0]}
     following = palette_named(BY_COLUMN, 0, 5)
     assert {tuple(following.tile), tuple(tones[2].tile)} == {tuple(following.tile)}, "the next episode begins elsewhere"
-    assert len({pygame.image.tobytes(painted(tone), "RGB") for tone in (*tones, following)}) == 6
+    assert len({pygame.image.tobytes(scenery_sheet(tone), "RGB") for tone in (*tones, following)}) == 6
     assert len({pygame.image.tobytes(grain(tone, "outline"), "RGBA") for tone in (*tones, following)}) == 6
     named = app.player.catalogue.ours.levels[0].named
     app.push(LevelScreen(app, LevelRun(app.player, Entry(named, "game", "00-2"))))

@@ -13,7 +13,6 @@ from ninja_game.view.effects import particles
 from ninja_game.view.ninja.figure import edge_of
 from ninja_game.view.sprites import moving_sprites as moving, static_sprites as static
 from ninja_game.view.sprites.drawing import Drawing, SpriteBook, SpriteKey
-from ninja_game.web.pages.frame import contrast
 
 AT_REST = (
     static.mine(),
@@ -23,6 +22,23 @@ AT_REST = (
     moving.drone(0, 0, 0, 0),
 )
 """What is dangerous, at rest."""
+
+
+def contrast(ink: pygame.Color, ground: pygame.Color) -> float:
+    """The contrast of two colours, 1 to 21 (WCAG 2.2, contrast ratio).
+
+    >>> round(contrast(pygame.Color("white"), pygame.Color("black")))
+    21
+    """
+    high, low = sorted((_luminance(ink), _luminance(ground)), reverse=True)
+    return (high + 0.05) / (low + 0.05)
+
+
+def _luminance(colour: pygame.Color) -> float:
+    """Relative luminance, 0 to 1 (WCAG 2.2)."""
+    parts = [part / 255 for part in (colour.r, colour.g, colour.b)]
+    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
 def test_settings_accept_every_palette_and_an_unknown_one_is_the_default() -> None:

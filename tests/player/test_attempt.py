@@ -78,7 +78,7 @@ def test_giving_up_is_a_death_by_own_hand() -> None:
     attempt.tick(0)
     attempt.give_up(0.1, 2.0, -3.0)
     assert attempt.outcome == "dead"
-    assert attempt.own_hand
+    assert attempt.self_inflicted
 
 
 def test_a_replay_of_practice_says_so() -> None:
@@ -96,7 +96,7 @@ def test_who_gave_up_and_goes_back_has_not_given_up() -> None:
     said = []
     for each in (moment, given_up):
         attempt.restore(each)
-        said.append(attempt.own_hand)
+        said.append(attempt.self_inflicted)
     attempt.simulation.restore(moment[0])
-    attempt.rewound()
-    assert [*said, attempt.own_hand] == [False, True, False]
+    attempt.after_rewind()
+    assert [*said, attempt.self_inflicted] == [False, True, False]

@@ -21,7 +21,7 @@ def test_bundled_episodes_can_be_read_and_name_each_level_once() -> None:
     assert not catalogue.problems
     listed = [entry.named.file for episode in catalogue.episodes.values() for entry in episode.levels]
     assert len(listed) == len(set(listed))
-    assert {entry.named.file for entry in catalogue.singles()} == {str(path) for path in bundled_levels()}
+    assert {entry.named.file for entry in catalogue.single_levels()} == {str(path) for path in bundled_levels()}
 
 
 def test_files_in_the_players_folder_are_offered_as_they_come(tmp_path: Path) -> None:

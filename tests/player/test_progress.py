@@ -159,7 +159,7 @@ def test_deaths_are_counted_by_killer(tmp_path: Path) -> None:
     run.died(played(deadly_level()))
     run.died(played(deadly_level()))
     attempt = played(deadly_level())
-    attempt.own_hand = True
+    attempt.self_inflicted = True
     run.died(attempt)
     deaths = data.statistics.deaths()
     assert (deaths["mine"], deaths[SELF], sum(deaths.values())) == (2, 1, 3)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
-from threading import Event
+from functools import cache
+from threading import Event, Thread
 from time import process_time, thread_time
 from typing import Any
 
@@ -15,6 +16,7 @@ import pytest
 from ninja_game import ArgumentError, Simulation, parse_level
 from ninja_game.backend.memories import compiled_available
 from ninja_game.runs.run import record_replay
+from ninja_game.search import solve as solve_module
 from ninja_game.search.formula import background
 from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.language import FormulaError
@@ -149,3 +151,35 @@ def test_what_a_run_gains_by_its_own_route_stays_beside_faster_runs(monkeypatch:
     best, second = search.found
     assert (best.own_route, second.own_route) == (False, True)
     assert (search.own.ticks - best.ticks, search.own.ticks - second.ticks) == (46, 20)
+
+
+def test_results_that_are_no_longer_shown_are_forgotten() -> None:
+    search = SpanSearch(task())
+    one, two = (Found(1.0, 60, np.full(60, keys, np.uint8), bytes([keys]) * 60) for keys in (2, 3))
+    assert search._without_junk((one, two), 60.0) != ()
+    search._without_junk((two,), 60.0)
+    assert list(search._tidy) == [two.inputs]
+
+
+def test_the_solver_is_compiled_once_however_many_searches_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    begun, go_on = [], Event()
+
+    class Slow:
+        def __init__(self, *_: object) -> None:
+            begun.append(self)
+
+        def compile(self) -> None:
+            go_on.wait(60.0)
+
+    monkeypatch.setattr(solve_module, "_Job", Slow)
+    monkeypatch.setattr(solve_module, "_compile_once", cache(solve_module._compile_once.__wrapped__))
+    threads = [Thread(target=solve_module.compile_solver) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    while not begun:
+        time.sleep(0.001)
+    time.sleep(0.02)
+    go_on.set()
+    for thread in threads:
+        thread.join()
+    assert len(begun) == 2, "one for a way to the exit, one with all gold"

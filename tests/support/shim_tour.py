@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
 
 import pygame
 
@@ -25,9 +26,8 @@ class NoPage:
     def __getattr__(self, name: str) -> Callable[..., int]:
         return lambda *_: 0
 
-    def events(self) -> str:
-        """No event."""
-        return "[]"
+    input = SimpleNamespace(take=lambda: "[]", clipboard="", typing=False)
+    painter = sounds = property(lambda self: self)
 
     def ticks(self) -> float:
         """Milliseconds."""

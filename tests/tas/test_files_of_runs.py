@@ -13,6 +13,7 @@ from hypothesis import given, strategies as st
 
 from ninja_game.document import OccupiedError, digest_of_file
 from ninja_game.errors import ArgumentError, FileError, LevelError, NinjaGameError, ReplayError
+from ninja_game.formats import load
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import Recording
@@ -416,3 +417,16 @@ def test_the_name_in_a_record_of_n_is_no_players(tmp_path: Path) -> None:
     session.close()
     ours = replace(other, replay=replace(other.replay, made=Made(edits=1)))
     assert Contributions.of(ours).names == ("me",)
+
+
+def test_a_file_that_is_opened_is_read_once_as_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    read: list[Path] = []
+
+    def reading(file: Path) -> str:
+        read.append(file)
+        return file.read_text("utf-8")
+
+    path = write_records(tmp_path / "demos.txt", ("a run", WALK, running(30)))
+    monkeypatch.setattr(load, "read_text", reading)
+    assert open_run(path).recording.name == "a run"
+    assert read == [path]

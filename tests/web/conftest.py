@@ -58,7 +58,7 @@ def board_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def _made_once() -> Iterator[None]:
     """What takes most of the time that documents take, and is the same in every build of them."""
     with ExitStack() as stack:
-        for name in ("_film", "_coloured", "figure_picture"):
+        for name in ("_film", "_highlighted", "figure_picture"):
             stack.enter_context(patch.object(documents, name, cache(getattr(documents, name))))
         yield
 

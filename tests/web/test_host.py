@@ -147,7 +147,7 @@ def test_keys_are_pressed_held_and_released(page: Any, events: Any) -> None:
     ],
 )  # fmt: skip
 def test_places_on_the_keyboard_have_the_names_of_the_settings(code: str, name: str, page: Any, events: Any) -> None:
-    page.evaluate("code => { host.key(code, true); host.key(code, false); }", code)
+    page.evaluate("code => { host.input.key(code, true); host.input.key(code, false); }", code)
     (down, up), *_ = events()
     assert down[0] == "KEYDOWN"
     assert up[0] == "KEYUP"
@@ -164,9 +164,9 @@ def test_every_key_of_the_page_has_a_name(page: Any) -> None:
 def test_characters_come_only_while_text_is_typed(page: Any, events: Any) -> None:
     page.keyboard.press("x")
     assert [name for name, _ in events()[0]] == ["KEYDOWN", "KEYUP"]
-    page.evaluate("() => host.typing(true)")
+    page.evaluate("() => { host.input.typing = true; }")
     page.keyboard.press("Q")
-    page.evaluate("() => host.typing(false)")
+    page.evaluate("() => { host.input.typing = false; }")
     found = events()[0]
     assert [name for name, _ in found] == ["KEYDOWN", "TEXTINPUT", "KEYUP"]
     assert found[1][1] == {"text": "Q"}
@@ -261,7 +261,7 @@ CHANNEL = SOUND.play()
 LOOP = pygame.mixer.Channel(0)
 LOOP.play(SOUND, loops=-1, fade_ms=10)
 LOOP.set_volume(0.5)
-assert CHANNEL.number == 2 and CHANNEL.get_busy() and LOOP.get_busy() and LOOP.get_sound() is SOUND
+assert CHANNEL.number == 2 and CHANNEL.get_busy() and LOOP.get_busy() and LOOP.sound is SOUND
 """,
     )
     busy = "() => python.runPython('[CHANNEL.get_busy(), LOOP.get_busy()]').toJs()"

@@ -214,7 +214,7 @@ def test_a_memory_that_cannot_be_used_is_given_up_and_a_game_that_ends_says_so(n
     assert not visitor.page.evaluate("ninjaGame.fromMemory")
     # What the game keeps for its next save is there when the page is left.
     ended = "app.player.statistics.attempt_ended('x', killer=None, passed=True, ticks=1, gold=0)"
-    visitor.python(f"app.player.store.later(lambda: {ended} or ())")
+    visitor.python(f"app.player.store.defer(lambda: {ended} or ())")
     visitor.page.evaluate("() => { ninjaGame.pause(true); return ninjaGame.folder.saving; }")
     visitor.page.reload()
     visitor.until("menu")

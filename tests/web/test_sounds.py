@@ -74,13 +74,13 @@ def test_music_is_fetched_when_it_is_wanted(site: Path, python: Any) -> None:
     assert layers
     python.evaluate("() => host.sounds.unlock()")
     number = python.evaluate(f"() => host.sound('/game/ninja_game/data/assets/sounds/music/{layers[0]}')")
-    eventually(python, lambda: python.evaluate(f"() => host.length({number})"), "the music does not come")
+    eventually(python, lambda: python.evaluate(f"() => host.sounds.length({number})"), "the music does not come")
     again = python.evaluate(f"() => host.sound('/game/ninja_game/data/assets/sounds/music/{layers[0]}')")
     assert again == number, "it is kept"
     ask = "() => host.sound('/game/ninja_game/data/assets/sounds/music/none.ogg')"
     missing = python.evaluate(ask)
     eventually(python, lambda: python.evaluate(ask) != missing, "what did not come is not asked for again")
-    assert python.evaluate(f"() => host.length({missing})") == 0
+    assert python.evaluate(f"() => host.sounds.length({missing})") == 0
 
 
 def test_the_menu_has_its_music_once_something_was_pressed(new_visitor: Callable[..., Visitor]) -> None:

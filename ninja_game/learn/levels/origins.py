@@ -10,6 +10,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import cache
 from pathlib import Path
 from typing import TypeAlias
 
@@ -79,7 +80,7 @@ def level_source(origin: Origin) -> LevelSource:
         return bench_source(rest)
     if word == "packed":
         return _packed(rest)
-    files = own_levels()
+    files = _own_levels()
     chosen = _split(list(files)).get(origin) or [name for name in files if name == origin]
     if chosen:
         return _named([named for name in chosen for named in load_levels(files[name])])
@@ -87,6 +88,9 @@ def level_source(origin: Origin) -> LevelSource:
         return _named(load_levels(origin))
     words = ["set", "train", "test", "curriculum", *files]
     raise ArgumentError(f"there is no level, and no file, {origin!r:.100}; expected such as {nearest(origin, words)}")
+
+
+_own_levels = cache(own_levels)
 
 
 def _split(names: Sequence[str]) -> dict[str, list[str]]:

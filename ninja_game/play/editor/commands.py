@@ -397,7 +397,7 @@ class EditorCommands(DocumentCommands):
 class TryContext(LevelContext):
     """A level that is only tried out: with practice tools and without a clock; nothing counts."""
 
-    onward = "back to the editor"
+    next_label = "back to the editor"
 
     def __init__(self, session: EditorSession, entry: Entry) -> None:
         super().__init__(session.app.player, entry, practice_mode=True)

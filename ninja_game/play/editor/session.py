@@ -127,7 +127,7 @@ class EditorSession:
         """Take up this level's certificate, once it was played: beside its file, or of the same level elsewhere."""
         catalogue, level, path = self.app.player.catalogue, self.draft.level, self.source.path
         same = [alone] if (alone := self.entry) else []
-        same += [each for each in catalogue.singles() if each.named.level == level]
+        same += [each for each in catalogue.single_levels() if each.named.level == level]
         found = ((each, run) for each in same if (run := catalogue.author_run(each)))
         entry, run = next(found, (None, None))
         if run:
@@ -301,7 +301,7 @@ class EditorSession:
             if (named := load_levels(path)[0]).level == search.level:
                 return named
         # The window's own catalogue is not for this thread.
-        own = (each.named for each in Catalogue(self.app.player.folder / LEVELS).singles() if each.source != GAME)
+        own = (each.named for each in Catalogue(self.app.player.folder / LEVELS).single_levels() if each.source != GAME)
         return next((each for each in own if each.level == search.level and Path(each.file).is_file()), None)
 
     def _leave_search(self) -> None:

@@ -50,9 +50,9 @@ def hud_view(play: LevelPlay) -> HudView:
         cause, _, why = cause_of_death(play).partition(". ")
         end = EndPanel(cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], *_covering(play))
     if play.phase is Phase.PASSED:
-        onward = "go on" if context.way_out is Navigation.EPISODE_END else context.onward
-        keys = f"{key('confirm')}: {onward}    {key('retry')}: play again    {key('replay')}: replay"
-        if not context.leads_on:
+        next_label = "go on" if context.way_out is Navigation.EPISODE_END else context.next_label
+        keys = f"{key('confirm')}: {next_label}    {key('retry')}: play again    {key('replay')}: replay"
+        if not context.has_next:
             keys = f"{key('confirm')}: play again    {key('replay')}: replay    {key('back')}: leave"
         time = f"{seconds_text(attempt.ended_tick)} s"
         title = f"Time {time}" if play.medal else f"Passed    time {time}"
@@ -161,7 +161,7 @@ def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> st
 
 
 def cause_of_death(play: LevelPlay) -> str:
-    if play.attempt.own_hand:
+    if play.attempt.self_inflicted:
         return "You gave up."
     if play.killer != SELF:
         return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.sayings.helps

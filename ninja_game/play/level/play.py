@@ -12,7 +12,7 @@ from ninja_game.play.app import App
 from ninja_game.play.level.places import MAY, Things, things_in
 from ninja_game.play.level.sayings import Sayings
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
-from ninja_game.player.attempt import Attempt, Moment
+from ninja_game.player.attempt import Attempt, AttemptState
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.progress import HELPED
 from ninja_game.player.records import cause_of
@@ -117,7 +117,7 @@ class LevelPlay:
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
-        self.sayings = Sayings(context.sayings(), helps=context.helps)
+        self.sayings = Sayings(context.sayings(), helps=context.shows_hints)
         self.shown_lifetime = float(self.attempt.lifetime)
         self.ghosts: list[Ghost] = []
         self.tries: deque[bytes] = deque(maxlen=MOST_TRIES)
@@ -189,7 +189,7 @@ class LevelPlay:
     @property
     def may_watch(self) -> bool:
         """Whether the attempt can be watched: dead, or passed by its keys alone."""
-        return self.phase is Phase.DEAD or (self.phase is Phase.PASSED and not self.attempt.spared)
+        return self.phase is Phase.DEAD or (self.phase is Phase.PASSED and not self.attempt.death_refused)
 
     @property
     def is_stuck(self) -> bool:
@@ -334,7 +334,7 @@ class PracticeTools:
 
     def __init__(self, attempt: Attempt) -> None:
         self.attempt = attempt
-        self.saved: Moment | None = None
+        self.saved: AttemptState | None = None
         self.slow = False
         self.rewinding = False
         self.stepping = False
@@ -364,4 +364,4 @@ class PracticeTools:
         target = max(0, attempt.simulation.tick - ticks)
         self.playback.seek(target)
         self.playback.forget_after(target)
-        attempt.rewound()
+        attempt.after_rewind()

@@ -185,7 +185,7 @@ class LevelScreen(Screen):
             ("Try again", self.retry, ""),
             ("Watch how", *watch_it) if run and seen else (f"Watch how ({why})", None, ""),
             full if app.settings.game_speed < 100 else slow,
-            (SKIP, *(skip_it if context.leads_on else (None, "No level comes after this one"))),
+            (SKIP, *(skip_it if context.has_next else (None, "No level comes after this one"))),
         ]
         app.push(Menu(app, HELP, rows, back))
 
@@ -245,9 +245,9 @@ class LevelScreen(Screen):
 
     def _is_spared(self) -> bool:
         """Whether the run was survived only by being invincible: then its keys alone are no replay, and it is said."""
-        if self.attempt.spared:
+        if self.attempt.death_refused:
             self.app.notify("No replay: only the invincible could survive this run")
-        return self.attempt.spared
+        return self.attempt.death_refused
 
     def copy_link(self) -> None:
         if self._is_spared():

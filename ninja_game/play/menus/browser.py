@@ -83,7 +83,7 @@ class Browser(ThumbnailScreen):
     def enter(self) -> None:
         catalogue = self.player.catalogue
         catalogue.problems.clear()
-        self.entries = catalogue.singles()
+        self.entries = catalogue.single_levels()
         self.bests = self.player.records.level_bests()
         self.marks = self.player.marks.all()
         self.problems = of_files(catalogue.shown_problems)

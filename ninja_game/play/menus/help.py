@@ -24,7 +24,7 @@ from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.input.bindings import ACTIONS, MOVES
 from ninja_game.ui.input.gamepad import pad_label
 from ninja_game.ui.list_view import ListView
-from ninja_game.ui.scenery import lay_ground
+from ninja_game.ui.scenery import draw_scenery
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.level_view import LevelView
@@ -185,7 +185,7 @@ class HelpScreen(MenuScreen):
         canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
         x, y, w, h = WINDOW
         row = canvas.rect(x, y + h + 10, w, 32)
-        lay_ground(surface, palette, canvas.stage, row)
+        draw_scenery(surface, palette, canvas.stage, row)
         for place, (action, bit) in enumerate(MOVES):
             left = x + place * 92
             lit = bool(keys & bit)

@@ -13,7 +13,7 @@ from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import HeldKey, scancode_of
 from ninja_game.ui.list_view import ListView
-from ninja_game.ui.scenery import lay_ground
+from ninja_game.ui.scenery import draw_scenery
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, inside, wrapped
 from ninja_game.ui.widgets import Button, Widget
@@ -237,7 +237,7 @@ class MenuScreen(Screen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         theme, canvas, palette = self.theme, self.theme.canvas, self.theme.palette
         surface.fill(palette.tile)
-        lay_ground(surface, palette, canvas.stage, canvas.rect(24, 52, WIDTH - 48, HEIGHT - 52 - 36))
+        draw_scenery(surface, palette, canvas.stage, canvas.rect(24, 52, WIDTH - 48, HEIGHT - 52 - 36))
         canvas.frame_rect(surface, palette.tile, 18, 46, WIDTH - 36, HEIGHT - 52 - 24, 6, 12)
         room = (BACK[0] if self.offers_back else WIDTH - 36) - 48
         theme.text(surface, self.title, 36, 17, size=TITLE_SIZE, colour=palette.on_tile, bold=True, width=room)

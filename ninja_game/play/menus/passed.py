@@ -26,7 +26,7 @@ from ninja_game.ui.medals import draw_stamp
 from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.effects.particles import Particle, Particles
 from ninja_game.view.sprites.drawing import DrawTarget, shared_book
-from ninja_game.view.sprites.light import Look, light_picture
+from ninja_game.view.sprites.light import LightStyle, light_picture
 
 PICTURE = 132
 
@@ -37,7 +37,7 @@ sweeps over it as over a level's; and all of it is over."""
 PAPERS, PRIZE, MIDDLE = 70, 64.0, 318.0
 """How many papers fly; size of the medal that all levels have, and the height, px, at which it and the score stand."""
 
-GLOW = Look("gold_light", 230, 110)
+GLOW = LightStyle("gold_light", 230, 110)
 """The light behind the score."""
 
 CLOCK = "What was left on the clock after the last level"
@@ -80,7 +80,7 @@ class EpisodePassed(ThumbnailScreen):
                 self.chime(f"gold-{place + 1}")
         if before < self._marks_end + STAMP_TICKS <= self.ticks:
             self.chime("medal")
-            self.particles.thin = settings.particles / 100
+            self.particles.share_shown = settings.particles / 100
             rng = Random(self.run.score)  # noqa: S311 - presentation
             for variant in range(PAPERS):
                 angle, far = rng.uniform(-3.6, 0.5), rng.uniform(120, 380)

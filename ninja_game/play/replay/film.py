@@ -29,7 +29,7 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.theme import GROUND_ROLES, ROLES, RUN_COLOURS, Palette, mixed, palette_named
 from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.sprites.drawing import is_near
-from ninja_game.view.sprites.light import EXIT_OPEN, LOOKS
+from ninja_game.view.sprites.light import EXIT_OPEN, STYLES
 
 if TYPE_CHECKING:
     from ninja_game.runs.compare import RunSplits
@@ -350,7 +350,7 @@ def film_colours(palette: Palette, ghosts: int = 0) -> list[int]:
     if palette.scenery:
         behind = [getattr(palette, role) for role in GROUND_ROLES]
         found += [mixed(one, other, k / 12) for one, other in pairwise(behind) for k in range(1, 12)]
-        lights = sorted({look.role for look in (*LOOKS.values(), EXIT_OPEN)})
+        lights = sorted({style.role for style in (*STYLES.values(), EXIT_OPEN)})
         found += [mixed(palette.near, getattr(palette, role), k / 16) for role in lights for k in (1, 2, 3, 5, 7)]
     return [channel for colour in found[:256] for channel in colour[:3]]
 

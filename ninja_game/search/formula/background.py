@@ -112,7 +112,8 @@ class SpanSearch:
 
     def _without_junk(self, found: tuple[Found, ...], seconds: float) -> tuple[Found, ...]:
         """Results without keys that do nothing, as far as there is time for it: the others follow."""
-        late = monotonic() + seconds
+        late, known = monotonic() + seconds, self._tidy
+        self._tidy = {each.inputs: known[each.inputs] for each in found if each.inputs in known}
         for each in found:
             if each.inputs not in self._tidy and monotonic() < late:
                 self._tidy[each.inputs] = without_junk(self.task, each)

@@ -14,7 +14,7 @@ from ninja_game.play.menus.menu_screen import ask_text
 from ninja_game.play.workspace import Commands
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import inputs_of_text
-from ninja_game.tas.tracks import InputTrack
+from ninja_game.tas.tracks import InputTrack, marker_name
 from ninja_game.tas_editor.editor import Span, TasEditor
 from ninja_game.tas_editor.roll.facts import changes, compared
 
@@ -201,7 +201,7 @@ class RollCommands:
         ask_text(editor.app, f"Tick {tick}", "Name or comment (empty removes it)", name, "Name it", named)
 
     def _name(self, tick: int, text: str) -> None:
-        moved = [at for at, name in self._editor.track.markers if name == text.strip() and at != tick]
+        moved = [at for at, name in self._editor.track.markers if name == marker_name(text) and at != tick]
 
         def named(track: InputTrack) -> InputTrack:
             if text.strip() and tick > len(track):

@@ -44,13 +44,13 @@ class MusicLevels(NamedTuple):
 CALM = MusicLevels()
 
 
-def heard_in_music(o: Object) -> bool:
+def affects_music(o: Object) -> bool:
     """Whether an object may be a danger that hunts, or is an exit."""
     return o.kind in (LAUNCHER, FLOOR_GUARD, DRONE, TURRET, EXIT)
 
 
 def music_levels(world: World, objects: Iterable[Object]) -> MusicLevels:
-    """The levels for a moment of play. ``objects``: those of the world that are ``heard_in_music``."""
+    """The levels for a moment of play. ``objects``: those of the world that are ``affects_music``."""
     ninja = world.ninja
     danger, is_open = 0.0, 0.0
     for o in objects:

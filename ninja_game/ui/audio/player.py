@@ -1,4 +1,4 @@
-"""Sound: hears the events of each tick and what goes on, and plays it. A machine without sound is not an error.
+"""Plays the sounds of each tick's events and of what lasts. A machine without sound is not an error.
 
 Some sounds depend on the ones before: variants do not repeat, gold climbs, steps have the pace of a run.
 """
@@ -20,15 +20,14 @@ from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.rules import WORLD_WIDTH
 from ninja_game.sim.states import RUNNING
-from ninja_game.ui.audio.music import CALM, LAYERS, Music, heard_in_music, music_levels
+from ninja_game.ui.audio.music import CALM, LAYERS, Music, affects_music, music_levels
 from ninja_game.ui.audio.table import CORPSE, GOLD, LOOPS, STEPS, Names, by_hardness, event_sound, has_loop, loop_levels
 
 RATE = 44_100  # samples a second, those of our files
 BUFFER = 512  # samples in the mixer's: 12 ms of delay
 CHANNELS = 32
 LOUDEST = 99
-PAN = 0.35
-"""How much softer the far side gets for a sound at the stage's edge."""
+PAN = 0.35  # how much softer the far side gets for a sound at the stage's edge
 
 CORPSE_PAUSE = 0.06  # seconds between two thuds of a corpse
 
@@ -88,7 +87,7 @@ class AudioPlayer(AudioOutput):
         if world is not self._world:
             self._world = world
             self._machines = [o for o in world.objects[1:] if has_loop(o)]
-            self._hunters = [o for o in world.objects[1:] if heard_in_music(o)]
+            self._hunters = [o for o in world.objects[1:] if affects_music(o)]
         heard = set()
         for event in world.events[: world.event_count]:
             names, level = event_sound(event, world.ninja)
@@ -237,7 +236,7 @@ class GoldPitches:
 
 
 class Footsteps:
-    """Tells when a foot is put down. The first step of a run comes after half a stride."""
+    """Decides when a foot touches the floor. The first step of a run comes after half a stride."""
 
     def __init__(self) -> None:
         self._way = STRIDE / 2

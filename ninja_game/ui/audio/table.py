@@ -14,26 +14,26 @@ from ninja_game.sim.memory.schema import Event, Ninja, World
 Names = tuple[str, ...]  # variants of a sound, of which one is chosen by chance, never the last one again
 
 
-def several(name: str, count: int) -> Names:
+def variants(name: str, count: int) -> Names:
     return tuple(f"{name}-{number}" for number in range(1, count + 1))
 
 
-GOLD = several("gold", 12)  # from low to high
+GOLD = variants("gold", 12)  # from low to high
 
-STEPS = several("step", 5)
+STEPS = variants("step", 5)
 
-LANDING = ((4.0, several("land-hard", 3)), (2.0, several("land-medium", 3)), (0.0, several("land-soft", 3)))
-CORPSE = ((3.0, several("corpse-hard", 3)), (2.0, several("corpse-medium", 2)), (1.2, several("corpse-soft", 2)))
+LANDING = ((4.0, variants("land-hard", 3)), (2.0, variants("land-medium", 3)), (0.0, variants("land-soft", 3)))
+CORPSE = ((3.0, variants("corpse-hard", 3)), (2.0, variants("corpse-medium", 2)), (1.2, variants("corpse-soft", 2)))
 """Slowest speed (px/tick) of each hardness, hardest first; of the ninja's feet, and of parts of a corpse."""
 
 BY_EVENT: dict[int, Names] = {
-    events.JUMPED: several("jump", 4),
-    events.WALL_JUMPED: several("wall-jump", 4),
+    events.JUMPED: variants("jump", 4),
+    events.WALL_JUMPED: variants("wall-jump", 4),
     events.LANDED: LANDING[-1][1],
     events.LAUNCHED: ("launch",),
     events.WON: ("passed",),
     events.GOLD_TAKEN: GOLD,
-    events.MINE_EXPLODED: several("mine", 2),
+    events.MINE_EXPLODED: variants("mine", 2),
     events.EXIT_OPENED: ("exit-open",),
     events.DOOR_OPENED: ("door-open",),
     events.DOOR_CLOSED: ("door-close",),
@@ -41,22 +41,22 @@ BY_EVENT: dict[int, Names] = {
     events.TRAP_CLOSED: ("trap-close",),
     events.CHASE_STARTED: ("chase",),
     events.ROCKET_LAUNCHED: ("rocket-launch",),
-    events.ROCKET_EXPLODED: several("rocket-explode", 2),
+    events.ROCKET_EXPLODED: variants("rocket-explode", 2),
     events.TURRET_LOCKED: ("turret-lock",),
-    events.TURRET_FIRED: several("turret-fire", 2),
+    events.TURRET_FIRED: variants("turret-fire", 2),
     events.LASER_CHARGING: ("laser-charge",),
     events.CHAINGUN_CHARGING: ("chaingun-charge",),
-    events.CHAINGUN_SHOT: several("chaingun-shot", 3),
+    events.CHAINGUN_SHOT: variants("chaingun-shot", 3),
     events.CHAINGUN_OFF: ("chaingun-off",),
 }
 
 BY_DEATH: dict[int, Names] = {
-    states.EXPLOSIVE: several("death-explosive", 2),
+    states.EXPLOSIVE: variants("death-explosive", 2),
     states.FALL: ("death-fall",),
     states.LASER: ("death-laser",),
     states.ELECTRIC: ("death-electric",),
 }
-OTHER_DEATH = several("death-bullet", 2)
+OTHER_DEATH = variants("death-bullet", 2)
 
 
 def by_hardness(table: tuple[tuple[float, Names], ...], speed: float) -> Names:
@@ -78,8 +78,8 @@ def event_sound(event: Event, ninja: Ninja) -> tuple[Names, float]:
 
 
 LOOPS: dict[str, Names] = {
-    "skid": several("skid", 3),
-    "slide": several("slide", 3),
+    "skid": variants("skid", 3),
+    "slide": variants("slide", 3),
     "rocket-flight": ("rocket-flight",),
     "laser-beam": ("laser-beam",),
     "guard": ("guard",),

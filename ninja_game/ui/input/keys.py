@@ -112,7 +112,7 @@ class HeldKey(Generic[T]):
         self._key = self._again_in = self._every = 0
 
     def begin(self, what: T, scancode: int = 0, *, first: int, every: int) -> None:
-        """It was done; its key is down. It comes again after ``first`` ms, then every so many ms."""
+        """The action was done and its key is down: it repeats after ``first`` ms, then every so many ms."""
         self.what, self._key, self._again_in, self._every = what, scancode, first, every
 
     def end(self) -> None:

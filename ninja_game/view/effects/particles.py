@@ -35,12 +35,12 @@ class Particle:
 
 
 class Particles:
-    """The particles of a view. ``thin``: 0…1, share of them that are shown (reduced motion)."""
+    """The particles of a view. ``share_shown``: 0…1, share of them that are shown (reduced motion)."""
 
     def __init__(self) -> None:
         self.front: deque[Particle] = deque(maxlen=MOST)
         self.rear: deque[Particle] = deque(maxlen=MOST)
-        self.thin = 1.0
+        self.share_shown = 1.0
         self._count = 0.0
 
     def clear(self) -> None:
@@ -48,8 +48,8 @@ class Particles:
         self.rear.clear()
 
     def add(self, particle: Particle, *, rear: bool = False) -> None:
-        """Show one more; of many only the share ``thin``."""
-        self._count += self.thin
+        """Show one more; of many only the share ``share_shown``."""
+        self._count += self.share_shown
         if self._count >= 1.0:
             self._count -= 1.0
             (self.rear if rear else self.front).append(particle)
@@ -126,10 +126,6 @@ def _burst(p: Particle, target: DrawTarget, t: float) -> None:
     target.sprite(burst_star(min(7, int(8 * t))).faded(max(1, 8 - int(8 * t))), p.x, p.y)
 
 
-def _streak_of_gold(p: Particle, target: DrawTarget, t: float) -> None:
-    target.sprite(gold_streak(min(8, int(9 * t))).faded(8 - int(4 * t)), p.x, p.y)
-
-
 def _muzzle(p: Particle, target: DrawTarget, t: float) -> None:
     target.sprite(muzzle(min(7, int(8 * t))).turned(_turn(p)), p.x, p.y)
 
@@ -150,8 +146,7 @@ def _confetti(p: Particle, target: DrawTarget, t: float) -> None:
     target.line(colour, x - half * cos(turn), y - half, x + half * cos(turn), y + half, 2.6 * (1 - t * t * t))
 
 
-CONFETTI = "gold", "band", "exit", "gold_light", "electric", "bright"
-"""The colours of the papers, roles of the palette."""
+CONFETTI = "gold", "band", "exit", "gold_light", "electric", "bright"  # the colours of the papers, roles of the palette
 
 
 def _charge(p: Particle, target: DrawTarget, t: float) -> None:
@@ -174,7 +169,7 @@ PAINTERS: dict[str, Callable[[Particle, DrawTarget, float], None]] = {
     "zap": _zap,
     "fireball": _fireball,
     "burst": _burst,
-    "gold": _streak_of_gold,
+    "gold": lambda p, target, t: target.sprite(gold_streak(min(8, int(9 * t))).faded(8 - int(4 * t)), p.x, p.y),
     "muzzle": _muzzle,
     "charge": _charge,
     "halo": _halo,

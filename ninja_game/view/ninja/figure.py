@@ -95,8 +95,7 @@ def air_pose(vy: float) -> Pose:
 # --- running: one cycle is 64.8 px of travel ---
 
 CYCLE = 64.8
-_STANCE = 0.25
-"""Share of a cycle in which a foot is on the ground; it then goes back as fast as the body goes on."""
+_STANCE = 0.25  # share of a cycle in which a foot is on the ground; it then goes back as fast as the body goes on
 _REACH = CYCLE * _STANCE / 2
 _SWING = ((-_REACH, 9.7), (-10.2, 5.0), (-6.6, 1.6), (0.6, 2.8), (6.4, 5.0), (9.0, 7.8), (_REACH, 9.7))
 """The way of a foot through the air, from behind to the front."""
@@ -204,8 +203,7 @@ THIGH, SHIN = 5.0, 5.2
 UPPER_ARM, FOREARM = 4.0, 4.2
 HEAD = 2.5
 REACH = 17.0
-EDGE = 1.0
-"""Width of the light or dark edge around the figure, px."""
+EDGE = 1.0  # width of the light or dark edge around the figure, px
 
 
 def edge_of(colour: pygame.Color) -> pygame.Color:

@@ -12,21 +12,8 @@ from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.states import CELEBRATING, DEAD, FALLING, JUMPING, RUNNING, SKIDDING, SLIDING
 from ninja_game.ui.canvas import Point
 from ninja_game.ui.theme import mixed
-from ninja_game.view.ninja.figure import (
-    CYCLE,
-    DANCES,
-    SKID,
-    SLIDE,
-    STAND,
-    Pose,
-    air_pose,
-    arm,
-    band_ends,
-    leg,
-    ninja_sprite,
-    paint_trunk,
-    run_pose,
-)
+from ninja_game.view.ninja import figure
+from ninja_game.view.ninja.figure import DANCES, STAND, Pose, air_pose, arm, band_ends, leg, ninja_sprite
 from ninja_game.view.ninja.ragdoll import PELVIS, SHOULDER, TRUNK, Ragdoll
 from ninja_game.view.sprites.drawing import DrawTarget, is_near
 from ninja_game.view.sprites.sketch import Sketch
@@ -97,7 +84,7 @@ class NinjaAnimation:
         self.velocity = n.x - n.prev_x, n.y - n.prev_y
         self.phase_before = self.phase
         if n.state == RUNNING:
-            self.phase += self.speed(n) / CYCLE
+            self.phase += self.speed(n) / figure.CYCLE
         self.turn_before = self.turn
         if n.state in {JUMPING, SLIDING} and self.since == 0.0:
             self.turn = self.turn_before = 0.0
@@ -122,12 +109,12 @@ class NinjaAnimation:
         if self.state == RUNNING:
             phase = self.phase_before + (self.phase - self.phase_before) * fraction
             vx, vy = self.velocity
-            return run_pose(phase, (vx * vx + vy * vy) ** 0.5)
+            return figure.run_pose(phase, (vx * vx + vy * vy) ** 0.5)
         if self.state in {JUMPING, FALLING}:
             return air_pose(self.velocity[1])
         if self.state == CELEBRATING:
             return air_pose(self.velocity[1]) if self.dance < 0 else DANCES[self.dance].at(self.since + fraction)[0]
-        return {SKIDDING: SKID, SLIDING: SLIDE}.get(self.state, STAND)
+        return {SKIDDING: figure.SKID, SLIDING: figure.SLIDE}.get(self.state, STAND)
 
     def pose(self, fraction: float) -> Pose:
         """The pose about the centre, as it is seen."""
@@ -149,25 +136,17 @@ class NinjaAnimation:
 
 
 def draw_ninja(
-    target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color, alpha: float = 1.0
-) -> None:
-    """The living ninja about a point."""
+    target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color,
+    alpha: float = 1.0, *, ghost: bool = False,
+) -> None:  # fmt: skip
+    """The living ninja about a point; one can look through a ``ghost``, which has no headband."""
     if not is_near(*at):
         return
     px, py = target.canvas.exact(*at)
-    offset = px - round(px), py - round(py)
+    offset = (0.0, 0.0) if ghost else (px - round(px), py - round(py))
     sprite = ninja_sprite(
         target.canvas.scale, target.palette, animation.pose(fraction), animation.facing, animation.velocity,
-        colour=colour, offset=offset, alpha=alpha,
-    )  # fmt: skip
-    target.picture(sprite, *at)
-
-
-def draw_ghost(target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color) -> None:
-    """A figure that one can look through."""
-    sprite = ninja_sprite(
-        target.canvas.scale, target.palette, animation.pose(fraction), animation.facing, animation.velocity,
-        colour=colour, alpha=0.45, banded=False,
+        colour=colour, offset=offset, alpha=0.45 if ghost else alpha, banded=not ghost,
     )  # fmt: skip
     target.picture(sprite, *at)
 
@@ -205,7 +184,7 @@ def _draw_parts(
         a, b = places[stick.first], places[stick.second]
         shade = far if k in {0, 1} else colour
         if k == TRUNK:
-            paint_trunk(s, shade, (hx, hy), places[SHOULDER], places[PELVIS])
+            figure.paint_trunk(s, shade, (hx, hy), places[SHOULDER], places[PELVIS])
             s.stroke(target.palette.band, *band_ends((hx, hy), places[SHOULDER]), 1.1)
         elif k in {0, 4}:
             s.limb(shade, *arm(a, b, doll.facing))

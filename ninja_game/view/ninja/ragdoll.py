@@ -18,8 +18,7 @@ from ninja_game.view.ninja.figure import Pose
 
 GRAVITY = 0.15
 _LOSS_NORMAL, _LOSS_TANGENT = 1.4, 0.15
-_FASTEST = 22.0
-"""px/tick: faster limbs would pass through walls."""
+_FASTEST = 22.0  # px/tick: faster limbs would pass through walls
 
 PELVIS, SHOULDER, NEAR_HAND, FAR_HAND, NEAR_FOOT, FAR_FOOT = range(6)
 _HALVES = (2.5, 2.5, 2.0, 2.0, 3.0, 3.0)
@@ -92,8 +91,6 @@ class Ragdoll:
         self.sticks = list(STICKS)
         self.dismembered = False
 
-    # --- the moment of death ---
-
     def shove(self, cause: int, impulse: Point, hit_y: float, centre_y: float, *, whole: bool = False) -> None:
         """The blow: everything is thrown, most of all the end that was hit. Falls have none.
 
@@ -130,8 +127,6 @@ class Ragdoll:
             self.particles.append(loose)
             sticks.append(stick._replace(first=len(self.particles) - 1, share=0.5))
         self.sticks = sticks
-
-    # --- every tick ---
 
     def step(self, level: TileMap, world: World) -> None:
         """One tick: move, pull together, push out of what is solid."""
@@ -172,7 +167,7 @@ class Ragdoll:
             for _, _, nx, ny in tile_pushes(level, world, p):
                 self._bounce(p, nx, ny)
                 touched = True
-            for nx, ny, kick in thing_pushes(world, p):
+            for nx, ny, kick in object_pushes(world, p):
                 self._bounce(p, nx, ny)
                 p.ox -= nx * kick
                 p.oy -= ny * kick
@@ -195,8 +190,6 @@ class Ragdoll:
         p.ox, p.oy = p.x - vx, p.y - vy
         p.sx, p.sy = p.x, p.y
 
-    # --- drawing ---
-
     def joint(self, k: int, fraction: float) -> Point:
         """Where a particle is, between its last two places."""
         p = self.particles[k]
@@ -210,7 +203,7 @@ class Ragdoll:
         return sx + dx / length * 3.4, sy + dy / length * 3.4
 
 
-def thing_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]:
+def object_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]:
     """Normals of the objects that a box touches, and how hard (px/tick) they kick it; it is pushed out as they come."""
     for slot in range(1, world.id_count + 1):
         o = world.objects[slot]

@@ -47,7 +47,7 @@ class Backdrop:
         self._drawn = False
 
     def reset(self, world: World, animation: ObjectAnimation) -> list[pygame.Rect]:
-        """Have it as it is in another world, or moment, of this level; the px that changed."""
+        """Show another world, or moment, of this level; the px that changed."""
         self._moving.clear()
         # Walls first, then what lies before them.
         front = {GOLD, MINE}
@@ -95,7 +95,7 @@ class Backdrop:
         return (rect or old or pygame.Rect(0, 0, 0, 0)).union(old or rect or pygame.Rect(0, 0, 0, 0))
 
     def _light(self, world: World, slot: int) -> list[pygame.Rect]:
-        """Have the light around an object as it is now; the px that changed."""
+        """Update the light around an object; the px that changed."""
         light = light_of(world, slot) if self.palette.scenery else None
         before = self._lights.get(slot)
         if light == (before and before[0]):
@@ -104,7 +104,7 @@ class Backdrop:
         if light is None or not is_near(light.x, light.y):
             self._lights.pop(slot, None)
         else:
-            picture = light_picture(light.look, self.canvas.scale, self._book.palette)
+            picture = light_picture(light.style, self.canvas.scale, self._book.palette)
             px, py = self.canvas.point(light.x, light.y)
             reach = picture.width // 2
             corner = px - self._corner[0] - reach, py - self._corner[1] - reach

@@ -12,7 +12,7 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.ui.theme import Palette
 
 
-class Look(NamedTuple):
+class LightStyle(NamedTuple):
     """``role``: of the palette; ``reach``: logical px; ``strength``: how solid it is in its middle, 0…255."""
 
     role: str
@@ -20,14 +20,14 @@ class Look(NamedTuple):
     strength: int
 
 
-EXIT_OPEN = Look("exit_light", 74, 126)
-LOOKS = {
-    kinds.EXIT: Look("exit_light", 46, 70),
-    kinds.SWITCH: Look("exit_light", 52, 150),
-    kinds.GOLD: Look("gold_light", 14, 96),
-    kinds.MINE: Look("mine", 15, 54),
-    kinds.TURRET: Look("turret", 26, 60),
-    kinds.LAUNCHER: Look("launcher", 26, 60),
+EXIT_OPEN = LightStyle("exit_light", 74, 126)
+STYLES = {
+    kinds.EXIT: LightStyle("exit_light", 46, 70),
+    kinds.SWITCH: LightStyle("exit_light", 52, 150),
+    kinds.GOLD: LightStyle("gold_light", 14, 96),
+    kinds.MINE: LightStyle("mine", 15, 54),
+    kinds.TURRET: LightStyle("turret", 26, 60),
+    kinds.LAUNCHER: LightStyle("launcher", 26, 60),
 }
 """By kind, until something changes."""
 
@@ -35,7 +35,7 @@ LOOKS = {
 class Light(NamedTuple):
     """A light about a point, px."""
 
-    look: Look
+    style: LightStyle
     x: float
     y: float
 
@@ -43,27 +43,27 @@ class Light(NamedTuple):
 def light_of(world: World, slot: int) -> Light | None:
     """The light around an object as it is now."""
     o = world.objects[slot]
-    look = LOOKS.get(o.kind)
-    if look is None or (o.kind == kinds.MINE and o.exploded) or (o.kind == kinds.GOLD and o.taken):
+    style = STYLES.get(o.kind)
+    if style is None or (o.kind == kinds.MINE and o.exploded) or (o.kind == kinds.GOLD and o.taken):
         return None
     if o.kind == kinds.SWITCH and world.objects[o.partner].is_open:
         return None
     if o.kind == kinds.EXIT and o.is_open:
-        look = EXIT_OPEN
+        style = EXIT_OPEN
     x, y = (o.base_x, o.base_y) if o.kind == kinds.LAUNCHER else (o.x, o.y)
-    return Light(look, x, y)
+    return Light(style, x, y)
 
 
 _GRID = 25  # px of the sheet from which lights of all sizes are made
 
 
 @lru_cache(maxsize=64)
-def light_picture(look: Look, scale: float, palette: Palette) -> pygame.Surface:
+def light_picture(style: LightStyle, scale: float, palette: Palette) -> pygame.Surface:
     """A light, strongest in its middle. Nobody may draw on it."""
-    reach = max(1, round(look.reach * scale))
-    sheet = _sheet(getattr(palette, look.role)[:3]).copy()
+    reach = max(1, round(style.reach * scale))
+    sheet = _sheet(getattr(palette, style.role)[:3]).copy()
     # Made fainter as a whole, it is scaled as px in the page too, not as squares.
-    sheet.fill((255, 255, 255, look.strength), special_flags=pygame.BLEND_RGBA_MULT)
+    sheet.fill((255, 255, 255, style.strength), special_flags=pygame.BLEND_RGBA_MULT)
     return pygame.transform.smoothscale(sheet, (2 * reach + 1, 2 * reach + 1))
 
 

@@ -158,7 +158,7 @@ _TURN_STEP = 15  # barrels and eyes turn in steps of so many degrees
 _COOL_FRAMES = 60
 
 
-class Moving(NamedTuple):
+class MovingObject(NamedTuple):
     """An object that moves: its slot, where it is drawn (px), and the moment, ``fraction`` of a tick after the last."""
 
     o: Object
@@ -176,7 +176,8 @@ class Moving(NamedTuple):
 def draw_moving(target: DrawTarget, world: World, animation: ObjectAnimation, fraction: float) -> None:
     """All objects that move, beams first so that they come out of their drones."""
     shown = [
-        Moving(world.objects[s], s, *animation.place(s, fraction), animation, fraction) for s in animation.moving_slots
+        MovingObject(world.objects[s], s, *animation.place(s, fraction), animation, fraction)
+        for s in animation.moving_slots
     ]
     for m in shown:
         if m.o.kind == kinds.DRONE and m.o.weapon == states.WEAPON_LASER:
@@ -202,11 +203,7 @@ def draw_pulses(target: DrawTarget, world: World, animation: ObjectAnimation, fr
             target.disc(colour, o.x, o.y, PULSE_FROM + PULSE_REACH * share, 1.6)
 
 
-def _block(target: DrawTarget, m: Moving) -> None:
-    target.sprite(bounce_block(m.o.updating), m.x, m.y)
-
-
-def _thwump(target: DrawTarget, m: Moving) -> None:
+def _thwump(target: DrawTarget, m: MovingObject) -> None:
     o = m.o
     mood = 0 if o.routine == states.THWUMP_REST else 1 if o.sign > 0 else 2
     # Its face looks where it falls: drawn for a fall downwards.
@@ -214,12 +211,12 @@ def _thwump(target: DrawTarget, m: Moving) -> None:
     target.sprite(thwump(mood, m.animation.tick // 3 % 2).turned(turn), m.x, m.y)
 
 
-def _guard(target: DrawTarget, m: Moving) -> None:
+def _guard(target: DrawTarget, m: MovingObject) -> None:
     active = 1 if m.o.routine and m.o.updating else 0
     target.sprite(floor_guard(active, m.animation.tick // 2 % 2 if active else 0), m.x, m.y)
 
 
-def _crosshair(target: DrawTarget, m: Moving) -> None:
+def _crosshair(target: DrawTarget, m: MovingObject) -> None:
     o = m.o
     if not o.updating:
         return
@@ -230,7 +227,7 @@ def _crosshair(target: DrawTarget, m: Moving) -> None:
     target.sprite(crosshair(look), m.x, m.y)
 
 
-def _rocket(target: DrawTarget, m: Moving) -> None:
+def _rocket(target: DrawTarget, m: MovingObject) -> None:
     trail = m.animation.trails.get(m.slot, [])
     for k, (tx, ty) in enumerate(trail[:-1]):
         step = min(7, len(trail) - 2 - k)
@@ -240,7 +237,7 @@ def _rocket(target: DrawTarget, m: Moving) -> None:
         target.sprite(rocket(m.animation.tick % 4).turned(turn), m.x, m.y)
 
 
-def _drone(target: DrawTarget, m: Moving) -> None:
+def _drone(target: DrawTarget, m: MovingObject) -> None:
     o = m.o
     seeker = 1 if o.seeker and o.weapon == states.WEAPON_ZAP else 0
     heat = _heat(m)
@@ -254,7 +251,7 @@ def _drone(target: DrawTarget, m: Moving) -> None:
     target.sprite(eye(mood).turned(turn), m.x + _EYE_OUT * cos(angle), m.y + _EYE_OUT * sin(angle))
 
 
-def _heat(m: Moving) -> int:
+def _heat(m: MovingObject) -> int:
     o = m.o
     if o.routine == states.DRONE_PRE_FIRE:
         return m.step(3 * (CHAINGUN_PREPARE if o.weapon == states.WEAPON_CHAINGUN else LASER_PREPARE))
@@ -263,7 +260,7 @@ def _heat(m: Moving) -> int:
     return 8 - m.step(_COOL_FRAMES) if o.routine == states.DRONE_POST_FIRE else 0
 
 
-def _beam(target: DrawTarget, m: Moving) -> None:
+def _beam(target: DrawTarget, m: MovingObject) -> None:
     o, palette, tick = m.o, target.palette, m.animation.tick
     if o.routine == states.DRONE_PRE_FIRE:
         target.line(palette.warning, o.x, o.y, o.end_x, o.end_y)
@@ -274,8 +271,8 @@ def _beam(target: DrawTarget, m: Moving) -> None:
         target.sprite(impact_burst(step).turned(tick % 5 * 15), o.end_x, o.end_y)
 
 
-PAINTERS: dict[int, Callable[[DrawTarget, Moving], None]] = {
-    kinds.BOUNCE_BLOCK: _block,
+PAINTERS: dict[int, Callable[[DrawTarget, MovingObject], None]] = {
+    kinds.BOUNCE_BLOCK: lambda target, m: target.sprite(bounce_block(m.o.updating), m.x, m.y),
     kinds.THWUMP: _thwump,
     kinds.FLOOR_GUARD: _guard,
     kinds.TURRET: _crosshair,

@@ -18,8 +18,7 @@ _STATE_FIELDS = {
 }  # fmt: skip
 """The field that tells whether an object has changed for good or for a while, where a kind has one."""
 LONG_AGO = -100_000
-_JUMP = 30.0
-"""An object that is farther away than this (px) after a tick was put there, it did not move."""
+_JUMP = 30.0  # an object that is farther away than this (px) after a tick was put there, it did not move
 _EYE_TURN = 0.66
 """Share of the remaining angle that a drone's eye turns in a tick (0.3 a picture at the classic 120 a second)."""
 _DIRECTIONS = (0.0, pi / 2, pi, -pi / 2)
@@ -60,7 +59,7 @@ class ObjectAnimation:
         self.now = {slot: drawn_place(world.objects[slot]) for slot in self.moving_slots}
         self.before = dict(self.now)
         self.eyes = {
-            slot: _gaze(world, world.objects[slot])
+            slot: _eye_angle(world, world.objects[slot])
             for slot in self.moving_slots
             if world.objects[slot].kind == kinds.DRONE
         }
@@ -76,7 +75,7 @@ class ObjectAnimation:
             o = world.objects[slot]
             self.now[slot] = drawn_place(o)
             if o.kind == kinds.DRONE:
-                turn = (_gaze(world, o) - self.eyes[slot] + pi) % (2 * pi) - pi
+                turn = (_eye_angle(world, o) - self.eyes[slot] + pi) % (2 * pi) - pi
                 self.eyes[slot] += _EYE_TURN * turn
             elif o.kind == kinds.LAUNCHER:
                 self._follow_rocket(slot, o)
@@ -94,7 +93,7 @@ class ObjectAnimation:
         self.ninja_now = world.ninja.x, world.ninja.y
 
     def close(self, slot: int) -> None:
-        """Let an exit that is open be seen to close."""
+        """Animate the closing of an open exit."""
         self.closing, self.since[slot] = slot, self.tick
         self.changed.add(slot)
 
@@ -129,7 +128,7 @@ class ObjectAnimation:
         return max(0, min(8, int(self.age(slot, fraction) * 3 / frames * 8)))
 
 
-def _gaze(world: World, o: Object) -> float:
+def _eye_angle(world: World, o: Object) -> float:
     """Where a drone looks, radians clockwise from the right: at its aim, or where it goes."""
     if o.routine != DRONE_MOVE:
         return atan2(world.ninja.y - o.y, world.ninja.x - o.x)

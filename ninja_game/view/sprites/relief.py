@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.ui.scenery import GRAINS, grain, painted
+from ninja_game.ui.scenery import GRAINS, grain, scenery_sheet
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.tile_sheet import TileSheet
 
@@ -23,7 +23,7 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
     """Draw the edges of a level's tiles on their sheet; what is behind, in their shadow."""
     inks = {role: sheet.in_colour(getattr(palette, role)) for role in ("bright", "outline")}
     size = sheet.surface.size
-    small = painted(palette).copy()
+    small = scenery_sheet(palette).copy()
     # It is soft, since it is painted on the small sheet of the scenery.
     shadow = pygame.transform.smoothscale(inks["outline"], small.get_size())
     if palette.scenery in GRAINS:

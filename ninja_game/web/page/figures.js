@@ -2,16 +2,12 @@
 // and programs of the text, which a reader can change and run.
 // All figures of a page share one Python, which knows nothing of a player: no lock, no records.
 
+import { button, element } from "./trouble.js";
+
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const KEEP_AFTER_MS = 3000; // then what the next visit needs is put aside
 const live = [];
 let engine = null;
-
-const element = (name, about, ...inside) => {
-  const made = Object.assign(document.createElement(name), about);
-  made.append(...inside);
-  return made;
-};
 
 async function start() {
   const [{ keepForLater, onProgress, startPython }, { createHost }] = await Promise.all([import("./loading.js"), import("./host.js")]);
@@ -42,8 +38,8 @@ class Live {
     const { title, controls } = JSON.parse(this.figure.about());
     this.controls = controls.map((about, at) => this.control(about, at));
     this.buttons = element("p", {},
-      this.button("Show me", () => this.figure.reset.callKwargs({ demonstrate: true })),
-      this.button("Reset", () => this.figure.reset.callKwargs({ demonstrate: false })));
+      button("Show me", () => this.figure.reset.callKwargs({ demonstrate: true })),
+      button("Reset", () => this.figure.reset.callKwargs({ demonstrate: false })));
     const panel = element("div", { className: "panel" }, ...this.controls.map((each) => each.label), this.buttons, this.numbers);
     panel.setAttribute("role", "group");
     panel.setAttribute("aria-label", title);
@@ -54,10 +50,6 @@ class Live {
     this.seen = true;
     this.last = performance.now();
     this.turn(this.last);
-  }
-
-  button(text, act) {
-    return element("button", { type: "button", textContent: text, onclick: act });
   }
 
   control({ text, span, options }, at) {

@@ -44,18 +44,10 @@ class Host {
     this.input.focus(!wanted);
   }
 
-  key(code, down) {
-    this.input.key(code, down);
-  }
-
-  // --- called by shim/pygame ---
+  // --- called by shim/pygame, as are the painter, the sounds and the input ---
 
   paint(address, count) {
     this.painter.paint(new Float64Array(this.memory.HEAPF64.buffer, address, count), this.patience);
-  }
-
-  events() {
-    return this.input.take();
   }
 
   ticks() {
@@ -66,10 +58,6 @@ class Host {
     const context = new OffscreenCanvas(1, 1).getContext("2d");
     context.font = `${0.62 * size}px sans-serif`;
     return Math.ceil(context.measureText(text).width);
-  }
-
-  letters(text) {
-    return this.painter.letters(text);
   }
 
   // A canvas of the painter, as a PNG in base 64.
@@ -84,10 +72,6 @@ class Host {
     if (done) done.catch(() => {});
   }
 
-  typing(wanted) {
-    this.input.typing = wanted;
-  }
-
   // Whether there is a clipboard.
   copy(text) {
     if (!navigator.clipboard) return false;
@@ -95,33 +79,9 @@ class Host {
     return true;
   }
 
-  pasted() {
-    return this.input.clipboard;
-  }
-
   sound(path) {
     const music = path.split("/sounds/music/")[1];
     return music ? this.sounds.fetch(`music/${music}`) : this.sounds.add(this.files.readFile(path));
-  }
-
-  length(sound) {
-    return this.sounds.length(sound);
-  }
-
-  play(channel, sound, loops, fadeMs) {
-    this.sounds.play(channel, sound, loops, fadeMs);
-  }
-
-  stop(channel, fadeMs) {
-    this.sounds.stop(channel, fadeMs);
-  }
-
-  volume(channel, left, right) {
-    this.sounds.volume(channel, left, right);
-  }
-
-  busy(channel) {
-    return this.sounds.busy(channel);
   }
 }
 

@@ -53,7 +53,7 @@ export class Input {
   listen(page = window) {
     const { canvas } = this;
     page.addEventListener("keydown", (event) => this.keyDown(event));
-    page.addEventListener("keyup", (event) => this.keyUp(event));
+    page.addEventListener("keyup", (event) => this.release(event.code, this.modifiers(event)));
     page.addEventListener("blur", () => this.focus(false));
     page.addEventListener("focus", () => this.focus(true));
     page.addEventListener("paste", (event) => (this.clipboard = event.clipboardData.getData("text")));
@@ -81,8 +81,6 @@ export class Input {
     return text;
   }
 
-  // --- keys ---
-
   modifiers(event) {
     return MODIFIERS.reduce((sum, [name, bit]) => sum + (event.getModifierState(name) ? bit : 0), 0);
   }
@@ -100,10 +98,6 @@ export class Input {
       this.post("KEYDOWN", { key, scancode, mod: this.modifiers(event), unicode: event.key.length === 1 ? event.key : "" });
     }
     if (this.typing && event.key.length === 1 && !event.ctrlKey && !event.metaKey) this.post("TEXTINPUT", { text: event.key });
-  }
-
-  keyUp(event) {
-    this.release(event.code, this.modifiers(event));
   }
 
   release(code, mod = 0) {
@@ -127,8 +121,6 @@ export class Input {
     if (!gained) for (const code of [...this.held.keys()]) this.release(code);
     this.post(gained ? "WINDOWFOCUSGAINED" : "WINDOWFOCUSLOST");
   }
-
-  // --- mouse ---
 
   place(event) {
     const box = this.canvas.getBoundingClientRect();
@@ -171,8 +163,6 @@ export class Input {
       this.post("DROPFILE", { file: path });
     }
   }
-
-  // --- gamepads ---
 
   addPad(pad) {
     const number = pad.mapping === "standard" ? pad.index : pad.index + PLAIN;

@@ -13,7 +13,7 @@ let received = 0;
 let furthest = 0;
 let step = [0, ""];
 
-// Told a share of the start, 0 to 100, and words for it, each time that one of them is another one.
+// `listener` gets the share of the start that is done (0 to 100) and words for it, at each change.
 export function onProgress(listener) {
   tell = listener;
   progress(2, "Loading the game");

@@ -107,8 +107,6 @@ export class Panel {
     });
   }
 
-  // --- the player's data ---
-
   save() {
     navigator.storage?.persist?.(); // asks the browser not to drop the data when it runs out of room
     const data = this.page.services.backup();
@@ -122,8 +120,6 @@ export class Panel {
     this.tell("Taken in", text);
     dialog.addEventListener("close", () => this.page.reload());
   }
-
-  // --- verdicts ---
 
   showVerify() {
     this.results = element("div", { id: "verdicts", role: "status" });

@@ -128,7 +128,7 @@ class Page {
       const meant = action === "jump" && this.state !== "play" ? "confirm" : action;
       this.keys[action] = MENU_KEYS[meant] ?? codeOf(this.services.scancodes(meant)[0]);
     }
-    if (this.keys[action]) this.host.key(this.keys[action], down);
+    if (this.keys[action]) this.host.input.key(this.keys[action], down);
   }
 
   // What the page itself shows follows what the game shows.

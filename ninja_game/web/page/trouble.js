@@ -3,7 +3,7 @@ import { build } from "./build.js";
 
 const dialog = document.getElementById("trouble");
 
-function element(name, properties, ...children) {
+export function element(name, properties, ...children) {
   const made = Object.assign(document.createElement(name), properties);
   made.append(...children);
   return made;
@@ -12,8 +12,6 @@ function element(name, properties, ...children) {
 export function button(label, action) {
   return element("button", { type: "button", textContent: label, onclick: action });
 }
-
-export { element };
 
 // What a Python error says, without where it came from.
 export function lastLine(error) {

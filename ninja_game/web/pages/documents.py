@@ -2,8 +2,8 @@
 
 Markdown stays what it is elsewhere too. A picture ``lab-NAME.png`` becomes the figure of that name, alive at a touch;
 a paragraph of links to functions that begins with "Code:" shows their sources; one that begins with **Answer.** opens
-at a click; Python marked "try" can be changed and run. What a link leads to and is not here (a wheel holds fewer
-documents than a checkout) becomes plain text.
+at a click; Python marked "try" can be changed and run. Links to files that are missing (a wheel holds fewer documents
+than a checkout) become plain text.
 """
 
 from __future__ import annotations
@@ -76,11 +76,12 @@ class Documents:
 
     def __init__(self, address: str = "") -> None:
         self._address_of_site = address
-        self._reader = MarkdownIt("commonmark", {"html": False, "highlight": _coloured}).enable("table")
+        self._reader = MarkdownIt("commonmark", {"html": False, "highlight": _highlighted}).enable("table")
         self._reader.add_render_rule("table_open", lambda *_: '<div class="wide words" tabindex="0"><table>')
         self._reader.add_render_rule("table_close", lambda *_: "</table></div>")
         self.markdown = {
-            name: _titled(self._reader.parse(path.read_text("utf-8")), name) for name, path in markdown_files().items()
+            name: _split_title(self._reader.parse(path.read_text("utf-8")), name)
+            for name, path in markdown_files().items()
         }
         self.files: dict[str, bytes] = {}
         self.searched: list[Markup] = []
@@ -117,14 +118,12 @@ class Documents:
             title, *contents, up=f"{up}docs/", links=links, current=up + name, figures=script, picture=picture
         ).encode()
 
-    # --- documents ---
-
     def _document(self, name: str) -> None:
         title, tokens = self.markdown[name]
         page_name = page_of(name)
-        headings = list(_anchored(tokens))
-        self._note(page_name, title, tokens)
-        figures = self._prepare(name, tokens)
+        headings = list(_add_anchors(tokens))
+        self._index_words(page_name, title, tokens)
+        figures = self._rewrite_links(name, tokens)
         top: list[Content] = []
         if page_name == HOME:
             top = [tag("p", tag("a", "Play now", href=GAME, class_="button"))]
@@ -143,7 +142,7 @@ class Documents:
         links = [tag("a", word + self.markdown[each][0], href=Path(page_of(each)).name) for word, each in near if each]
         return [tag("nav", *links, class_="near", aria_label="Chapters")]
 
-    def _note(self, page_name: str, title: str, tokens: list[Token]) -> None:
+    def _index_words(self, page_name: str, title: str, tokens: list[Token]) -> None:
         """Let a page be found by its words, each of its parts by itself."""
         parts: list[tuple[str, str, list[str]]] = [("", "", [])]
         for at, token in enumerate(tokens):
@@ -159,9 +158,7 @@ class Documents:
             # All words, past what ``tag`` lets through of a text.
             self.searched.append(Markup(entry.replace("<li", f'<li data-words="{escape(words.casefold())}"', 1)))
 
-    # --- what leads elsewhere ---
-
-    def _prepare(self, name: str, tokens: list[Token]) -> bool:
+    def _rewrite_links(self, name: str, tokens: list[Token]) -> bool:
         """Turn links, pictures and paragraphs into what they are in the site; whether a figure is among them."""
         found = False
         for at, token in enumerate(tokens):
@@ -178,7 +175,7 @@ class Documents:
                 elif child.type == "image":
                     found |= self._picture(child, name)
             if token.type == "inline" and tokens[at - 1].type == "paragraph_open":
-                _stands_for(tokens[at - 1], token, tokens[at + 1], sources, Path(name).parent)
+                _replace_paragraph(tokens[at - 1], token, tokens[at + 1], sources, Path(name).parent)
         return found
 
     def _address(self, link: str, name: str) -> str:
@@ -192,7 +189,7 @@ class Documents:
             return way + (anchor and f"#{anchor}")
         whole = PACKAGE.parent / path if path.startswith(PACKAGE.name) else data_folder("docs").parent / path
         if whole.suffix in (".png", ".gif", ".svg"):
-            return self._copied(whole, path, name)
+            return self._copy_picture(whole, path, name)
         if not whole.exists():
             return ""
         self._sources.add(path)
@@ -200,7 +197,7 @@ class Documents:
             anchor = f"L-{_definitions(whole.read_text('utf-8'))[anchor].lineno}"
         return way + (anchor and f"#{anchor}")
 
-    def _copied(self, whole: Path, path: str, name: str) -> str:
+    def _copy_picture(self, whole: Path, path: str, name: str) -> str:
         """The address of a picture, which comes along."""
         if not whole.is_file():
             return ""
@@ -227,7 +224,7 @@ class Documents:
             source = tag("source", srcset=STILL, media="(prefers-reduced-motion: reduce)")
             picture = tag("picture", source, tag("img", src=FILM, alt=alt, width=528, height=400))
         else:
-            address = self._copied(whole, path, name)
+            address = self._copy_picture(whole, path, name)
             picture = tag("img", src=address, alt=alt, loading="lazy") if address else joined(alt)
         image.type, image.content = "html_inline", picture
         return figure in FIGURES
@@ -238,8 +235,6 @@ class Documents:
         if name not in self.files:
             self.files[name] = png_of(figure_picture(figure, scale=2.0, palette=palette))
         return name
-
-    # --- sources ---
 
     def _source(self, name: str) -> None:
         path = (PACKAGE.parent if name.startswith(PACKAGE.name) else data_folder("docs").parent) / name
@@ -252,10 +247,10 @@ class Documents:
             self._write(page_of(name), name, [tag("ul", *rows)])
         else:
             text = path.read_text("utf-8")
-            self._write(page_of(name), name, [Markup(_coloured(text, f"/{name}"))])
+            self._write(page_of(name), name, [Markup(_highlighted(text, f"/{name}"))])
 
 
-def _titled(tokens: list[Token], name: str) -> tuple[str, list[Token]]:
+def _split_title(tokens: list[Token], name: str) -> tuple[str, list[Token]]:
     if tokens and tokens[0].type == "heading_open" and tokens[0].tag == "h1":
         return _plain(tokens[1]), tokens[3:]
     return Path(name).stem, tokens
@@ -268,7 +263,7 @@ def _plain(token: Token) -> str:
     return "".join(" " if each.type == "softbreak" else each.content for each in token.children or ())
 
 
-def _anchored(tokens: list[Token]) -> Iterator[tuple[str, str]]:
+def _add_anchors(tokens: list[Token]) -> Iterator[tuple[str, str]]:
     """Give the headings their anchors; those of the second rank with their texts. Equal ones get numbers."""
     used: dict[str, int] = {}
     for at, token in enumerate(tokens):
@@ -294,7 +289,9 @@ def _film(path: Path) -> dict[str, bytes]:
     return {FILM: film.getvalue(), STILL: still.getvalue()}
 
 
-def _stands_for(before: Token, token: Token, after: Token, links: Iterable[tuple[str, str]], folder: Path) -> None:
+def _replace_paragraph(
+    before: Token, token: Token, after: Token, links: Iterable[tuple[str, str]], folder: Path
+) -> None:
     """Turn a paragraph of sources or an answer into what opens at a click, and one of a picture into the picture.
 
     ``links``: those in it, as they are written, seen from ``folder``, and where they lead in the site.
@@ -325,10 +322,10 @@ def _function(folder: Path, link: str, address: str) -> Markup:
     node = _definitions(text)[name]
     lines = text.splitlines()[node.lineno - 1 : node.end_lineno]
     first = tag("p", tag("a", f"{source}, line {node.lineno}", href=address), class_="faint")
-    return joined(Markup(_coloured("\n".join(lines), "python")), first)
+    return joined(Markup(_highlighted("\n".join(lines), "python")), first)
 
 
-def _coloured(text: str, lang: str, about: str = "") -> str:
+def _highlighted(text: str, lang: str, about: str = "") -> str:
     """A piece of code as HTML, Python in colours; each line has an anchor where ``lang`` is a path.
 
     ``about``: what else a fence says; "try" adds what figures.js makes a program of the reader's of.

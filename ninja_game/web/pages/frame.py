@@ -9,8 +9,6 @@ from itertools import compress, repeat
 from pathlib import Path
 from typing import TypeAlias
 
-import pygame
-
 from ninja_game.errors import FileError
 from ninja_game.files.reading import stamp_of
 from ninja_game.files.shown_text import shown_text
@@ -91,16 +89,14 @@ NAVIGATION = (
 STYLE = "style.css"
 SCRIPT = "search.js"
 ICON = "icon.png"
-REPLAYS = "replays"
-"""The folder of a site with the replays that pages lead to."""
+REPLAYS = "replays"  # the folder of a site with the replays that pages lead to
 MARK = ".ninja-game-pages"  # a file in a folder of pages, which says that they may be replaced
 
 _INK_ROLES = (
     "background", "tile", "text", "on_tile", "panel", "panel_edge", "accent", "good", "bad", "gold", "gold_light",
     "ninja", "switch",
 )  # fmt: skip
-_FAINT = 0.35
-"""How far small text goes from the palette's ink to its faint one: enough contrast for small letters."""
+_FAINT = 0.35  # how far small text goes from the palette's ink to its faint one: enough contrast for small letters
 _FRAME = 0.4  # how much darker than a tile the frame round a page is: letters stand on it
 _ICON_SIZE = 64
 _LONGEST_HEADING = 30
@@ -176,15 +172,15 @@ def page(
     ``picture``: that of what shows the page where somebody names it, whole where the site's own is known; ``about``:
     what is said of it there.
     """
-    said = shown_text(about, LONGEST) or DESCRIPTION
-    shown = {"og:title": shown_text(title), "og:description": said, "og:type": "website", "og:image": picture}
+    description = shown_text(about, LONGEST) or DESCRIPTION
+    shown = {"og:title": shown_text(title), "og:description": description, "og:type": "website", "og:image": picture}
     head = tag(
         "head",
         tag("meta", charset="utf-8"),
         tag("meta", http_equiv="Content-Security-Policy", content=POLICY_OF_FIGURES if figures else POLICY),
         tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", name="referrer", content="no-referrer"),
-        tag("meta", name="description", content=said),
+        tag("meta", name="description", content=description),
         *(tag("meta", property=name, content=content) for name, content in shown.items() if content),
         tag("meta", name="twitter:card", content="summary_large_image") if picture else None,
         tag("title", f"{title} - ninja-game"),
@@ -194,8 +190,7 @@ def page(
         tag("script", src=figures, type="module") if figures else None,
     )
     entries = [
-        tag("li", tag("a", name, href=address, aria_current="page" if address == current else None))
-        for address, name in links
+        tag("li", tag("a", name, href=href, aria_current="page" if href == current else None)) for href, name in links
     ]
     body = tag(
         "body",
@@ -240,27 +235,9 @@ def _root(palette: Palette) -> str:
     inks["faint"] = mixed(palette.text, palette.faint, _FAINT)
     inks["link"] = mixed(palette.accent, palette.text, 0.25)
     inks["frame"] = mixed(palette.tile, palette.outline, _FRAME)
-    inks["on-accent"] = max(
-        (palette.background, palette.text, palette.on_tile), key=lambda ink: contrast(ink, palette.accent)
-    )
+    candidates = palette.background, palette.text, palette.on_tile
+    inks["on-accent"] = max(candidates, key=lambda ink: abs(sum(ink[:3]) - sum(palette.accent[:3])))
     return f":root {{ {' '.join(f'--{role}: #{ink.r:02x}{ink.g:02x}{ink.b:02x};' for role, ink in inks.items())} }}"
-
-
-def contrast(ink: pygame.Color, ground: pygame.Color) -> float:
-    """The contrast of two colours, 1 to 21 (WCAG 2.2, contrast ratio).
-
-    >>> round(contrast(pygame.Color("white"), pygame.Color("black")))
-    21
-    """
-    high, low = sorted((_luminance(ink), _luminance(ground)), reverse=True)
-    return (high + 0.05) / (low + 0.05)
-
-
-def _luminance(colour: pygame.Color) -> float:
-    """Relative luminance, 0 to 1 (WCAG 2.2)."""
-    parts = [part / 255 for part in (colour.r, colour.g, colour.b)]
-    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
 def definitions(pairs: Iterable[tuple[str, Content]]) -> Markup:

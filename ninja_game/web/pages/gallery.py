@@ -31,21 +31,8 @@ from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import Level, makes_object
 from ninja_game.ui.theme import CLASSIC
 from ninja_game.view.sprites.thumbnail import thumbnail
-from ninja_game.web.pages.frame import (
-    GAME,
-    HOME,
-    NAVIGATION,
-    REPLAYS,
-    Content,
-    Markup,
-    Pages,
-    definitions,
-    joined,
-    page,
-    section,
-    table,
-    tag,
-)
+from ninja_game.web.pages import frame
+from ninja_game.web.pages.frame import Content, Markup, Pages, definitions, joined, section, table, tag
 
 PICTURE_WIDTH = 792
 
@@ -159,7 +146,7 @@ def level_page(
     address of the folder of pages, where it is known; ``top``: what stands above; ``drawn``: instead of its picture.
     """
     runs = [
-        (tag("a", kind, href=f"../../{REPLAYS}/{stem}.html"), seconds_text(tick),
+        (tag("a", kind, href=f"../../{frame.REPLAYS}/{stem}.html"), seconds_text(tick),
          tag("a", "Watch", href=watch_address(game, stem)))
         for kind, (stem, tick) in certificates.items()
     ]  # fmt: skip
@@ -179,9 +166,9 @@ def level_page(
         section("Certificates", table("Runs that prove the level", ("Run", "Time", "Watch"), runs)) if runs else None,
         more,
     ]
-    said = ". ".join(f"{name}: {text}" for name, text in about)
+    summary = ". ".join(f"{name}: {text}" for name, text in about)
     picture = (site or UP) + picture_name(entry.digest)
-    return page(entry.title, *contents, up=UP, links=links, picture=picture, about=named.comment or said)
+    return frame.page(entry.title, *contents, up=UP, links=links, picture=picture, about=named.comment or summary)
 
 
 def run_page(
@@ -206,7 +193,7 @@ def run_page(
     shown = tag("div", drawn, tag("div", *leads, class_="about"), class_="level")
     about, picture = ". ".join(f"{name}: {text}" for name, text in facts), (site or place) + picture_name(entry.digest)
     links = [(normpath(place + address), name) for address, name in links]
-    return page(title, shown, up=place, links=links, picture=picture, about=about)
+    return frame.page(title, shown, up=place, links=links, picture=picture, about=about)
 
 
 MOST_POINTS = 400  # of a path that is drawn
@@ -278,11 +265,11 @@ def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Pa
     ``address``: where ``out`` will be, if that is known. Raises FileError where ``out/gallery`` holds something else.
     """
     pages = Pages(out, FOLDER)
-    whole = (out / HOME).is_file()
-    links = [(f"../{address}", title) for address, title in NAVIGATION] if whole else [(f"../{GAME}", "Play")]
+    whole = (out / frame.HOME).is_file()
+    links = [(f"../{address}", title) for address, title in (frame.NAVIGATION if whole else [(frame.GAME, "Play")])]
     if (out / BOARD / "index.html").is_file():
         links.append((f"../{BOARD}/index.html", "Board"))
-    write_levels(pages, shown, f"../{GAME}", "index.html", links, address and f"{address}{FOLDER}/")
+    write_levels(pages, shown, f"../{frame.GAME}", "index.html", links, address and f"{address}{FOLDER}/")
     return pages.folder / "index.html"
 
 
@@ -306,7 +293,7 @@ def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, lin
             run = run_page(entry, stem, title, facts, pages.folder.name, game, near, site)
             pages.write(f"{stem}.html", run, replay=True)
         pages.write(page_name(digest), level_page(entry, certificates, f"../{game}", deeper, site=site))
-    pages.write(name, page("Levels", *_list(shown), links=links))
+    pages.write(name, frame.page("Levels", *_list(shown), links=links))
     # Last of all: where the disk is full, the pages of an earlier time are all there.
     pages.clear("levels")
     pages.clear("pictures")

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -19,35 +18,24 @@ from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.pages.frame import GAME, MARK as PAGES_MARK, REPLAYS
 from ninja_game.web.pages.gallery import page_name, picture_name, published_levels
-from ninja_game.web.site.game_archive import (
-    compiled,
-    game_archive,
-    game_files,
-    library_files,
-    library_of,
-    licence_of,
-    pyodide_files,
-)
+from ninja_game.web.site import game_archive as archive
 
-MARK = "ninja-game-site.json"
-"""The file that tells a folder of ours, with the names of what was written into it."""
+MARK = "ninja-game-site.json"  # the file that tells a folder of ours, with the names of what was written into it
 
 ICONS = {"icons/64.png": (64, 1 / 6), "icons/192.png": (192, 1 / 6), "icons/512.png": (512, 1 / 6)}
-MASKABLE = "icons/maskable-512.png"
-"""An icon that systems cut to their own shape: nothing of it is in the corners."""
+MASKABLE = "icons/maskable-512.png"  # an icon that systems cut to their own shape: nothing of it is in the corners
 
 LARGE = ("pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "game.tar.gz")
 """What the page fetches with progress and keeps itself; the service worker keeps the rest."""
 
-TEMPLATES = (GAME, "sw.js")
-"""Files of the page that know the version; they lie above the folder of what has one."""
+TEMPLATES = (GAME, "sw.js")  # files of the page that know the version; they lie above the folder of what has one
 
 FOLDER = "app-folder"  # what templates and documents call the folder of the version
 
-_BESIDE_PAGES = ("style.css", "search.js", "icon.png")
+_OF_PAGES = ("style.css", "search.js", "icon.png")
 PAGES = (
     "index.html",
-    *(f"{folder}/{name}" for folder in ("docs", "gallery") for name in _BESIDE_PAGES),
+    *(f"{folder}/{name}" for folder in ("docs", "gallery") for name in _OF_PAGES),
     "gallery/index.html",
 )
 """What is kept for visits without a network beside the game, *Learn* and the gallery; others as they are visited."""
@@ -61,12 +49,14 @@ def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") 
     Raises FileError for a folder with other things in it, NinjaGameError where Pyodide cannot be had; OSError.
     """
     before = _own_files(out)
-    python = pyodide_files(pyodide, cache)
+    python = archive.pyodide_files(pyodide, cache)
     about = json.loads(python["pyodide-lock.json"])["info"]
-    library, game = compiled(library_files(python["python_stdlib.zip"]), dict(game_files()), python)
-    python["python_stdlib.zip"] = library_of(library)
+    library, game = archive.compiled(
+        archive.library_files(python["python_stdlib.zip"]), dict(archive.game_files()), python
+    )
+    python["python_stdlib.zip"] = archive.library_zip(library)
     app = {f"pyodide/{name}": content for name, content in python.items() if not name.endswith(".json")}
-    app |= {"game.tar.gz": game_archive(game)} | _page()
+    app |= {"game.tar.gz": archive.game_tar(game)} | _page()
     files = _stamped(app, _icons(), about, Documents(address).build(), address) | _licences() | _music()
     site = Tree(out)
     for name, content in files.items():
@@ -116,7 +106,7 @@ def _icons() -> dict[str, bytes]:
 
 def _licences() -> dict[str, bytes]:
     own = {path.name: path.read_bytes() for path in (PACKAGE / "web" / "licences").glob("*.txt")}
-    packages = {f"{name}.txt": licence_of(name).encode() for name in ("ninja-game", "tomlkit")}
+    packages = {f"{name}.txt": archive.licence_of(name).encode() for name in ("ninja-game", "tomlkit")}
     return {f"licences/{name}": content for name, content in (own | packages).items()}
 
 
@@ -134,7 +124,8 @@ def _stamped(
     Above it icons, the manifest, and what knows the version. ``about``: Pyodide's.
     """
     above = icons | {"manifest.webmanifest": json.dumps(_manifest(), indent=1).encode()}
-    known = _digest({**app, **above}.items())
+    parts = sorted((app | above).items())
+    known = archive.digest_of(b"".join(f"{name} {len(content)}\n".encode() + content for name, content in parts))[:16]
     folder = f"app-{known}"
     build = {"version": __version__, "id": known, "pyodide": about, "sizes": {name: len(app[name]) for name in LARGE}}
     templates = {name: app.pop(name) for name in TEMPLATES} | documents
@@ -157,13 +148,6 @@ def _stamped(
     for key, text in stamps.items():
         templates |= {name: content.replace(key.encode(), text.encode()) for name, content in templates.items()}
     return files | templates
-
-
-def _digest(files: Iterable[tuple[str, bytes]]) -> str:
-    whole = hashlib.sha256()
-    for name, content in sorted(files):
-        whole.update(f"{name} {len(content)}\n".encode() + content)
-    return whole.hexdigest()[:16]
 
 
 def _manifest() -> dict[str, object]:

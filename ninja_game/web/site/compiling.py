@@ -1,10 +1,9 @@
 """Runs in Pyodide: puts bytecode beside every Python file of the folders ``library`` and ``game``.
 
-Without docstrings, which nobody reads there; the library also without the tables of line numbers, so that its
-bytecode is no larger than its text. The bytecode is taken as it is, whatever its source's date.
+Without docstrings, which nobody reads there, and assertions; the library also without the tables of line numbers, so
+that its bytecode is no larger than its text. The bytecode is taken as it is, whatever its source's date.
 """
 
-import ast
 import marshal
 from importlib.util import MAGIC_NUMBER
 from pathlib import Path
@@ -19,17 +18,6 @@ UNCHECKED = MAGIC_NUMBER + (1).to_bytes(4, "little") + bytes(8)
 """Header of bytecode that is never compared with a source."""
 
 
-def without_docstrings(tree: ast.Module) -> ast.Module:
-    """A module without its docstrings; a body that was nothing else becomes ``pass``."""
-    for node in ast.walk(tree):
-        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)) and ast.get_docstring(
-            node, clean=False
-        ):
-            place = ast.Pass(lineno=node.body[0].lineno, col_offset=0, end_lineno=node.body[0].lineno, end_col_offset=0)
-            node.body[:1] = [] if len(node.body) > 1 else [place]
-    return tree
-
-
 def without_lines(code: CodeType) -> CodeType:
     """Code without line numbers: entries that say so, each for up to eight units of code."""
     inner = tuple(without_lines(each) if isinstance(each, CodeType) else each for each in code.co_consts)
@@ -40,10 +28,8 @@ def without_lines(code: CodeType) -> CodeType:
 def bytecode(path: Path, folder: str) -> bytes:
     """The content of a ``.pyc`` file."""
     name = path.relative_to(folder)
-    tree = ast.parse(path.read_bytes())
-    if name.parts[0] not in DOCUMENTED:
-        tree = without_docstrings(tree)
-    code = compile(tree, f"{PLACES[folder]}/{name}", "exec", dont_inherit=True, optimize=0)
+    optimize = 0 if name.parts[0] in DOCUMENTED else 2  # 2: without docstrings and assertions
+    code = compile(path.read_bytes(), f"{PLACES[folder]}/{name}", "exec", dont_inherit=True, optimize=optimize)
     return UNCHECKED + marshal.dumps(code if folder == "game" else without_lines(code))
 
 

@@ -14,9 +14,10 @@ import tarfile
 import tempfile
 from collections.abc import Iterator, Mapping
 from importlib.metadata import distribution
-from importlib.util import find_spec
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+import tomlkit
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import read_bytes
@@ -84,13 +85,13 @@ def _checked(folder: Path) -> dict[str, bytes]:
         try:
             files[name] = read_bytes(folder / name)
         except OSError as error:
-            raise NinjaGameError(f"{folder / name}: {error.strerror}; {_how(folder)}") from None
+            raise NinjaGameError(f"{folder / name}: {error.strerror}; {_hint(folder)}") from None
         if digest_of(files[name]) != digest:
-            raise NinjaGameError(f"{folder / name}: not the file of Pyodide {VERSION}; {_how(folder)}")
+            raise NinjaGameError(f"{folder / name}: not the file of Pyodide {VERSION}; {_hint(folder)}")
     return files
 
 
-def _how(folder: Path | None = None) -> str:
+def _hint(folder: Path | None = None) -> str:
     package = f"the npm package pyodide@{VERSION}"
     return f"expected the unpacked files of {package}" if folder else f"unpack {package} and give --pyodide FOLDER"
 
@@ -99,17 +100,17 @@ def _fetch(kept: Path) -> None:
     """Get the package by npm and unpack what is needed of it. Raises NinjaGameError."""
     npm = shutil.which("npm")
     if npm is None:
-        raise NinjaGameError(f"npm, which gets Pyodide, is not installed; install Node.js, or {_how()}")
+        raise NinjaGameError(f"npm, which gets Pyodide, is not installed; install Node.js, or {_hint()}")
     with tempfile.TemporaryDirectory() as scratch:
         words = [npm, "pack", f"pyodide@{VERSION}", "--silent", "--pack-destination", scratch]
         try:
             done = subprocess.run(words, cwd=scratch, capture_output=True, text=True, check=False, timeout=_NPM_WAIT)  # noqa: S603 - our own words
         except (OSError, subprocess.TimeoutExpired) as error:
-            raise NinjaGameError(f"npm could not get Pyodide ({error}); {_how()}") from None
+            raise NinjaGameError(f"npm could not get Pyodide ({error}); {_hint()}") from None
         packages = list(Path(scratch).glob("*.tgz"))
         if done.returncode or len(packages) != 1:
             last = (done.stderr.strip().splitlines() or ["no word of it"])[-1]
-            raise NinjaGameError(f"npm could not get Pyodide ({last}); {_how()}")
+            raise NinjaGameError(f"npm could not get Pyodide ({last}); {_hint()}")
         kept.mkdir(parents=True, exist_ok=True)
         with tarfile.open(packages[0]) as package:
             for name in DIGESTS:
@@ -130,7 +131,7 @@ def library_files(library: bytes) -> dict[str, bytes]:
     return files
 
 
-def library_of(files: Mapping[str, bytes]) -> bytes:
+def library_zip(files: Mapping[str, bytes]) -> bytes:
     """A library of these files; the same bytes for the same files."""
     out = io.BytesIO()
     with ZipFile(out, "w") as packed:
@@ -140,17 +141,14 @@ def library_of(files: Mapping[str, bytes]) -> bytes:
 
 
 LEFT_OUT = {
-    "package": (
-        "batch/", "cli/", "learn/", "search/", "tas/", "tas_editor/",
-        "web/board/", "web/page/", "web/pages/", "web/site/",
-    ),
+    "package": ("batch/", "cli/", "learn/", "search/", "tas", "web/board/", "web/page", "web/site/"),
     "levels": (),
     "assets": ("bench.", "generated.tsv.xz", "sounds/music/"),
-}  # fmt: skip
+}
 """What of the package and its data a page has no use for: how the names of such files begin."""
 
 
-def game_archive(files: Mapping[str, bytes]) -> bytes:
+def game_tar(files: Mapping[str, bytes]) -> bytes:
     """A compressed tar of files; the same bytes for the same files."""
     packed = io.BytesIO()
     with tarfile.open(fileobj=packed, mode="w", format=tarfile.USTAR_FORMAT) as archive:
@@ -174,15 +172,9 @@ def game_files() -> Iterator[tuple[str, bytes]]:
             name = path.relative_to(root).as_posix()
             if path.is_file() and path.suffix != ".md" and not name.startswith(LEFT_OUT[folder]):
                 yield f"ninja_game/data/{folder}/{name}", path.read_bytes()
-    for path in _package("tomlkit").rglob("*.py"):
-        yield f"tomlkit/{path.relative_to(_package('tomlkit')).as_posix()}", path.read_bytes()
-
-
-def _package(name: str) -> Path:
-    spec = find_spec(name)
-    assert spec is not None  # noqa: S101 - one of our requirements
-    assert spec.origin is not None  # noqa: S101 - likewise
-    return Path(spec.origin).parent
+    root = Path(tomlkit.__file__).parent
+    for path in root.rglob("*.py"):
+        yield f"tomlkit/{path.relative_to(root).as_posix()}", path.read_bytes()
 
 
 def licence_of(name: str) -> str:
@@ -217,8 +209,8 @@ def compiled(library: Files, game: Files, pyodide: Mapping[str, bytes]) -> tuple
         try:
             subprocess.run(words, capture_output=True, text=True, check=True, timeout=_WAIT)  # noqa: S603 - our own words
         except (OSError, subprocess.SubprocessError) as error:
-            said = str(getattr(error, "stderr", "") or error).strip().splitlines()[-1:]
-            raise NinjaGameError(f"node could not compile the game for the page: {''.join(said)}") from None
+            last_line = str(getattr(error, "stderr", "") or error).strip().splitlines()[-1:]
+            raise NinjaGameError(f"node could not compile the game for the page: {''.join(last_line)}") from None
         return _replaced(library, place / "work" / "library"), _replaced(game, place / "work" / "game")
 
 

@@ -74,7 +74,7 @@ def test_the_daily_level_is_made_once_played_and_in_the_list_of_levels(making: M
     making.press("return")
     assert isinstance(making.top(), LevelScreen)
     making.app.pop()
-    assert screen.entry.digest in {entry.digest for entry in making.player.catalogue.singles()}
+    assert screen.entry.digest in {entry.digest for entry in making.player.catalogue.single_levels()}
     making.press("escape")
     assert opened(making).entry is not None
     assert (screen.file.read_bytes(), screen.file.stat().st_mtime_ns) == before

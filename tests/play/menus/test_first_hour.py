@@ -521,7 +521,7 @@ def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) 
     last = next(k for k, each in enumerate(browser.shown) if each.place == "Episode 1.1, level 5")
     browser.play(last)
     context = driver.shown(LevelScreen).context
-    assert context.leads_on == any(not driver.player.lock_of(each) for each in browser.shown[last + 1 :])
+    assert context.has_next == any(not driver.player.lock_of(each) for each in browser.shown[last + 1 :])
 
 
 def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver: MenuDriver) -> None:

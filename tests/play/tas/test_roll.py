@@ -147,6 +147,9 @@ def test_markers_are_named_found_and_dropped(at: TasDriver) -> None:
     assert at.editor.track.markers == (Marker(40, "door"),)
     at.chord("z", CTRL)
     assert at.editor.cursor == 15, "undo shows the name that comes back"
+    at.editor.edit(lambda track: track.named(30, "the 'way'"))
+    at.screen.roll.edits._name(15, 'the "way"')
+    assert "moved here from tick 30" in at.app.notice, "quotes are written as others"
 
 
 def test_ticks_travel_as_text(at: TasDriver, clipboard: list[str]) -> None:

@@ -32,7 +32,7 @@ DEVICES = Devices()
 
 def pump() -> None:
     """Take what happened since the last time, and follow what is held."""
-    text = LINK.page.events()
+    text = LINK.page.input.take()
     if text != "[]":
         for name, fields in json.loads(text):
             tuples = {key: tuple(value) if isinstance(value, list) else value for key, value in fields.items()}

@@ -47,7 +47,7 @@ class Sound:
 
     def get_length(self) -> float:
         """Seconds; 0 until the page can play it."""
-        return float(LINK.page.length(self.number))
+        return float(LINK.page.sounds.length(self.number))
 
     def play(self) -> Channel | None:
         """Play it once on a free channel, which this gives."""
@@ -69,20 +69,17 @@ class Channel:
 
     def play(self, sound: Sound, loops: int = 0, fade_ms: int = 0) -> None:
         self.sound, self.endless = sound, loops < 0
-        LINK.page.play(self.number, sound.number, loops, fade_ms)
+        LINK.page.sounds.play(self.number, sound.number, loops, fade_ms)
 
     def fadeout(self, ms: int) -> None:
         self.sound = None
-        LINK.page.stop(self.number, ms)
+        LINK.page.sounds.stop(self.number, ms)
 
     def stop(self) -> None:
         self.fadeout(0)
 
     def get_busy(self) -> bool:
-        return self.sound is not None and (self.endless or bool(LINK.page.busy(self.number)))
-
-    def get_sound(self) -> Sound | None:
-        return self.sound
+        return self.sound is not None and (self.endless or bool(LINK.page.sounds.busy(self.number)))
 
     def set_volume(self, left: float, right: float | None = None) -> None:
-        LINK.page.volume(self.number, left, left if right is None else right)
+        LINK.page.sounds.volume(self.number, left, left if right is None else right)

@@ -25,7 +25,7 @@ def _window_size() -> tuple[int, int]:
 
 def _set_mode(size: Any = None, flags: int = 0) -> Surface:
     for old in _SCREENS:
-        old.forget()
+        old._number = 0  # it is no longer what the player sees
     _SCREENS[:] = [Surface.__new__(Surface)]
     _SCREENS[0].show(_window_size())
     return _SCREENS[0]
@@ -73,6 +73,10 @@ def _name(code: int) -> str:
     return chr(code) if 32 < code < 127 or 127 < code < 1 << 21 else ""
 
 
+def _type(wanted: bool) -> None:
+    LINK.page.input.typing = wanted
+
+
 class _Pad:
     def __init__(self, number: int) -> None:
         self._number = number
@@ -90,7 +94,7 @@ class _PlainPad(_Pad):
 
 key = SimpleNamespace(
     get_pressed=lambda: DEVICES.keys, get_mods=lambda: DEVICES.modifiers, name=_name,
-    start_text_input=lambda: LINK.page.typing(True), stop_text_input=lambda: LINK.page.typing(False),
+    start_text_input=lambda: _type(True), stop_text_input=lambda: _type(False),
 )  # fmt: skip
 mouse = SimpleNamespace(get_pos=lambda: DEVICES.mouse, set_cursor=lambda _: None)
 # The page keeps the pace itself.
@@ -114,7 +118,7 @@ class _Font:
     def render(self, text: str, antialias: bool, color: Any) -> Surface:
         picture = Surface(self.size(text), SRCALPHA)
         picture.settle()
-        picture.entries().extend((TEXT, packed(color), LINK.page.letters(text), self._size, picture.h))
+        picture.entries().extend((TEXT, packed(color), LINK.page.painter.letters(text), self._size, picture.h))
         return picture
 
 
@@ -131,5 +135,5 @@ def _put_text(text: str) -> None:
 
 font = SimpleNamespace(init=_nothing, get_init=lambda: True, Font=_Font)
 image = SimpleNamespace(save=_save)
-scrap = SimpleNamespace(put_text=_put_text, get_text=lambda: str(LINK.page.pasted()))
+scrap = SimpleNamespace(put_text=_put_text, get_text=lambda: str(LINK.page.input.clipboard))
 transform = SimpleNamespace(smoothscale=lambda surface, size: surface.scaled(size))

@@ -78,8 +78,6 @@ class Surface:
         if self._number:
             LIST.free(self._number)
 
-    # --- the display list ---
-
     def show(self, size: tuple[int, int]) -> None:
         """Be the picture that the player sees."""
         self.w, self.h = size
@@ -88,10 +86,6 @@ class Surface:
         self._bounds = self._painted = (0, 0, *size)
         self._number = LIST.target = SCREEN
         LIST.numbers.extend((CANVAS, SCREEN, *size, 1))
-
-    def forget(self) -> None:
-        """No longer be the picture that the player sees."""
-        self._number = 0
 
     def settle(self) -> int:
         """Become a canvas; its number."""
@@ -114,8 +108,6 @@ class Surface:
                 numbers.extend((CLIP, *self.get_clip()))
             self._painted = self._bounds
         return numbers
-
-    # --- what it is ---
 
     def get_size(self) -> tuple[int, int]:
         return self.w, self.h
