@@ -24,12 +24,12 @@ from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
+from ninja_game.backend.code_digest import OPTIONS, code_digest
 from ninja_game.backend.numba_import import say_once
 from ninja_game.errors import FileError
 from ninja_game.files.locking import LOCK_SUFFIX, hold
 from ninja_game.files.reading import open_regular
 from ninja_game.files.user_folder import PACKAGE, cache_folder, chosen_folder
-from ninja_game.sim.memory.code_digest import OPTIONS, code_digest
 
 SHIPPED = PACKAGE / "data" / "kernels"  # machine code that came with the installation; a checkout has none
 

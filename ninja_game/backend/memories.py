@@ -24,6 +24,9 @@ from importlib.util import find_spec
 from threading import Lock
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from ninja_game.backend.kernels import kill_ninja, load_world, observe_object, run_world, step_world, trace_world
+from ninja_game.backend.plain import PlainWorlds
+from ninja_game.backend.worlds import MemoryName, Worlds
 from ninja_game.budget import NO_LIMIT, PAGE_TICK_COST, PLAIN_WORK, tick_cost
 from ninja_game.errors import ArgumentError, LevelError, NinjaGameError
 from ninja_game.files.user_folder import how_to_install
@@ -31,12 +34,9 @@ from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.inputs import MAX_TICKS, with_press_bits
 from ninja_game.sim.level import TILES, Level, ObjectSpec
-from ninja_game.sim.memory.interface import MemoryName, Worlds
-from ninja_game.sim.memory.kernels import kill_ninja, load_world, observe_object, run_world, step_world, trace_world
-from ninja_game.sim.memory.plain import PlainWorlds
 
 if TYPE_CHECKING:
-    from ninja_game.sim.memory.compiler import Compiler
+    from ninja_game.backend.compiler import Compiler
 
 R = TypeVar("R")
 
@@ -123,7 +123,7 @@ def open_worlds(
         memory = Plan("plain" if begins else _usable_memory(memory), "compiled", checked=False)
     if memory.first == "plain":
         return PlainWorlds(several, count, box=box)
-    from ninja_game.sim.memory.compiled import CompiledWorlds
+    from ninja_game.backend.compiled import CompiledWorlds
 
     return CompiledWorlds(partial(compiled, checked=memory.checked), several, count, box=box)
 
@@ -172,7 +172,7 @@ def go_on(worlds: Worlds, memory: str | Plan, ticks: int) -> Worlds:
     compiling = not _are_there(checked=plan.checked) and background_compiler.is_at_work()
     if compiling or _usable_memory("auto", checked=plan.checked) == "plain":
         return worlds
-    from ninja_game.sim.memory.compiled import compiled_copy
+    from ninja_game.backend.compiled import compiled_copy
 
     return compiled_copy(partial(compiled, checked=plan.checked), worlds)
 
@@ -222,7 +222,7 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
         with _LOCK:
             make = _compiler(checked)
             if entry is load_world and (entry, checked) not in _KERNELS:
-                from ninja_game.sim.memory.compiled import CompiledWorlds
+                from ninja_game.backend.compiled import CompiledWorlds
 
                 try:
                     check_self_test(lambda level, box: CompiledWorlds(make, [level], box=box), "compiled")
@@ -253,7 +253,7 @@ def _compiler(checked: bool) -> Compiler:
 
     try:
         numba = import_numba()
-        from ninja_game.sim.memory.compiler import Compiler
+        from ninja_game.backend.compiler import Compiler
 
         return Compiler(numba, checked=checked, attach_cache=attach_cache, pipeline=make_pipeline())
     except Exception as error:

@@ -26,6 +26,8 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ninja_game.backend.compiled import SLICE
+from ninja_game.backend.layout import Records
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
@@ -33,9 +35,7 @@ from ninja_game.sim.digest import state_digest, world_digest
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, JUMP_PRESSED, KEYS_DOWN
 from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.compiled import SLICE
 from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.layout import Records
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.simulation import Body, is_box

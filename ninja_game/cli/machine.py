@@ -181,8 +181,8 @@ def compile_everything(processes: int, *, quiet: bool) -> None:
     Raises NinjaGameError where nothing is kept.
     """
     from ninja_game.backend.kernel_cache import are_kept, code_folder
+    from ninja_game.backend.kernels import run_world
     from ninja_game.runs.workers import in_order, workers
-    from ninja_game.sim.memory.kernels import run_world
 
     began = time.monotonic()
     with workers(processes, processes=processes > 1) as pool:

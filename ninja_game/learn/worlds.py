@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import open_worlds
+from ninja_game.backend.plain import save_plain
 from ninja_game.batch.batch import Indices, WorldChoice, numbers_of
 from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
@@ -36,7 +37,6 @@ from ninja_game.sim.digest import world_digest
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, MINE_EXPLODED
 from ninja_game.sim.inputs import pressed
 from ninja_game.sim.memory.declare import entry_point
-from ninja_game.sim.memory.plain import save_plain
 from ninja_game.sim.memory.schema import MAX_EVENTS, World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT

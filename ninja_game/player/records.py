@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from functools import lru_cache
 from typing import NamedTuple, get_type_hints
 
+from ninja_game.backend.worlds import BODIES
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.object_lines import WEAPONS
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
@@ -17,7 +18,6 @@ from ninja_game.formats.run_time import level_score
 from ninja_game.player.store import Store
 from ninja_game.sim.events import DIED
 from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
-from ninja_game.sim.memory.interface import BODIES
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import NO_CAUSE
 

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, SupportsIndex, TypeVar, cast
 
 from ninja_game.backend.memories import PLAIN, Plan, go_on, open_worlds
+from ninja_game.backend.worlds import RunRecord
 from ninja_game.budget import PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
@@ -26,7 +27,6 @@ from ninja_game.formats.run_time import level_score
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.inputs import ALL_KEYS, check_inputs, fitted_inputs
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import RunRecord
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
 from ninja_game.simulation import Body, is_box

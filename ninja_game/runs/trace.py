@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import go_on, open_worlds
+from ninja_game.backend.worlds import TRACED_NUMBERS, TRACED_PLACES, TraceRecord
 from ninja_game.budget import NO_LIMIT, PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.recording import Recording
@@ -25,7 +26,6 @@ from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import MAX_TICKS, check_inputs
 from ninja_game.sim.kinds import KIND_NAMES, KIND_OF
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, TraceRecord
 from ninja_game.sim.memory.schema import MAX_EVENTS
 from ninja_game.simulation import Body, is_box
 

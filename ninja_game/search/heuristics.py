@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.layout import Records
 from ninja_game.backend.memories import compiled_if_possible
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, fast
-from ninja_game.sim.memory.layout import Records
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import AUTOMATIC, LOCKED

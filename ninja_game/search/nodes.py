@@ -14,12 +14,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.compiled import load_worlds
+from ninja_game.backend.layout import STATE_START, Records, dtype_of, new_worlds, used_bytes
 from ninja_game.backend.memories import compiled
 from ninja_game.search.heuristics import UNREACHED
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.compiled import load_worlds
 from ninja_game.sim.memory.declare import entry_point, f4, fast, i4, i8, struct, struct_base
-from ninja_game.sim.memory.layout import STATE_START, Records, dtype_of, new_worlds, used_bytes
 
 StateWords = NDArray[np.int64]
 Int32s = NDArray[np.int32]

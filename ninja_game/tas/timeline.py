@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import go_on, open_worlds
+from ninja_game.backend.worlds import TRACED_NUMBERS, TRACED_PLACES, MemoryName
 from ninja_game.budget import tick_cost
 from ninja_game.errors import FormatError
 from ninja_game.runs.save_states import SaveStates
@@ -19,7 +20,6 @@ from ninja_game.search.formula.names import FACTS, NAMES, flag_field, id_of, nin
 from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, MemoryName
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
 from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.simulation import Body, SaveState, is_box

@@ -48,7 +48,7 @@ def open_tas_editor(app: App, recording: Recording, others: Sequence[Recording],
 
 
 def is_prepared() -> bool:
-    from ninja_game.sim.memory.kernels import trace_world
+    from ninja_game.backend.kernels import trace_world
 
     return not compiled_available() or is_compiled(trace_world) or begins_plain()
 

@@ -11,7 +11,9 @@ from typing import Any, ClassVar
 import pytest
 
 from ninja_game.backend import background_compiler, memories
+from ninja_game.backend.compiled import compiled_copy
 from ninja_game.backend.kernel_cache import are_kept, code_folder
+from ninja_game.backend.kernels import run_world
 from ninja_game.backend.memories import (
     _OBJECTS,
     CHECKED,
@@ -31,8 +33,6 @@ from ninja_game.runs.trace import trace_level
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.digest import differences
 from ninja_game.sim.level import TILES, Level, ObjectSpec
-from ninja_game.sim.memory.compiled import compiled_copy
-from ninja_game.sim.memory.kernels import run_world
 from ninja_game.simulation import Simulation
 from ninja_game.tas.timeline import Timeline
 from tests.support.own_pack import PACK

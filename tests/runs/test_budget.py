@@ -15,6 +15,7 @@ from click.testing import CliRunner, Result
 from ninja_game import run_level
 from ninja_game.backend import memories
 from ninja_game.backend.memories import open_worlds
+from ninja_game.backend.worlds import Worlds
 from ninja_game.budget import PAGE_BUDGET, PAGE_TICK_COST, RUN_BUDGET, TURN_WORK, affordable_ticks, tick_cost
 from ninja_game.cli.main import cli
 from ninja_game.errors import BudgetError, LevelError
@@ -33,7 +34,6 @@ from ninja_game.search.certificate import named_run, save_replay, verified_run
 from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo
 from ninja_game.sim.kinds import NO_KIND
 from ninja_game.sim.level import Level, ObjectSpec
-from ninja_game.sim.memory.interface import Worlds
 from ninja_game.simulation import Simulation
 from ninja_game.web.services import PageServices
 from tests.support.heavy import heavy_level

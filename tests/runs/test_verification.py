@@ -454,7 +454,7 @@ def test_a_run_that_leaves_its_world_is_refused_by_name_and_stops_nothing(
         table = record_table(level)
         return table._replace(counts=[]) if any(values[1] == 301.0 for values in table.values) else table
 
-    monkeypatch.setattr("ninja_game.sim.memory.compiled.record_table", broken)
+    monkeypatch.setattr("ninja_game.backend.compiled.record_table", broken)
     away = WALK + "!0^115,301"
     runs = ("Walk", WALK, running(WALK_END)), ("Away", away, running(WALK_END)), ("Walk", WALK, running(WALK_END))
     path = write_records(tmp_path / "a.txt", *runs)

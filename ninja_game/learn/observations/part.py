@@ -15,12 +15,12 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
+from ninja_game.backend.plain import PlainWorlds, load_plain
+from ninja_game.backend.worlds import Worlds
 from ninja_game.batch.batch import Indices
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.interface import Worlds
-from ninja_game.sim.memory.plain import PlainWorlds, load_plain
 from ninja_game.sim.memory.schema import World
 
 Array = NDArray[Any]
@@ -198,8 +198,8 @@ def put_levels(worlds: Worlds, places: Indices, levels: Sequence[Level]) -> None
             worlds.maps[place], worlds.fresh[place] = load_plain(level, worlds.box)
             worlds.worlds[place] = load_plain(level, worlds.box)[1]
         return
-    from ninja_game.sim.memory.compiled import load_worlds
-    from ninja_game.sim.memory.layout import bytes_of
+    from ninja_game.backend.compiled import load_worlds
+    from ninja_game.backend.layout import bytes_of
 
     worlds.maps[places], fresh = load_worlds(worlds.kernel, levels, box=worlds.box)
     states, every = bytes_of(fresh), bytes_of(worlds.worlds)

@@ -10,10 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.sim.level import Level
-from ninja_game.sim.loader import RecordTable, grid_tiles, record_table
-from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.interface import (
+from ninja_game.backend.kernels import (
+    kill_ninja,
+    load_world,
+    observe_object,
+    run_world,
+    run_worlds,
+    step_world,
+    trace_world,
+)
+from ninja_game.backend.layout import TILE_MAP, Records, bytes_of, new_worlds, plain_copy, write_plain
+from ninja_game.backend.worlds import (
     TRACED_NUMBERS,
     TRACED_PLACES,
     Kernel,
@@ -23,16 +30,9 @@ from ninja_game.sim.memory.interface import (
     TraceRecord,
     Worlds,
 )
-from ninja_game.sim.memory.kernels import (
-    kill_ninja,
-    load_world,
-    observe_object,
-    run_world,
-    run_worlds,
-    step_world,
-    trace_world,
-)
-from ninja_game.sim.memory.layout import TILE_MAP, Records, bytes_of, new_worlds, plain_copy, write_plain
+from ninja_game.sim.level import Level
+from ninja_game.sim.loader import RecordTable, grid_tiles, record_table
+from ninja_game.sim.memory.declare import fields_of
 from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, World
 
 Compile = Callable[[Callable[..., Any]], Callable[..., Any]]

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ninja_game.sim.memory.code_digest import OPTIONS
+from ninja_game.backend.code_digest import OPTIONS
 from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED
 
 R = TypeVar("R")

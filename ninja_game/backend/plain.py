@@ -7,10 +7,8 @@ from collections.abc import Iterable, Sequence
 from functools import cached_property, partial
 from typing import Any
 
-from ninja_game.sim.level import Level
-from ninja_game.sim.loader import grid_tiles, record_table
-from ninja_game.sim.memory.declare import fields_of, getter_of, scalars_of, setter_of
-from ninja_game.sim.memory.interface import (
+from ninja_game.backend.kernels import kill_ninja, load_world, observe_object, run_world, run_worlds, trace_world
+from ninja_game.backend.worlds import (
     TRACED_NUMBERS,
     TRACED_PLACES,
     Kernel,
@@ -20,7 +18,9 @@ from ninja_game.sim.memory.interface import (
     TraceRecord,
     Worlds,
 )
-from ninja_game.sim.memory.kernels import kill_ninja, load_world, observe_object, run_world, run_worlds, trace_world
+from ninja_game.sim.level import Level
+from ninja_game.sim.loader import grid_tiles, record_table
+from ninja_game.sim.memory.declare import fields_of, getter_of, scalars_of, setter_of
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, TileMap, World
 from ninja_game.sim.world import step
@@ -108,7 +108,7 @@ class PlainWorlds(Worlds):
 
     @cached_property
     def records(self) -> Any:
-        from ninja_game.sim.memory.layout import new_worlds
+        from ninja_game.backend.layout import new_worlds
 
         self._shown = new_worlds(self.count, self.slots)
         for index in range(self.count):
@@ -117,14 +117,14 @@ class PlainWorlds(Worlds):
 
     @cached_property
     def states(self) -> Any:
-        from ninja_game.sim.memory.layout import bytes_of
+        from ninja_game.backend.layout import bytes_of
 
         return bytes_of(self.records)
 
     def _show(self, index: int) -> None:
         """Copy a world into its record, once somebody looks at those."""
         if self._shown is not None:
-            from ninja_game.sim.memory.layout import write_plain
+            from ninja_game.backend.layout import write_plain
 
             write_plain(self.worlds[index], self._shown, index)
 

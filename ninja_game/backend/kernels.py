@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from ninja_game.backend.worlds import TRACED_NUMBERS, TRACED_PLACES
 from ninja_game.sim.arithmetic import canonical
 from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.death import kill
 from ninja_game.sim.loader import populate
 from ninja_game.sim.memory.declare import entry_point
-from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES
 from ninja_game.sim.memory.schema import MAX_EVENTS, TileMap, World
 from ninja_game.sim.traces import is_switched, place_of, status_of
 from ninja_game.sim.world import step
