@@ -29,7 +29,7 @@ from ninja_game.backend.worlds import BODIES, Body, MemoryName
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import differences, replay_digest, world_digest
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
+from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bit
 from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.schema import Event, TileMap, World
@@ -157,7 +157,7 @@ class Simulation:
     def step(self, *, left: bool = False, right: bool = False, jump: bool = False) -> None:
         """Advance one tick with these keys down. The jump triggers in the first sampled tick in which it is down."""
         down = (KEY_LEFT if left else 0) + (KEY_RIGHT if right else 0) + (JUMP_HELD if jump else 0)
-        self.step_keys(pressed(down, self._worlds.jump_held()) if jump else down)
+        self.step_keys(with_press_bit(down, self._worlds.jump_held()) if jump else down)
 
     def step_keys(self, keys: int) -> None:
         """Advance one tick with these keys, a sum of ``Input`` flags. Raises ArgumentError for anything else."""

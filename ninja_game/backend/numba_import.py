@@ -58,7 +58,7 @@ class _ConfigFinder:
 
 
 @cache
-def say_once(message: str) -> None:
+def warn_once(message: str) -> None:
     """Write a line on stderr, the first time only."""
     sys.stderr.write(f"ninja-game: {message}\n")
 

@@ -131,8 +131,8 @@ class Batch:
         self.ticks: NDArray[np.int32] = self.records["tick"]
         self.used: NDArray[np.int32] = self.records["slots_used"]
         objects = self.records["objects"]
-        room = (self.records.strides[0] - (objects.ctypes.data - self.records.ctypes.data)) // objects.strides[1]
-        self.objects: Records = objects[:, :room]
+        capacity = (self.records.strides[0] - (objects.ctypes.data - self.records.ctypes.data)) // objects.strides[1]
+        self.objects: Records = objects[:, :capacity]
         self.places = pairs(self.objects["x"])
 
     def velocities(self) -> NDArray[np.float64]:
@@ -174,7 +174,7 @@ class Batch:
         at_once = max(1, 8 * SLICE // (worlds.slots * self.count))
         for begin in range(0, len(keys), at_once):
             part = keys[begin : begin + at_once]
-            work = partial(worlds.run_rows, part, stop=stop)
+            work = partial(worlds.run_batch, part, stop=stop)
             ticks += pool.share(work, self.count, len(part))
         return ticks
 
@@ -234,21 +234,21 @@ class Batch:
         return self.levels, self.body, self.memory
 
 
-def numbers_of(which: WorldChoice, count: int, what: str) -> Indices:
+def numbers_of(choice: WorldChoice, count: int, what: str) -> Indices:
     """Chosen indices below ``count``, intp. Raises ArgumentError for an invalid choice."""
     everyone = np.arange(count, dtype=np.intp)
-    if which is None:
+    if choice is None:
         return everyone
-    if isinstance(which, slice):
-        return everyone[which]
-    chosen = np.asarray(which)
+    if isinstance(choice, slice):
+        return everyone[choice]
+    chosen = np.asarray(choice)
     if chosen.dtype == np.bool_:
         if chosen.shape != (count,):
             raise ArgumentError(f"{what} are chosen by {chosen.size} truth values; expected {count}, one for each")
         return np.flatnonzero(chosen)
     if chosen.ndim > 1 or not (np.issubdtype(chosen.dtype, np.integer) or not chosen.size):
         expected = "numbers, a slice, or a truth value for each"
-        raise ArgumentError(f"{what} are chosen by {which!r:.40}; expected {expected}")
+        raise ArgumentError(f"{what} are chosen by {choice!r:.40}; expected {expected}")
     if chosen.size and not -count <= chosen.min() <= chosen.max() < count:
         raise ArgumentError(f"{what} are {chosen.min()} to {chosen.max()}; expected numbers below {count}")
     return np.atleast_1d(everyone[chosen.astype(np.intp)])

@@ -94,11 +94,11 @@ def check(
     from ninja_game.cli.commands import BAD_INPUT, FAILED
     from ninja_game.cli.terminal import complain
     from ninja_game.formats.load import load_levels
-    from ninja_game.search.certify import Wanted, certify_all
+    from ninja_game.search.certify import CertifyOptions, certify_all
 
     chosen = [level for path in levels for level in load_levels(path)]
     kept = list(_files(chosen, goals, replays))
-    wanted = Wanted(goals, task_options, improve)
+    wanted = CertifyOptions(goals, task_options, improve)
     tally = _Tally()
     with options.progress_line() as report:
         results = certify_all(chosen, kept, wanted, jobs=jobs or cores(), report=report.of_level)

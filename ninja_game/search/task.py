@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from threading import Event, Lock
 
 from ninja_game.formats.replay.text import Replay
-from ninja_game.levels.findings import Finding, found
+from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.levels.warnings import object_name
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.nodes import Resolution
@@ -73,13 +73,13 @@ class Task:
 
 def obstacle(level: Level, gold: int, progress: Progress) -> Finding:
     """What kept a search from a run to the exit with so much gold, and where that is."""
-    numbers = [number for number, record in enumerate(level.objects) if makes_object(record)]
+    numbers = [number for number, spec in enumerate(level.objects) if makes_object(spec)]
 
     def at(code: str, ids: Iterable[int]) -> Finding:
         names = [object_name(level.objects[numbers[id_]], id_) for id_ in ids]
         never = f"never {', '.join(names)}" if names else "each piece now and then"
         records = tuple(numbers[id_] for id_ in ids) or tuple(n for n in numbers if level.objects[n].kind == GOLD)
-        finding = found(code, records, most=progress.gold, never=never)
+        finding = level_finding(code, records, most=progress.gold, never=never)
         return finding if code == "gold-left" else finding._replace(names=", ".join(names))
 
     if gold > progress.gold and progress.untaken is not None:
@@ -119,7 +119,7 @@ class SharedProgress:
             if inputs not in self.runs:
                 self.runs = sorted([*self.runs, inputs], key=lambda run: (len(run), run))[:CANDIDATES]
 
-    def note_left(self, untouched: list[int], most: int = 0, untaken: list[int] | None = None) -> None:
+    def note_unreached(self, untouched: list[int], most: int = 0, untaken: list[int] | None = None) -> None:
         """Note what a search never came to: switches, gold; the most pieces at once."""
         with self.lock:
             progress = self.progress

@@ -12,7 +12,7 @@ from types import FunctionType
 import pytest
 
 from ninja_game.backend import memories
-from ninja_game.backend.kernel_cache import KEPT_FILES, code_folder, forget_old_code
+from ninja_game.backend.kernel_cache import MAX_KERNELS, code_folder, evict_old_kernels
 from ninja_game.backend.kernels import step_world
 from ninja_game.backend.memories import MemoryUnavailableError, choose_memory
 from ninja_game.errors import ArgumentError, FileError
@@ -224,16 +224,16 @@ def test_machine_code_is_another_if_a_named_tuple_has_its_fields_in_another_orde
 
 def test_only_the_newest_files_are_kept(tmp_path: Path) -> None:
     kernel = f"run_world-{'0' * 32}-{{:016}}.code"
-    for age in range(KEPT_FILES + 3):
+    for age in range(MAX_KERNELS + 3):
         (tmp_path / kernel.format(age)).touch()
         os.utime(tmp_path / kernel.format(age), (1_000_000 - age, 1_000_000 - age))
     (tmp_path / "notes.code").touch()
     os.utime(tmp_path / "notes.code", (0, 0))
     (tmp_path / kernel.format(999)).symlink_to(tmp_path / "nothing")
-    forget_old_code(tmp_path)
-    kept = {kernel.format(age) for age in (*range(KEPT_FILES), 999)}
+    evict_old_kernels(tmp_path)
+    kept = {kernel.format(age) for age in (*range(MAX_KERNELS), 999)}
     assert {path.name for path in tmp_path.iterdir()} == kept | {"notes.code"}
-    forget_old_code(tmp_path / "nothing")
+    evict_old_kernels(tmp_path / "nothing")
 
 
 @needs_numba

@@ -18,7 +18,7 @@ from ninja_game.runs.run import record_replay
 from ninja_game.search.formula import background
 from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.language import FormulaError
-from ninja_game.search.formula.task import Found, SpanTask
+from ninja_game.search.formula.task import SpanResult, SpanTask
 from ninja_game.search.task import Task
 from tests.support.waiting import LONGEST
 
@@ -32,7 +32,7 @@ def task(**changes: object) -> SpanTask:
     return SpanTask(LEVEL, WAITING, **given)
 
 
-def until_found(search: SpanSearch) -> Found:
+def until_found(search: SpanSearch) -> SpanResult:
     deadline = time.monotonic() + LONGEST
     while not search.found:
         assert time.monotonic() < deadline
@@ -88,9 +88,9 @@ def test_what_cannot_be_searched_is_said() -> None:
 def test_it_is_over_at_once_where_it_is_cancelled_while_kernels_are_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
     compiled, asked = Event(), Event()
 
-    def slow(_: SpanTask, report: Callable[[int, tuple[Found, ...]], bool], **__: object) -> None:
+    def slow(_: SpanTask, report: Callable[[int, tuple[SpanResult, ...]], bool], **__: object) -> None:
         assert compiled.wait(60.0)
-        assert not report(1, (Found(1.0, 1, np.zeros(1, np.uint8)),))
+        assert not report(1, (SpanResult(1.0, 1, np.zeros(1, np.uint8)),))
         asked.set()
 
     monkeypatch.setattr(background, "search_span", slow)

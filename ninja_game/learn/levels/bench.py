@@ -29,7 +29,7 @@ from ninja_game.files.reading import read_bytes
 from ninja_game.files.user_folder import data_folder
 from ninja_game.generator.packed import FROZEN, MOST_BYTES, frozen_level
 from ninja_game.learn.levels.source import LevelSource, draws
-from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, pressed
+from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, with_press_bit
 from ninja_game.sim.kinds import EXIT, GOLD, KIND_OF, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.states import SKIDDING
@@ -112,7 +112,7 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
         held, delay = int(drawn[6] * 8), int(drawn[7] * DELAY)
         more, longer = (bytes([keys[k] & KEYS_DOWN]) for k in (held, -1))
         keys = keys[:held] + more * delay + keys[held:] + longer * DELAY
-        keys = bytes([pressed(keys[0], 0)]) + keys[1:]
+        keys = bytes([with_press_bit(keys[0], 0)]) + keys[1:]
     return BenchLevel(f"bench-{split}-{number}", grade, Level(base.level.tiles, tuple(objects)), keys)
 
 

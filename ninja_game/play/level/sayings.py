@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import hypot
 
-from ninja_game.formats.sayings import NEAR, Saying, named_things
+from ninja_game.formats.messages import NEAR, LevelMessage, arrow_targets
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
@@ -58,15 +58,15 @@ class Sayings:
 
     Several of one moment are said one after the other; what happens meanwhile is said first. ``text``: what is to be
     read now, or "", ``place``: near which place, px. ``helps``: the game itself says what helps too: to try again, to
-    climb. ``named``: the things with a name and an arrow (``named_things``).
+    climb. ``named``: the things with a name and an arrow (``arrow_targets``).
     """
 
-    def __init__(self, sayings: Sequence[Saying], *, helps: bool = False) -> None:
+    def __init__(self, sayings: Sequence[LevelMessage], *, helps: bool = False) -> None:
         self._sayings = sayings
-        self.named = named_things(each.text for each in sayings)
+        self.named = arrow_targets(each.text for each in sayings)
         self.helps = helps
         self._again = helps
-        self._said: set[Saying] = set()
+        self._said: set[LevelMessage] = set()
         self._deaths = self._slips = 0
         self._climb, self._foot = "", 0.0
         self._began = 0.0, 0.0
@@ -82,7 +82,7 @@ class Sayings:
     def _say(self, *texts: _Text) -> None:
         (self.text, self._left, self.place), *self._next = texts or (_NOTHING,)
 
-    def _starts(self) -> list[Saying]:
+    def _starts(self) -> list[LevelMessage]:
         return [each for each in self._sayings if each.when == "start" and each not in self._said]
 
     @property
@@ -147,7 +147,7 @@ class Sayings:
         return away and self._still >= STILL_TICKS and self._quiet >= QUIET_TICKS
 
 
-def _in_turn(sayings: Sequence[Saying]) -> list[_Text]:
+def _in_turn(sayings: Sequence[LevelMessage]) -> list[_Text]:
     """One after the other; one alone that tells the way stays longer."""
     longer = len(sayings) == 1 and sayings[0].when in {"start", "switch"}
     return [(each.text, START_TICKS if longer else SHOWN_TICKS, each.place) for each in sayings]

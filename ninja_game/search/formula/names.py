@@ -13,7 +13,7 @@ from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.language import FAR, Values
-from ninja_game.search.heuristics import FARTHEST, Field, Heuristics, open_masks, points_at
+from ninja_game.search.heuristics import FARTHEST, DistanceField, Heuristics, open_masks, points_at
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, LAUNCHER, MINE, TURRET
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import LAUNCHER_FLIGHT, OUTCOME_DEAD, OUTCOME_EXIT
@@ -166,7 +166,7 @@ _SPEED = 4.0
 UNREACHABLE = -1.0 - _SPEED * FARTHEST
 """The margin where no way leads to what makes a fact so."""
 
-Target = Callable[[int, float, float], Field]
+Target = Callable[[int, float, float], DistanceField]
 """The field of a target in a switch state, for a ninja at (x, y)."""
 
 
@@ -178,7 +178,7 @@ class Distances:
 
     def __init__(self, level: Level, batch: Batch) -> None:
         self._level, self._batch = level, batch
-        self._fields: dict[tuple[object, int], Field] = {}
+        self._fields: dict[tuple[object, int], DistanceField] = {}
 
     @cached_property
     def _heuristics(self) -> Heuristics:
