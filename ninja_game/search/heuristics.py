@@ -201,7 +201,7 @@ class Heuristics:
             elif kind == kinds.GOLD:
                 gold.append((slot, x, y))
             elif kind == kinds.MINE:
-                self._avoid(x, y)
+                self.costs[points_about(x, y, 15.0)] *= np.float32(MINE_COST)
             elif kind == kinds.ONE_WAY:
                 self._bar_one_way(x, y, float(record["face_x"]), float(record["face_y"]))
         self.exits = exits
@@ -332,10 +332,6 @@ class Heuristics:
                 return None
             here = there
         return None
-
-    def _avoid(self, x: float, y: float) -> None:
-        for point in points_about(x, y, 15.0):
-            self.costs[point] *= np.float32(MINE_COST)
 
     def _bar_one_way(self, x: float, y: float, face_x: float, face_y: float) -> None:
         """Forbid the moves through a one-way platform's face; the ninja's centre meets it 22 px from its middle."""

@@ -57,7 +57,11 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
         return found
 
     def flag(what: str) -> Callable[..., Any]:
-        return lambda number: (_flags(batch, number, what) != 0).astype(float)
+        def value(number: Any) -> Any:
+            found = _object(batch, number)
+            return (found[flag_field(what, int(found["kind"][0]), float(number))] != 0).astype(float)
+
+        return value
 
     values: dict[str, Callable[[], Any]] = {
         "x": lambda: place[:, 0], "y": lambda: place[:, 1],
@@ -153,12 +157,6 @@ def flag_field(what: str, kind: int, id_: float) -> str:
         kinds = " and ".join(KIND_NAMES[each] for each in FLAGS[what])
         raise ArgumentError(f"object {id_:g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")
     return FLAGS[what][kind]
-
-
-def _flags(batch: Batch, number: Any, what: str) -> Any:
-    """A field that is 0 or 1, of an object of all worlds."""
-    found = _object(batch, number)
-    return found[flag_field(what, int(found["kind"][0]), float(number))]
 
 
 _SPEED = 4.0
