@@ -149,7 +149,7 @@ class Simulation:
     # --- time ---
 
     def reset(self) -> None:
-        """Start afresh from the loaded level, as at first."""
+        """Go back to tick 0 of the level."""
         self._inputs.clear()
         self._kills.clear()
         self._worlds.load([0], [0])
@@ -186,7 +186,7 @@ class Simulation:
 
     @property
     def outcome(self) -> str:
-        """The outcome: "exit" or "dead"; "running" while neither has."""
+        """What came first, "exit" or "dead"; "running" before either."""
         return OUTCOME_NAMES[self._worlds.number("outcome")]
 
     @property
@@ -225,7 +225,7 @@ class Simulation:
     # --- save-states and digests ---
 
     def save(self) -> SaveState:
-        """This moment, to come back to. The state is never changed by later steps."""
+        """A save-state of this tick, for ``restore``; later steps do not change it."""
         return SaveState(
             self.level, self.body, self.memory, bytes(self._inputs), self._worlds.save(), tuple(self._kills)
         )
@@ -264,6 +264,6 @@ def is_box(body: str) -> bool:
 
 
 def _event_view(e: Event) -> EventView:
-    """An event as the API shows it."""
+    """The public view of an event of the schema."""
     cause = CAUSE_NAMES[e.cause] if e.cause != NO_CAUSE else ""
     return EventView(EVENT_NAMES[e.kind], e.x, e.y, e.dx, e.dy, e.slot - 1 if e.slot else None, cause)

@@ -16,7 +16,7 @@ from ninja_game.errors import FileError
 from ninja_game.files.locking import try_lock
 
 VARIABLE = "NINJA_GAME_BACKGROUND_COMPILER"
-"""Environment variable: where it is 0 there is no such process, and who needs a kernel waits for it."""
+"""Environment variable: 0 switches the process off; commands then wait for their kernels."""
 
 BEHIND = 15  # how far its priority is lowered (os.nice)
 
@@ -28,7 +28,7 @@ def is_enabled() -> bool:
 
 
 def start() -> None:
-    """Start it, the first time only; where that is impossible, kernels are compiled by whoever needs them."""
+    """Start it, once a process; where that is impossible, each process compiles the kernels that it needs."""
     if _STARTED or not is_enabled():
         return
     environment = {**os.environ, "PYTHONSAFEPATH": "1", VARIABLE: "0"}

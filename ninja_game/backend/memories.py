@@ -285,7 +285,7 @@ _OBJECTS = (
 
 
 class SelfTestError(NinjaGameError):
-    """The known run does not end as it must: nothing that this process computes can be believed."""
+    """The known run ends otherwise: nothing that this process computes can be trusted."""
 
 
 def check_self_test(open_world: Callable[[Level, bool], Worlds], memory: str) -> None:

@@ -80,7 +80,7 @@ def try_lock(path: Path) -> int | None:
 def read_abandoned(
     folder: Path, pattern: str, read: Callable[[Path], Found], damaged: tuple[type[Exception], ...]
 ) -> Iterator[Found]:
-    """What files hold whose programs have died, the newest first; those of running programs are left out.
+    """Read the files of programs that have died, the newest first; those of running programs are left out.
 
     ``damaged``: what ``read`` raises, besides OSError, for a file that is left out too.
     """

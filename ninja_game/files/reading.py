@@ -207,7 +207,7 @@ def file_type(mode: int) -> str:
 
 
 class IncludedFile(NamedTuple):
-    """A file that a text names: its path, "" for one elsewhere; its text, None where it cannot be read; why not.
+    """A file that a text includes: its path, "" for one elsewhere; its text, None where it cannot be read; why not.
 
     There is no reason where no regular file is there.
     """

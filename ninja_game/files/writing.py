@@ -23,7 +23,7 @@ PART_PREFIX, PART_SUFFIX = ".ninja-game-", ".part"
 
 _unfinished: set[Path] = set()  # the temporary files that this process is writing
 
-_tidied: set[Path] = set()  # folders in which this process has looked for what killed writers left behind
+_tidied: set[Path] = set()  # folders that this process has cleared of killed writers' temporary files
 
 
 def write_atomically(

@@ -68,7 +68,7 @@ def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
 
 
 def with_message_moved(says: str, number: int, cell: tuple[int, int]) -> str:
-    """A header's value with the place of one of its texts, by its number from 0, in another cell.
+    """A header's value with one of its messages, by number from 0, moved to another cell.
 
     >>> with_message_moved("start: Go | at 12,5: Jump: here", 1, (3, 4))
     'start: Go | at 3,4: Jump: here'

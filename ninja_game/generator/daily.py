@@ -74,7 +74,7 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
 
     Raises MemoryUnavailableError without Numba, another NinjaGameError or OSError where it cannot be kept.
     """
-    # Only who makes a level needs NumPy.
+    # Imports NumPy, which a packed level does not need.
     from ninja_game.generator.generate import generate
 
     for again in range(_OTHER_SEEDS + 1):

@@ -54,7 +54,7 @@ class GoalDistance:
         return self._made[number]
 
     def begin(self, level_of: Indices, indices: Indices) -> None:
-        """Worlds have begun an episode, or were put elsewhere: forget what was."""
+        """Measure worlds that were reset or restored; their old switch states are forgotten."""
         self.states[indices] = NO_STATE
         self.measure(level_of, indices, 0, len(indices))
         self.settle(level_of)
@@ -68,7 +68,7 @@ class GoalDistance:
         )  # fmt: skip
 
     def settle(self, level_of: Indices) -> Indices:
-        """Give the worlds whose switch state is another their fields, and measure them; their numbers."""
+        """Give worlds whose switch state has changed its field, and measure them again; their indices (k,)."""
         stale = np.flatnonzero(self._stale)
         if stale.size:
             self._stale[stale] = False

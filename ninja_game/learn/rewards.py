@@ -106,11 +106,11 @@ class Shaping:
         self._potential = np.zeros(len(goal.ticks))
 
     def begin(self, indices: Indices) -> None:
-        """These worlds are somewhere else now: no reward for that."""
+        """Forget the potentials of worlds that were reset or restored, which earns no reward."""
         self._potential[indices] = self._measured(indices)
 
     def add(self, rewards: NDArray[np.float64], indices: Indices, terminated: NDArray[np.bool_]) -> None:
-        """Add what the last step of these worlds is worth."""
+        """Add the shaping terms of the last step to ``rewards`` (n,), for the worlds ``indices`` (k,)."""
         before, now = self._potential[indices], self._measured(indices)
         after = np.where(terminated[indices], 0.0, now)
         for term in self._terms:

@@ -43,10 +43,10 @@ from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 from ninja_game.sim.world import step
 from ninja_game.simulation import Body, SaveState, Simulation, is_box
 
-EXIT_WEIGHT, DEATH_WEIGHT, GOLD_WEIGHT, TICK_WEIGHT = range(4)  # columns of what is paid
+EXIT_WEIGHT, DEATH_WEIGHT, GOLD_WEIGHT, TICK_WEIGHT = range(4)  # indices of ``weights``
 OUTCOME, TICKS, GOLD, EVENTS, ENDED, PLAYED, WAIT, RANDOM = range(8)
-"""Columns of the facts about each world. PLAYED: the keys of its last tick. WAIT, RANDOM: of `protocol.py`, for how
-many steps nothing is pressed yet, and the random number that decides whether keys are repeated."""
+"""Columns of ``facts``, a row for each world. PLAYED: the keys of its last tick. WAIT: steps left in which no key is
+pressed; RANDOM: state of the generator that decides whether keys are repeated (`protocol.py`)."""
 TERMINATED, TRUNCATED = 1, 2  # how an episode has ended; 0: it goes on
 CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 """Events after which objects that stay where they are look another way."""
@@ -174,7 +174,7 @@ class EnvWorlds:
     ``goal`` (``GoalDistance``: how far each world is from the exit) even if no reward and no part needs it. ``body``,
     ``memory``, ``threads``: as of a ``Batch``; neither memory nor threads change a result.
 
-    What it shows is written again by each call; copy what you want to keep. (n: the number of worlds.)
+    The arrays below are overwritten by each call; copy what must last. n is the number of worlds.
 
     ============  ====================  =======================================================================
     observations  (n, …), or a dict     what the parts of the observation say
@@ -333,7 +333,7 @@ class EnvWorlds:
     def reset(
         self, worlds: WorldChoice = None, *, seeds: Sequence[int] | None = None, levels: LevelChoice | None = None
     ) -> None:
-        """Begin new episodes. ``seeds``: new seeds of these worlds; ``levels``: what they play, else it is drawn."""
+        """Begin new episodes. ``seeds``: new seeds of these worlds; ``levels``: the levels to play; None: drawn."""
         numbers = numbers_of(worlds, self.count, "worlds")
         if seeds is not None:
             self._levels.seed(numbers, seeds)

@@ -1,4 +1,4 @@
-"""What an examination of a level, a pack or a run can find, by code: text and hint (``assets/findings.toml``)."""
+"""Findings about levels, packs and runs, by code: text and hint (``assets/findings.toml``)."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from ninja_game.search.solve import Progress, Task, solve
 
 @dataclass(frozen=True)
 class Certified:
-    """What is known of a goal of a level: the best run, None if there is none, and how it came about.
+    """The result for one goal of a level: the best run, None if there is none, and where it comes from.
 
     ``gold``: pieces that the run had to collect; ``how``: "kept" (it was there), "found", "shortened", or "not found";
     ``progress``: where the search stood at its end, None where there was none.

@@ -1,4 +1,4 @@
-"""What to solve, in which order a solver looks, and what its jobs share.
+"""What to solve, the order of a solver's searches, and the progress that its jobs share.
 
 Coarse and greedy searches come first, then finer, patient and varied ones, then local searches. Amounts of work are in
 ticks of a local search; a tick of a search counts more, for its save-states and tables.
@@ -120,7 +120,7 @@ class SharedProgress:
                 self.runs = sorted([*self.runs, inputs], key=lambda run: (len(run), run))[:CANDIDATES]
 
     def note_unreached(self, untouched: list[int], most: int = 0, untaken: list[int] | None = None) -> None:
-        """Note what a search never came to: switches, gold; the most pieces at once."""
+        """Note which switches and gold (ids) a search never reached, and the most pieces that it had at once."""
         with self.lock:
             progress = self.progress
             progress.gold = max(progress.gold, most)

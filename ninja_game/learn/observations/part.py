@@ -1,7 +1,7 @@
-"""What every part of an observation is, a name, a space, and a kernel that writes one world's values into a row.
+"""What every part of an observation is: a name, a space, and a kernel that writes one world's values into a row.
 
-And what it may know when it makes its tables: what worlds hold of their levels, also of levels that are put in the
-place of others, so that worlds play more than they hold.
+``PartContext`` is what a part reads when it makes its tables: the worlds and their levels. Where there are more levels
+than worlds can hold, a level is put in the place of another, and the tables are rewritten for it.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class PartContext:
-    """What a part may know of the worlds when it makes its tables.
+    """The worlds and levels for which a part makes its tables.
 
     ``worlds``: they themselves, not loaded yet; ``fresh``: each level as it begins.
     ``changed`` (worlds): whether gold, mines or exits may be others than last observed. ``time_limit``: ticks
@@ -91,7 +91,7 @@ class PartContext:
         return [bounds, *columns]
 
     def rewrite(self, number: int) -> None:
-        """Another level has come in the place of one: write again what the tables have of it."""
+        """Rewrite the tables for the level with this number, which has been replaced."""
         for write in self.writers:
             write(number)
 

@@ -120,9 +120,9 @@ class SpanSearch:
 
 
 TIDYING_SECONDS = 0.1
-"""Of one report to tidy what was found."""
+"""Seconds of each report in which results are tidied."""
 LONGEST_SECONDS = 1e6
-"""Seconds of a search that goes on until it is cancelled."""
+"""The time limit, s, of a search that ends only when it is cancelled."""
 MOST_JOBS = 4
 """Jobs of a search of a whole run, each of which may take a gigabyte."""
 WAY_SECONDS = 120.0

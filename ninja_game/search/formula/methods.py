@@ -63,7 +63,7 @@ def _kernel_rng(seed: int) -> list[RandomState]:
 
 
 class Results:
-    """The best keys so far, and whom to tell of the ``ways`` among them; while there are none, of the nearest miss."""
+    """The best keys so far, and the distinct ``ways`` among them for ``report``; until there are any, the miss."""
 
     def __init__(self, worlds: SpanWorlds, report: ReportResults, report_miss: ReportMiss) -> None:
         self.worlds = worlds
@@ -92,7 +92,7 @@ class Results:
         self.try_all(np.stack((keys * (WORLDS // len(keys) + 1))[:WORLDS], axis=1))
 
     def spend(self, ticks: int) -> bool:
-        """Count ticks that were run elsewhere; whether it is over."""
+        """Count ticks that were run elsewhere; true if the search is to end."""
         self.worlds.ticks_run += ticks
         self.report()
         return not self.going
