@@ -28,7 +28,7 @@ _inputs: set[tuple[int, int]] | None = None
 
 
 @dataclass(frozen=True)
-class SkippedPath:
+class Skipped:
     """What a walk through a folder could not look at, and why."""
 
     path: Path
@@ -38,11 +38,11 @@ class SkippedPath:
         return f"{self.path}: {self.why}"
 
 
-def files_below(folder: Path, *, follow_links: bool = True) -> Iterator[Path | SkippedPath]:
+def files_below(folder: Path, *, follow_links: bool = True) -> Iterator[Path | Skipped]:
     """The files below a folder that may hold levels or recordings, in order of their names, hidden ones apart.
 
     Links are followed, or left out. Every folder is visited once, so that loops end. Only the folders on the way to the
-    present file are in memory. What cannot be looked at is given as SkippedPath and stops nothing.
+    present file are in memory. What cannot be looked at is given as Skipped and stops nothing.
     """
     visited: set[tuple[int, int]] = set()
     waiting = [(folder, True)]
@@ -51,23 +51,21 @@ def files_below(folder: Path, *, follow_links: bool = True) -> Iterator[Path | S
         try:
             about = os.stat(path, follow_symlinks=follow_links or path == folder)  # noqa: PTH116 - of each run of a board
             if stat.S_ISLNK(about.st_mode):
-                yield SkippedPath(path, "a link; put the file itself here")
+                yield Skipped(path, "a link; put the file itself here")
                 continue
             if not is_folder:
                 yield (
-                    path
-                    if stat.S_ISREG(about.st_mode)
-                    else SkippedPath(path, f"{file_type(about.st_mode)}, not a file")
+                    path if stat.S_ISREG(about.st_mode) else Skipped(path, f"{file_type(about.st_mode)}, not a file")
                 )
                 continue
             if (about.st_dev, about.st_ino) in visited:
-                yield SkippedPath(path, "a link to a folder that is visited already")
+                yield Skipped(path, "a link to a folder that is visited already")
                 continue
             visited.add((about.st_dev, about.st_ino))
             with os.scandir(path) as entries:
                 names = sorted(((each.name, _is_folder(each)) for each in entries), reverse=True)
         except (OSError, ValueError) as error:
-            yield SkippedPath(path, getattr(error, "strerror", "") or str(error))
+            yield Skipped(path, getattr(error, "strerror", "") or str(error))
             continue
         waiting += [
             (path / name, below)
@@ -230,14 +228,14 @@ def known_files(known: dict[str, IncludedFile], *, no_more: bool) -> Iterator[No
         _KNOWN.reset(token)
 
 
-LINK_NAME = "link"  # what the text of a link is called; a file of that name in the current folder is another one
+LINK = "link"  # what the text of a link is called; a file of that name in the current folder is another one
 
 
 def has_folder(file: str) -> bool:
     """Whether the text of that name lies in a folder; one of a link does not."""
     known = _KNOWN.get()
     sent = bool(known and known[1] and known[0])
-    return sent or (file != LINK_NAME and os.path.isfile(file))  # noqa: PTH113 - fails on no name
+    return sent or (file != LINK and os.path.isfile(file))  # noqa: PTH113 - fails on no name
 
 
 def read_included(file: str, name: str) -> IncludedFile:

@@ -10,7 +10,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
-from ninja_game.files.reading import SkippedPath, files_below
+from ninja_game.files.reading import Skipped, files_below
 from ninja_game.formats.links import is_link
 from ninja_game.formats.load import texts_of
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
@@ -41,7 +41,7 @@ def texts_in(paths: Iterable[Path]) -> Iterator[tuple[str, str, bool] | Unreadab
         empty = True
         for file in files_below(path):
             empty = False
-            yield from [Unreadable(str(file))] if isinstance(file, SkippedPath) else _texts_of(file, named=False)
+            yield from [Unreadable(str(file))] if isinstance(file, Skipped) else _texts_of(file, named=False)
         if empty:
             yield Unreadable(f"{path}: no recordings here")
 

@@ -19,7 +19,7 @@ import pytest
 from ninja_game.errors import FileError
 from ninja_game.files import user_folder as folders, writing
 from ninja_game.files.locking import locked, read_abandoned, remove_abandoned, try_lock
-from ninja_game.files.reading import SkippedPath, files_below, read_bytes, read_text, read_utf8, text_files
+from ninja_game.files.reading import Skipped, files_below, read_bytes, read_text, read_utf8, text_files
 from ninja_game.files.user_folder import data_folder, user_folder
 from ninja_game.files.writing import open_atomically, remove_leftovers, write_atomically
 
@@ -192,7 +192,7 @@ def test_walk_survives_loops_pipes_and_links_and_names_what_it_left_out(tmp_path
     assert [str(each.relative_to(tmp_path)) for each in found if isinstance(each, Path)] == [
         "a.txt", "sub/b.txt", "sub.txt",
     ]  # fmt: skip
-    left_out = {each.path.name: each.why for each in found if isinstance(each, SkippedPath)}
+    left_out = {each.path.name: each.why for each in found if isinstance(each, Skipped)}
     assert left_out.keys() == {"pipe.txt", "loop", "self.txt", "gone.txt"}
     assert left_out["pipe.txt"] == "a pipe, not a file"
     assert text_files(tmp_path) == [each for each in found if isinstance(each, Path)]

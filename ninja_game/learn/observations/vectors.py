@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.learn.goal_distance import point_within
-from ninja_game.learn.observations.part import InitialLevel, Part, PartContext, clamp
+from ninja_game.learn.observations.part import Part, PartContext, clamp
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
@@ -84,22 +84,22 @@ class StateVector(Part):
         That is which exits are open, in bits, and which gold was nearest. As long as nothing has changed, a world's
         objects, which lie far away in memory, need not be asked.
         """
+
+        def exits(number: int) -> list[tuple[float, ...]]:
+            switches = context.fresh[number].objects
+            found = context.objects(number, EXIT)
+            return [(o.slot, o.x, o.y, switches[o.partner].x, switches[o.partner].y) for o in found]
+
         box = self.box
         factors = [1.0 / scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()]
         return (
             observe_state,
             *(context.table(values, np.float64) for values in (factors, box.low, box.high)),
-            *context.rows(lambda number: exit_rows(context.fresh[number]), 5),
+            *context.rows(exits, 5),
             *context.rows(lambda number: [(o.slot, o.x, o.y) for o in context.objects(number, GOLD)], 3),
             context.changed,
             *(context.table([0] * context.count, np.int64) for _ in range(2)),
         )
-
-
-def exit_rows(level: InitialLevel) -> list[tuple[float, ...]]:
-    """Slot and place of each exit, place of its switch."""
-    exits = [o for o in level.objects[1:] if o.kind == EXIT]
-    return [(o.slot, o.x, o.y, level.objects[o.partner].x, level.objects[o.partner].y) for o in exits]
 
 
 @entry_point
