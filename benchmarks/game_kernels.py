@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ninja_game.sim.collision.ray_shapes import ray_tile
-from ninja_game.sim.collision.rays import cast
+from ninja_game.sim.collision.rays import cast_ray
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.declare import entry_point
@@ -51,7 +51,7 @@ def cast_along_cells(levels: Any, worlds: Any, x: float, y: float, dx: float, dy
     """The game's ray: from cell to cell by their edges; where it stops, px to the right of its start."""
     total = 0.0
     for _ in range(rounds):
-        stopped, stop_x, _y = cast(levels[0], worlds[0], x, y, dx, dy)
+        stopped, stop_x, _y = cast_ray(levels[0], worlds[0], x, y, dx, dy)
         if stopped:
             total += stop_x - x
     return total / rounds

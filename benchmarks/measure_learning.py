@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from benchmarks.charts import Chart
 from benchmarks.measure_worlds import resident_bytes
+from ninja_game.backend.kernels import run_worlds
 from ninja_game.backend.memories import open_worlds
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels.origins import level_source
@@ -33,7 +34,6 @@ from ninja_game.learn.vector import NinjaVectorEnv
 from ninja_game.runtime import cores
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.kernels import run_worlds
 from ninja_game.simulation import Simulation
 
 RESULTS = Path(__file__).parent / "results"

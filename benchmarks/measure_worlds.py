@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 from benchmarks import game_kernels
 from benchmarks.charts import Chart, seconds_per
 from benchmarks.game_kernels import count_ticks
+from ninja_game.backend.compiled import load_worlds
+from ninja_game.backend.layout import used_bytes
 from ninja_game.backend.memories import compiled
 from ninja_game.batch.batch import Batch
 from ninja_game.formats.recording import Recording
 from ninja_game.runtime import cores
 from ninja_game.sim.kinds import GOLD, MINE, NINJA
 from ninja_game.sim.level import TILES, Level, ObjectSpec
-from ninja_game.sim.memory.compiled import load_worlds
-from ninja_game.sim.memory.layout import used_bytes
 from ninja_game.simulation import Simulation
 
 WORLDS = 1024

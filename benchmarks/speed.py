@@ -17,11 +17,11 @@ import numpy as np
 
 from benchmarks.game_kernels import count_ticks
 from ninja_game.backend.memories import compiled, compiled_available
+from ninja_game.backend.plain import load_plain
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.trace import trace_digests, trace_recording
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.world import step
 from ninja_game.simulation import Simulation
 
@@ -99,7 +99,7 @@ def plain_speed(recordings: Sequence[Recording]) -> float:
 
 def compiled_speed(recordings: Sequence[Recording]) -> float:
     """Ticks a second on the compiled memory, one thread. Compilation is not counted."""
-    from ninja_game.sim.memory.compiled import load_worlds
+    from ninja_game.backend.compiled import load_worlds
 
     def race(recording: Recording) -> tuple[int, float]:
         levels, worlds = load_worlds(compiled, [recording.level], box=recording.body == "box")

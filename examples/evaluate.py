@@ -36,7 +36,7 @@ def as_text(table: Evaluation) -> str:
         ends = f"{passed:>11} {each.dead:>6} {each.late:>6}"
         lines.append(f"{shown_text(each.level):<26.26} {ends} {ticks:>7} {each.gold:>6.1f} {each.reward:>8.2f}")
     passed, episodes = (sum(getattr(each, name) for each in table.results) for name in ("passed", "episodes"))
-    often = f"{table.often_passed()} of {len(table.results)} levels in 90 % of their episodes or more"
+    often = f"{table.count_passed()} of {len(table.results)} levels in 90 % of their episodes or more"
     who, rate = shown_text(table.agent), passed / episodes
     lines.append(f"{who}: {passed} of {episodes} episodes passed ({rate:.1%}), {often}")
     return "\n".join(lines)
@@ -47,7 +47,7 @@ def as_json(table: Evaluation) -> str:
     rows = [{**asdict(each), "rate": each.rate} for each in table.results]
     for row in rows:
         row["ticks"] = None if isnan(row["ticks"]) else row["ticks"]
-    return json.dumps({**asdict(table), "results": rows, "often_passed": table.often_passed()}, indent=1)
+    return json.dumps({**asdict(table), "results": rows, "count_passed": table.count_passed()}, indent=1)
 
 
 def as_csv(table: Evaluation) -> str:

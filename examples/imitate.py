@@ -25,7 +25,7 @@ from ninja_game.learn.observations.observation import Observation
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.inputs import KEYS_DOWN
 
-TOGETHER = 500
+CHUNK_WORLDS = 500
 """Levels whose runs are played at once."""
 ACTION_OF = np.zeros(KEYS_DOWN + 1, np.int32)
 """The action of each combination of keys; left and right together are as none."""
@@ -38,8 +38,10 @@ def known_steps(levels: str) -> tuple[Floats, NDArray[np.int32]]:
     """What is seen every fourth tick of the known runs of levels "bench:…", and the keys of that tick as actions."""
     names = level_source(levels).names
     seen, actions = [], []
-    for first in range(0, len(names), TOGETHER):
-        found = [bench_level(name.split("-")[1], int(name.split("-")[2])) for name in names[first : first + TOGETHER]]
+    for first in range(0, len(names), CHUNK_WORLDS):
+        found = [
+            bench_level(name.split("-")[1], int(name.split("-")[2])) for name in names[first : first + CHUNK_WORLDS]
+        ]
         worlds = EnvWorlds([each.level for each in found], len(found), observation=OBSERVATION, flat=True, frame_skip=1)
         keys = np.zeros((max(len(each.inputs) for each in found), len(found)), np.uint8)
         for column, each in enumerate(found):

@@ -27,7 +27,7 @@ from ninja_game.backend.memories import open_worlds
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.load import load_replays
-from ninja_game.learn.evaluation import Planner, Policy, chosen, played
+from ninja_game.learn.evaluation import Planner, Policy, play_episodes, policy_actions
 from ninja_game.learn.levels.bench import GRADES, bench_level
 from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.levels.source import LevelSource
@@ -67,7 +67,7 @@ def measure(agent: Policy, levels: str, *, episodes: int = 1, seed: int = EVALUA
     settings.pop("actions", None)
     worlds = EnvWorlds(source, count, **settings)
     worlds.reset(seeds=range(seed, seed + count), levels=np.arange(count) % len(source.levels))
-    ends = played(worlds, chosen(agent, worlds, seed))
+    ends = play_episodes(worlds, policy_actions(agent, worlds, seed))
     outcomes, ticks = (numbers.reshape(episodes, -1) for numbers in (ends.outcomes, ends.ticks))
     return {"passed": outcomes == OUTCOME_EXIT, "dead": outcomes == OUTCOME_DEAD, "ticks": ticks}
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Generic, TypeVar
 
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError, reason
-from ninja_game.files.locking import LOCK_SUFFIX, forget, hold, left_behind
+from ninja_game.files.locking import LOCK_SUFFIX, read_abandoned, remove_abandoned, try_lock
 from ninja_game.files.reading import read_bytes
 
 Draft = TypeVar("Draft")
@@ -63,7 +63,7 @@ class RecoveryFile:
         """Keep the file from others, if that is not done yet. Raises FileError, OSError."""
         if self._lock is None:
             self.file.parent.mkdir(parents=True, exist_ok=True)
-            self._lock = hold(self.file.with_suffix(LOCK_SUFFIX))
+            self._lock = try_lock(self.file.with_suffix(LOCK_SUFFIX))
             if self._lock is None:
                 raise FileError("another window continues with this already", str(self.file))
 
@@ -82,12 +82,12 @@ class RecoveryFile:
             os.close(self._lock)
             self._lock = None
             if not keep:
-                forget(self.file)
+                remove_abandoned(self.file)
 
 
 def recovered_from(folder: Path, suffix: str, read: Callable[[Path], Found]) -> Iterator[Found]:
     """What programs that have died were editing, the newest first; files of running ones and damaged ones left out."""
-    return left_behind(folder, f"*{suffix}", read, DAMAGED)
+    return read_abandoned(folder, f"*{suffix}", read, DAMAGED)
 
 
 class History(Generic[Draft]):

@@ -24,14 +24,14 @@ from functools import cached_property
 from typing import Any
 
 from ninja_game.backend.memories import open_worlds
+from ninja_game.backend.plain import tile_map
+from ninja_game.backend.worlds import BODIES, Body, MemoryName
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import differences, replay_digest, world_digest
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
+from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bit
 from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import BODIES, Body, MemoryName
-from ninja_game.sim.memory.plain import tile_map
 from ninja_game.sim.memory.schema import Event, TileMap, World
 from ninja_game.sim.states import CAUSE_NAMES, NO_CAUSE, OUTCOME_NAMES, STATE_NAMES
 
@@ -149,7 +149,7 @@ class Simulation:
     # --- time ---
 
     def reset(self) -> None:
-        """Start afresh from the loaded level, as at first."""
+        """Go back to tick 0 of the level."""
         self._inputs.clear()
         self._kills.clear()
         self._worlds.load([0], [0])
@@ -157,7 +157,7 @@ class Simulation:
     def step(self, *, left: bool = False, right: bool = False, jump: bool = False) -> None:
         """Advance one tick with these keys down. The jump triggers in the first sampled tick in which it is down."""
         down = (KEY_LEFT if left else 0) + (KEY_RIGHT if right else 0) + (JUMP_HELD if jump else 0)
-        self.step_keys(pressed(down, self._worlds.jump_held()) if jump else down)
+        self.step_keys(with_press_bit(down, self._worlds.jump_held()) if jump else down)
 
     def step_keys(self, keys: int) -> None:
         """Advance one tick with these keys, a sum of ``Input`` flags. Raises ArgumentError for anything else."""
@@ -186,7 +186,7 @@ class Simulation:
 
     @property
     def outcome(self) -> str:
-        """The outcome: "exit" or "dead"; "running" while neither has."""
+        """What came first, "exit" or "dead"; "running" before either."""
         return OUTCOME_NAMES[self._worlds.number("outcome")]
 
     @property
@@ -225,7 +225,7 @@ class Simulation:
     # --- save-states and digests ---
 
     def save(self) -> SaveState:
-        """This moment, to come back to. The state is never changed by later steps."""
+        """A save-state of this tick, for ``restore``; later steps do not change it."""
         return SaveState(
             self.level, self.body, self.memory, bytes(self._inputs), self._worlds.save(), tuple(self._kills)
         )
@@ -264,6 +264,6 @@ def is_box(body: str) -> bool:
 
 
 def _event_view(e: Event) -> EventView:
-    """An event as the API shows it."""
+    """The public view of an event of the schema."""
     cause = CAUSE_NAMES[e.cause] if e.cause != NO_CAUSE else ""
     return EventView(EVENT_NAMES[e.kind], e.x, e.y, e.dx, e.dy, e.slot - 1 if e.slot else None, cause)

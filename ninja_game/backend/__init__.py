@@ -1,1 +1,1 @@
-"""The memories that worlds are held in, and what compiles for them: chosen, opened, proven, kept on disk."""
+"""Worlds, in two memories: plain Python objects or NumPy records; what compiles for them, and which one to use."""

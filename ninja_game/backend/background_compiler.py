@@ -13,23 +13,23 @@ from contextlib import suppress
 
 from ninja_game.backend.kernel_cache import code_folder
 from ninja_game.errors import FileError
-from ninja_game.files.locking import hold
+from ninja_game.files.locking import try_lock
 
 VARIABLE = "NINJA_GAME_BACKGROUND_COMPILER"
-"""Environment variable: where it is 0 there is no such process, and who needs a kernel waits for it."""
+"""Environment variable: 0 switches the process off; commands then wait for their kernels."""
 
 BEHIND = 15  # how far its priority is lowered (os.nice)
 
 _STARTED: list[subprocess.Popen[bytes]] = []  # the process that this one has started
 
 
-def allowed() -> bool:
+def is_enabled() -> bool:
     return os.environ.get(VARIABLE) != "0"
 
 
 def start() -> None:
-    """Start it, the first time only; where that is impossible, kernels are compiled by whoever needs them."""
-    if _STARTED or not allowed():
+    """Start it, once a process; where that is impossible, each process compiles the kernels that it needs."""
+    if _STARTED or not is_enabled():
         return
     environment = {**os.environ, "PYTHONSAFEPATH": "1", VARIABLE: "0"}
     quiet = subprocess.DEVNULL
@@ -46,29 +46,29 @@ def start() -> None:
         )  # fmt: skip
 
 
-def is_at_work() -> bool:
+def is_compiling() -> bool:
     """Whether it, or one that another process started, compiles now."""
     if _STARTED and _STARTED[0].poll() is None:
         return True
     with suppress(OSError, FileError):
-        handle = hold_work()
+        handle = lock_compilation()
         if handle is None:
             return True
         os.close(handle)
     return False
 
 
-def hold_work() -> int | None:
+def lock_compilation() -> int | None:
     """A handle that keeps others from compiling everything as long as it is open; None where another one does.
 
     Raises OSError where no file can be written, FileError as ``code_folder``.
     """
     folder = code_folder()
     folder.mkdir(parents=True, exist_ok=True)
-    return hold(folder / "all.lock")
+    return try_lock(folder / "all.lock")
 
 
-def step_back() -> None:
+def lower_priority() -> None:
     """Give this process a low priority, where the system has such a thing."""
     if sys.platform != "win32":
         os.nice(BEHIND)

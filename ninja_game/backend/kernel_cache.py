@@ -24,21 +24,21 @@ from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
-from ninja_game.backend.numba_import import say_once
+from ninja_game.backend.code_digest import OPTIONS, code_digest
+from ninja_game.backend.numba_import import warn_once
 from ninja_game.errors import FileError
-from ninja_game.files.locking import LOCK_SUFFIX, hold
+from ninja_game.files.locking import LOCK_SUFFIX, try_lock
 from ninja_game.files.reading import open_regular
-from ninja_game.files.user_folder import PACKAGE, cache_folder, chosen_folder
-from ninja_game.sim.memory.code_digest import OPTIONS, code_digest
+from ninja_game.files.user_folder import PACKAGE, cache_folder, folder_from_variable
 
 SHIPPED = PACKAGE / "data" / "kernels"  # machine code that came with the installation; a checkout has none
 
 GENERIC = ("generic", "")
 """The processor that it is made for, as Numba names one: any of the family, with no features beyond."""
 
-KEPT_FILES = 200  # how many compiled kernels stay in the cache folder: the newest, some ten versions of all
+MAX_KERNELS = 200  # how many compiled kernels stay in the cache folder: the newest, some ten versions of all
 
-PATIENCE = 120  # seconds to wait for a process that compiles the same kernel; then this one compiles it too
+LOCK_TIMEOUT = 120  # seconds to wait for a process that compiles the same kernel; then this one compiles it too
 
 _KERNEL = re.compile(r"[a-z_]+-[0-9a-f]{32}-[0-9a-f]{16}\.code")
 
@@ -59,7 +59,7 @@ def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
     return f"{entry.__name__}-{digest[:32]}"
 
 
-def are_kept(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
+def are_cached(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
     """Whether there is machine code of all these entry points."""
     kept = {
         path.stem.rpartition("-")[0]
@@ -82,7 +82,7 @@ def attach_cache(dispatcher: Any, entry: Callable[..., Any], checked: bool) -> N
         (serialize, "dumps"), (codegen, "JITCPUCodegen"), (getattr(codegen, "JITCPUCodegen", None), "magic_tuple"),
     )  # fmt: skip
     if missing := [name for owner, name in needed if not hasattr(owner, name)]:
-        say_once(f"compiled code cannot be kept, since this Numba has no {missing[0]}{COMPILES_AGAIN}")
+        warn_once(f"compiled code cannot be kept, since this Numba has no {missing[0]}{COMPILES_AGAIN}")
         return
     dispatcher._cache = KernelCache(code_folder(), kernel_name(entry, checked))  # noqa: SLF001
 
@@ -93,13 +93,13 @@ def code_folder() -> Path:
 
     Raises FileError where there is none, and for a relative path: what lies in the current folder is never loaded.
     """
-    folder = chosen_folder("NUMBA_CACHE_DIR", lambda: cache_folder() / "compiled")
+    folder = folder_from_variable("NUMBA_CACHE_DIR", lambda: cache_folder() / "compiled")
     if not folder.is_absolute():
         raise FileError("the cache of compiled code has a relative path", found=str(folder), expected="a full path")
     return folder
 
 
-def forget_old_code(folder: Path) -> None:
+def evict_old_kernels(folder: Path) -> None:
     """Remove all but the newest kernels of a cache folder; what cannot be removed stays."""
     dated = []
     for path in folder.glob("*.code"):
@@ -107,7 +107,7 @@ def forget_old_code(folder: Path) -> None:
             about = path.lstat()
             if _KERNEL.fullmatch(path.name) and stat.S_ISREG(about.st_mode):
                 dated.append((about.st_mtime, path))
-    for _, path in sorted(dated, reverse=True)[KEPT_FILES:]:
+    for _, path in sorted(dated, reverse=True)[MAX_KERNELS:]:
         with suppress(OSError):
             path.unlink()
 
@@ -146,10 +146,10 @@ class KernelCache:
 
     def _wait(self, path: Path) -> None:
         """Keep other processes from making a file; where one is making it, wait until it has, or has died."""
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + LOCK_TIMEOUT
         with suppress(OSError):
             self.folder.mkdir(parents=True, exist_ok=True)
-            while (handle := hold(path.with_suffix(LOCK_SUFFIX))) is None and time.monotonic() < end:
+            while (handle := try_lock(path.with_suffix(LOCK_SUFFIX))) is None and time.monotonic() < end:
                 time.sleep(0.05)
             if handle is not None:
                 self._held[path] = handle
@@ -178,16 +178,16 @@ class KernelCache:
             parts = result._reduce()  # noqa: SLF001 - as Numba's own caches do
             code = pack(tuple("" if isinstance(part, str) else part for part in parts))
         except Exception as error:  # noqa: BLE001 - whatever another version of Numba does here: it works without
-            say_once(f"compiled code cannot be kept ({type(error).__name__}: {error}){COMPILES_AGAIN}")
+            warn_once(f"compiled code cannot be kept ({type(error).__name__}: {error}){COMPILES_AGAIN}")
             return
         part = path.with_suffix(f".{uuid4().hex[:16]}")
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             part.write_bytes(sha256(code).digest() + code)
             part.replace(path)
-            forget_old_code(self.folder)
+            evict_old_kernels(self.folder)
         except OSError as error:
-            say_once(f"compiled code cannot be kept in {self.folder}: {error.strerror or error}{COMPILES_AGAIN}")
+            warn_once(f"compiled code cannot be kept in {self.folder}: {error.strerror or error}{COMPILES_AGAIN}")
             with suppress(OSError):
                 part.unlink(missing_ok=True)
 

@@ -2,9 +2,9 @@
 
 There are two: "plain" (Python objects) and "compiled" (arrays, by Numba). Who asks for "auto" gets the compiled one, as
 far as that is faster: one run of little work, for which loading Numba would take longer, stays on the plain memory.
-Where its kernels are not in the cache yet, any run begins there, and goes on (``go_on``) on the compiled one once a
-process in the background has compiled them: the bits are the same. A run that is judged follows a ``Plan``, by which
-compiled code checks each index.
+Where its kernels are not in the cache yet, any run begins on the plain one, and moves to the compiled one
+(``switch_to_compiled``) once a process in the background has compiled them: the bits are the same. A run that is judged
+follows a ``Plan``, by which compiled code checks each index.
 
 Before the first compiled world of a process is loaded, a known run must come out on it as it must: what computes
 another one must not judge runs. The arithmetic of a process can be spoiled from outside: by how a compiler is set up,
@@ -24,19 +24,19 @@ from importlib.util import find_spec
 from threading import Lock
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from ninja_game.backend.kernels import kill_ninja, load_world, observe_object, run_world, step_world, trace_world
+from ninja_game.backend.plain import PlainWorlds
+from ninja_game.backend.worlds import MemoryName, Worlds
 from ninja_game.budget import NO_LIMIT, PAGE_TICK_COST, PLAIN_WORK, tick_cost
 from ninja_game.errors import ArgumentError, LevelError, NinjaGameError
-from ninja_game.files.user_folder import how_to_install
+from ninja_game.files.user_folder import install_hint
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.inputs import MAX_TICKS, with_press_bits
 from ninja_game.sim.level import TILES, Level, ObjectSpec
-from ninja_game.sim.memory.interface import MemoryName, Worlds
-from ninja_game.sim.memory.kernels import kill_ninja, load_world, observe_object, run_world, step_world, trace_world
-from ninja_game.sim.memory.plain import PlainWorlds
 
 if TYPE_CHECKING:
-    from ninja_game.sim.memory.compiler import Compiler
+    from ninja_game.backend.compiler import Compiler
 
 R = TypeVar("R")
 
@@ -64,7 +64,7 @@ PLAIN, CHECKED, CHECKED_LATER = Plan("plain", "plain"), Plan("compiled", "compil
 
 _WORK = [0]  # work of all runs of this process that were short enough for the plain memory: PLAIN_WORK at most
 
-_OF_ONE_RUN = {
+_RUN_KERNELS = {
     False: (load_world, run_world, step_world, observe_object, trace_world, kill_ninja),
     True: (load_world, run_world),
 }
@@ -89,7 +89,7 @@ def choose_memory(memory: str) -> MemoryName:
         return "compiled" if compiled_available() else "plain"
     if memory == "compiled":
         if not compiled_available():
-            needs = f"the compiled memory needs Numba; {how_to_install('fast')}, unset NUMBA_DISABLE_JIT"
+            needs = f"the compiled memory needs Numba; {install_hint('fast')}, unset NUMBA_DISABLE_JIT"
             raise MemoryUnavailableError(f"{_FAILURES[0] if _FAILURES else needs}, or use the plain memory")
         return "compiled"
     if memory == "plain":
@@ -119,16 +119,16 @@ def open_worlds(
     # The first time this imports Numba, which must come before NumPy.
     if not isinstance(memory, Plan):
         begins = at_once and memory == "auto"
-        begins = begins and begins_plain(memory, ticks * max(map(tick_cost, several), default=0))
+        begins = begins and prefers_plain(memory, ticks * max(map(tick_cost, several), default=0))
         memory = Plan("plain" if begins else _usable_memory(memory), "compiled", checked=False)
     if memory.first == "plain":
         return PlainWorlds(several, count, box=box)
-    from ninja_game.sim.memory.compiled import CompiledWorlds
+    from ninja_game.backend.compiled import CompiledWorlds
 
     return CompiledWorlds(partial(compiled, checked=memory.checked), several, count, box=box)
 
 
-def begins_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False) -> bool:
+def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False) -> bool:
     """Whether a run of so much work begins on the plain memory: it is little, or its kernels are still to be compiled.
 
     Then a process in the background compiles them.
@@ -137,27 +137,27 @@ def begins_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = 
         return False
     from ninja_game.backend import background_compiler
 
-    if not background_compiler.allowed():
+    if not background_compiler.is_enabled():
         return False
     if (load_world, checked or _ALL_CHECKED) in _KERNELS:
         return False
-    if _are_there(checked=checked):
+    if _kernels_ready(checked=checked):
         _WORK[0] += work
         return _WORK[0] <= PLAIN_WORK
     background_compiler.start()
     return True
 
 
-def _are_there(*, checked: bool) -> bool:
+def _kernels_ready(*, checked: bool) -> bool:
     """Whether the kernels for a run have been made, or are in the cache."""
-    from ninja_game.backend.kernel_cache import are_kept
+    from ninja_game.backend.kernel_cache import are_cached
 
     checked = _ALL_CHECKED or checked
-    missing = [entry for entry in _OF_ONE_RUN[checked] if (entry, checked) not in _KERNELS]
-    return not missing or are_kept(missing, checked)
+    missing = [entry for entry in _RUN_KERNELS[checked] if (entry, checked) not in _KERNELS]
+    return not missing or are_cached(missing, checked)
 
 
-def go_on(worlds: Worlds, memory: str | Plan, ticks: int) -> Worlds:
+def switch_to_compiled(worlds: Worlds, memory: str | Plan, ticks: int) -> Worlds:
     """Worlds that were opened ``at_once``, or, for so many ticks that it is worth it, copies in the compiled memory.
 
     To be asked between two ticks. While its kernels are being compiled they are the same worlds; where nobody compiles
@@ -169,10 +169,10 @@ def go_on(worlds: Worlds, memory: str | Plan, ticks: int) -> Worlds:
         return worlds
     from ninja_game.backend import background_compiler
 
-    compiling = not _are_there(checked=plan.checked) and background_compiler.is_at_work()
+    compiling = not _kernels_ready(checked=plan.checked) and background_compiler.is_compiling()
     if compiling or _usable_memory("auto", checked=plan.checked) == "plain":
         return worlds
-    from ninja_game.sim.memory.compiled import compiled_copy
+    from ninja_game.backend.compiled import compiled_copy
 
     return compiled_copy(partial(compiled, checked=plan.checked), worlds)
 
@@ -186,9 +186,9 @@ def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
     except MemoryUnavailableError as error:
         if memory != "auto":
             raise
-        from ninja_game.backend.numba_import import say_once
+        from ninja_game.backend.numba_import import warn_once
 
-        say_once(f"{error}; this is the plain memory, which is slower")
+        warn_once(f"{error}; this is the plain memory, which is slower")
         return "plain"
     return "compiled"
 
@@ -198,7 +198,7 @@ def proven_memory(memory: str, work: int = NO_LIMIT) -> Plan:
 
     Raises SelfTestError where it does not, and what ``choose_memory`` raises.
     """
-    begins = begins_plain(memory, work, checked=True)
+    begins = prefers_plain(memory, work, checked=True)
     if not begins and _usable_memory(memory, checked=True) == "compiled":
         return CHECKED
     _prove_plain()
@@ -222,7 +222,7 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
         with _LOCK:
             make = _compiler(checked)
             if entry is load_world and (entry, checked) not in _KERNELS:
-                from ninja_game.sim.memory.compiled import CompiledWorlds
+                from ninja_game.backend.compiled import CompiledWorlds
 
                 try:
                     check_self_test(lambda level, box: CompiledWorlds(make, [level], box=box), "compiled")
@@ -253,7 +253,7 @@ def _compiler(checked: bool) -> Compiler:
 
     try:
         numba = import_numba()
-        from ninja_game.sim.memory.compiler import Compiler
+        from ninja_game.backend.compiler import Compiler
 
         return Compiler(numba, checked=checked, attach_cache=attach_cache, pipeline=make_pipeline())
     except Exception as error:
@@ -285,7 +285,7 @@ _OBJECTS = (
 
 
 class SelfTestError(NinjaGameError):
-    """The known run does not end as it must: nothing that this process computes can be believed."""
+    """The known run ends otherwise: nothing that this process computes can be trusted."""
 
 
 def check_self_test(open_world: Callable[[Level, bool], Worlds], memory: str) -> None:

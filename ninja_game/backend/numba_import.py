@@ -17,7 +17,7 @@ from typing import Any
 from warnings import catch_warnings, simplefilter
 
 HONOURED = ("NUMBA_CACHE_DIR", "NUMBA_DISABLE_JIT")
-"""Variables of Numba's that this program reads: where compiled code is kept, and whether anything is compiled."""
+"""Variables of Numba that this program reads: the cache folder, and whether anything is compiled."""
 
 FIXED = {"NUMBA_DEBUGINFO": "0", "NUMBA_ENABLE_PROFILING": "0"}
 """Settings that would follow from variables of other programs (VS_PROFILER)."""
@@ -33,7 +33,7 @@ class _ConfigLoader:
         self._finds = finds
 
     def create_module(self, spec: ModuleSpec) -> None:
-        """As usual."""
+        """Give None: Python makes the module itself."""
 
     def exec_module(self, module: ModuleType) -> None:
         code = self._finds.get_code(_CONFIG)
@@ -58,7 +58,7 @@ class _ConfigFinder:
 
 
 @cache
-def say_once(message: str) -> None:
+def warn_once(message: str) -> None:
     """Write a line on stderr, the first time only."""
     sys.stderr.write(f"ninja-game: {message}\n")
 

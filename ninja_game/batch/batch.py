@@ -26,6 +26,8 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ninja_game.backend.compiled import SLICE
+from ninja_game.backend.layout import Records
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
@@ -33,9 +35,7 @@ from ninja_game.sim.digest import state_digest, world_digest
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, JUMP_PRESSED, KEYS_DOWN
 from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.compiled import SLICE
 from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.layout import Records
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.simulation import Body, is_box
@@ -131,8 +131,8 @@ class Batch:
         self.ticks: NDArray[np.int32] = self.records["tick"]
         self.used: NDArray[np.int32] = self.records["slots_used"]
         objects = self.records["objects"]
-        room = (self.records.strides[0] - (objects.ctypes.data - self.records.ctypes.data)) // objects.strides[1]
-        self.objects: Records = objects[:, :room]
+        capacity = (self.records.strides[0] - (objects.ctypes.data - self.records.ctypes.data)) // objects.strides[1]
+        self.objects: Records = objects[:, :capacity]
         self.places = pairs(self.objects["x"])
 
     def velocities(self) -> NDArray[np.float64]:
@@ -174,7 +174,7 @@ class Batch:
         at_once = max(1, 8 * SLICE // (worlds.slots * self.count))
         for begin in range(0, len(keys), at_once):
             part = keys[begin : begin + at_once]
-            work = partial(worlds.run_rows, part, stop=stop)
+            work = partial(worlds.run_batch, part, stop=stop)
             ticks += pool.share(work, self.count, len(part))
         return ticks
 
@@ -234,21 +234,21 @@ class Batch:
         return self.levels, self.body, self.memory
 
 
-def numbers_of(which: WorldChoice, count: int, what: str) -> Indices:
+def numbers_of(choice: WorldChoice, count: int, what: str) -> Indices:
     """Chosen indices below ``count``, intp. Raises ArgumentError for an invalid choice."""
     everyone = np.arange(count, dtype=np.intp)
-    if which is None:
+    if choice is None:
         return everyone
-    if isinstance(which, slice):
-        return everyone[which]
-    chosen = np.asarray(which)
+    if isinstance(choice, slice):
+        return everyone[choice]
+    chosen = np.asarray(choice)
     if chosen.dtype == np.bool_:
         if chosen.shape != (count,):
             raise ArgumentError(f"{what} are chosen by {chosen.size} truth values; expected {count}, one for each")
         return np.flatnonzero(chosen)
     if chosen.ndim > 1 or not (np.issubdtype(chosen.dtype, np.integer) or not chosen.size):
         expected = "numbers, a slice, or a truth value for each"
-        raise ArgumentError(f"{what} are chosen by {which!r:.40}; expected {expected}")
+        raise ArgumentError(f"{what} are chosen by {choice!r:.40}; expected {expected}")
     if chosen.size and not -count <= chosen.min() <= chosen.max() < count:
         raise ArgumentError(f"{what} are {chosen.min()} to {chosen.max()}; expected numbers below {count}")
     return np.atleast_1d(everyone[chosen.astype(np.intp)])

@@ -20,7 +20,7 @@ Work: TypeAlias = Callable[[int, int], int]  # does items first … last - 1 and
 
 CHUNKS_PER_THREAD = 8
 SMALL_CHUNK = 2048
-"""Ticks that a chunk should have at least, unless each thread has but one: every handing over makes a thread wait."""
+"""Least ticks of a chunk, unless each thread gets only one: handing out a chunk costs its thread a wait."""
 
 HEAD_START = 128  # ticks that the caller does while the others wake up
 

@@ -90,11 +90,11 @@ def check(
     from ninja_game.cli.commands import BAD_INPUT, FAILED
     from ninja_game.cli.terminal import print_error
     from ninja_game.formats.load import load_levels
-    from ninja_game.search.certify import Wanted, certify_all
+    from ninja_game.search.certify import CertifyOptions, certify_all
 
     chosen = [level for path in levels for level in load_levels(path)]
     kept = list(_files(chosen, goals, replays))
-    wanted = Wanted(goals, task_options, improve)
+    wanted = CertifyOptions(goals, task_options, improve)
     broken = 0
     without: dict[str, list[str]] = {goal: [] for goal in goals}
     with options.progress_line() as report:

@@ -164,7 +164,7 @@ def generate(seed: int | None, difficulty: int, output: Path | None, replay: Pat
     """
     from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
     from ninja_game.generator.generate import generate
-    from ninja_game.search.certificate import named_run, save_replay
+    from ninja_game.search.certificate import named_replay, save_replay
 
     for path in filter(None, (output, replay)):
         check_output(path)
@@ -180,7 +180,7 @@ def generate(seed: int | None, difficulty: int, output: Path | None, replay: Pat
     output = output or free_path(Path(), level.name.lower().replace(" ", "-"), ".txt")
     write_atomically(output, write_ascii_level(level.level, **headers_of(level)))
     if replay:
-        run = named_run(made.run, "generate", name=level.name, author=level.author, level_author=level.author)
+        run = named_replay(made.run, "generate", name=level.name, author=level.author, level_author=level.author)
         save_replay(replay, run)
     click.echo(
         f"{output}: {level.name}, seed {seed}, difficulty {made.difficulty:.1f}, "

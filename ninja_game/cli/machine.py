@@ -153,19 +153,19 @@ def compile(background: bool) -> None:  # noqa: A001 - the name of the command
       ninja-game compile
       NINJA_GAME_BACKGROUND_COMPILER=0 ninja-game verify levels/certificates
     """
-    from ninja_game.backend.background_compiler import hold_work, step_back
+    from ninja_game.backend.background_compiler import lock_compilation, lower_priority
     from ninja_game.backend.kernel_cache import before_compiling
 
     # This command says itself what it does.
     before_compiling.clear()
-    handle = hold_work()
+    handle = lock_compilation()
     if background:
         if handle is None:
             return
-        step_back()
+        lower_priority()
     elif handle is None:
         click.echo("Another process compiles; waiting for it", err=True)
-        while (handle := hold_work()) is None:
+        while (handle := lock_compilation()) is None:
             time.sleep(EVERY)
     try:
         compile_everything(min(MOST_PROCESSES, cores()), quiet=background)
@@ -178,16 +178,16 @@ def compile_everything(processes: int, *, quiet: bool) -> None:
 
     Raises NinjaGameError where nothing is kept.
     """
-    from ninja_game.backend.kernel_cache import are_kept, code_folder
+    from ninja_game.backend.kernel_cache import are_cached, code_folder
+    from ninja_game.backend.kernels import run_world
     from ninja_game.runs.workers import in_order, workers
-    from ninja_game.sim.memory.kernels import run_world
 
     began = time.monotonic()
     with workers(processes, processes=processes > 1) as pool:
         for number, (name, lost) in enumerate(in_order(pool, compile_for, WORK), 1):
             if lost is not None:
                 raise lost
-            if number == 1 and not any(are_kept([run_world], checked) for checked in (False, True)):
+            if number == 1 and not any(are_cached([run_world], checked) for checked in (False, True)):
                 where = code_folder()
                 raise NinjaGameError(f"compiled code is not kept in {where}: make room there, or let it be written")
             if not quiet:

@@ -337,26 +337,26 @@ def simplified_run(task: Task, run: Replay, price: int | None) -> Replay:
 
     ``price``: also with fewer key changes, at most so many ticks longer and with no less gold.
     """
-    from ninja_game.search.certificate import smoothed, verified_run, without_idle_keys
+    from ninja_game.search.certificate import smooth_run, verified_run, without_idle_keys
 
     inputs = without_idle_keys(task.level, run.inputs, task.first, body=run.body)
     if price is not None:
-        inputs = smoothed(task.level, inputs, body=run.body, gold=run.gold, price=price)
+        inputs = smooth_run(task.level, inputs, body=run.body, gold=run.gold, price=price)
     return verified_run(task.level, inputs, body=run.body, gold=run.gold)
 
 
 def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
     """A function that writes each better run of a level to a file, which must not be the level's own."""
-    from ninja_game.search.certificate import named_run, save_replay
+    from ninja_game.search.certificate import named_replay, save_replay
 
     check_output(path, keep=[Path(level.file)])
     about = {"name": level.name, "author": "ninja-game solve", "level_author": level.author}
-    return lambda run: save_replay(path, named_run(run, "solve", **about))
+    return lambda run: save_replay(path, named_replay(run, "solve", **about))
 
 
 def saver_of_better(path: Path, recording: Recording, command: str) -> Callable[[Replay], None]:
     """A function that writes each better run that a command made of a recording, to a file that is not its own."""
-    from ninja_game.search.certificate import better_run, save_replay
+    from ninja_game.search.certificate import improved_replay, save_replay
 
     check_output(path, keep=[Path(recording.file)])
-    return lambda run: save_replay(path, better_run(run, recording, command))
+    return lambda run: save_replay(path, improved_replay(run, recording, command))

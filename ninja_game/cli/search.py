@@ -21,7 +21,7 @@ from ninja_game.files.writing import check_output, write_atomically
 
 if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
-    from ninja_game.search.formula.task import Found
+    from ninja_game.search.formula.task import SpanResult
 
 
 class SearchLog:
@@ -221,7 +221,7 @@ def search(
     from ninja_game.formats.load import load_replays
     from ninja_game.runs.run import record_replay
     from ninja_game.search.formula.methods import search_span
-    from ninja_game.search.formula.task import SpanTask, score_text, without_junk
+    from ninja_game.search.formula.task import SpanTask, score_text, tidied
 
     if maximise and minimise:
         raise click.UsageError("--maximise and --minimise cannot be used together")
@@ -239,10 +239,10 @@ def search(
     )  # fmt: skip
     start = 0.0
     with options.progress_line() as shown:
-        saved: list[Found] = []
-        misses: list[Found] = []
+        saved: list[SpanResult] = []
+        misses: list[SpanResult] = []
 
-        def report(ticks: int, best: tuple[Found, ...]) -> bool:
+        def report(ticks: int, best: tuple[SpanResult, ...]) -> bool:
             if save and best and (not saved or best[0] < saved[-1]):
                 saved.append(best[0])
                 save(record_replay(task.level, best[0].inputs, body=task.body))
@@ -254,8 +254,10 @@ def search(
             shown.say(f"{standing}  {ticks / 1e6:.1f}M ticks")
             return spent < seconds
 
-        found = search_span(task, report, method=method, every=every, seed=seed, threads=jobs, missed=misses.append)
-    found = tuple(without_junk(task, each) for each in found)
+        found = search_span(
+            task, report, method=method, every=every, seed=seed, threads=jobs, report_miss=misses.append
+        )
+    found = tuple(tidied(task, each) for each in found)
     if save and found:
         save(record_replay(task.level, found[0].inputs, body=task.body))
     for each in found or misses[-1:]:
@@ -267,7 +269,7 @@ def search(
     return 0 if found else FAILED
 
 
-def _keys(found: Found) -> str:
+def _keys(found: SpanResult) -> str:
     from ninja_game.formats.replay.notations import write_inputs
     from ninja_game.sim.inputs import with_press_bits
 

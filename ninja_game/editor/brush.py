@@ -7,7 +7,7 @@ from typing import NamedTuple
 from ninja_game.editor.motion import TILE_IDS, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, settled, with_word, word
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.formats.ascii.object_lines import Listed, natural_offset, read_object_line
+from ninja_game.formats.ascii.object_lines import ListedObject, natural_offset, read_object_line
 from ninja_game.formats.ascii.places import Cell, cell_of, middle_of
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
@@ -63,8 +63,8 @@ class ObjectType(NamedTuple):
     @property
     def spec(self) -> ObjectSpec:
         listed = read_object_line(self.line)[0]
-        assert isinstance(listed, Listed)  # noqa: S101 - the table below holds objects only
-        return listed.record
+        assert isinstance(listed, ListedObject)  # noqa: S101 - the table below holds objects only
+        return listed.spec
 
 
 OBJECT_TYPES = tuple(

@@ -18,7 +18,7 @@ from ninja_game.editor.brush import object_of_type, placed
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
-from ninja_game.files.user_folder import how_to_install
+from ninja_game.files.user_folder import install_hint
 from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
 from ninja_game.levels.findings import Finding
 from ninja_game.runs.run import RunResult, run_level
@@ -217,7 +217,7 @@ class Certifier:
         before = self.search
         longer = 2 * self.search.seconds if self.search.obstacles and self.search.level == level else self.seconds
         if not compiled_available():
-            self.search = Search(end=f"Certifying needs Numba: {how_to_install('fast')}")
+            self.search = Search(end=f"Certifying needs Numba: {install_hint('fast')}")
             return
         self.search = Search(level, seconds=longer)
         for run in (before.run, before.full) if before.level == level else ():
@@ -332,7 +332,7 @@ def with_ninja_at(draft: Draft, place: tuple[float, float]) -> Level:
 def find_reach(ask: Ask) -> Reach:
     """Run the fan. Raises LevelError for a level that cannot be played, NinjaGameError without Numba."""
     if not compiled_available():
-        raise NinjaGameError(f"What can be reached needs Numba: {how_to_install('fast')}")
+        raise NinjaGameError(f"What can be reached needs Numba: {install_hint('fast')}")
     worlds = open_worlds("compiled", with_ninja_at(ask.draft, ask.place), len(FAN), box=False)
     import numpy as np
 
@@ -357,7 +357,7 @@ def find_reach(ask: Ask) -> Reach:
         down = until > tick
         keys = np.select([going < 0, going > 0], [KEY_LEFT, KEY_RIGHT], 0)
         keys += down * JUMP_HELD + begins * JUMP_PRESSED
-        worlds.run_rows(np.require(keys[np.newaxis], np.uint8, ["C", "W"]), 0, len(FAN), stop=True)
+        worlds.run_batch(np.require(keys[np.newaxis], np.uint8, ["C", "W"]), 0, len(FAN), stop=True)
     latest: list[tuple[float, float]] = []
     shown = [*(FAN.index(_Plan(0, LANDED, hold, steer)) for steer in (-1, 0, 1) for hold in (1, TICKS))]
     for side in (-1, 1):

@@ -17,13 +17,13 @@ from pathlib import Path
 from ninja_game.document import RecoveryFile, check_free, digest_of, digest_of_file, recovered_from
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.locking import forget
+from ninja_game.files.locking import remove_abandoned
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.user_folder import EDITING
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.ascii import writer
-from ninja_game.formats.ascii.legend import visible_parts
-from ninja_game.formats.ascii.object_lines import Listed, OddTile, read_object_line
+from ninja_game.formats.ascii.legend import visible_glyphs
+from ninja_game.formats.ascii.object_lines import ListedObject, OddTile, read_object_line
 from ninja_game.formats.ascii.picture import Problems
 from ninja_game.formats.ascii.reader import parse_ascii_level, sections
 from ninja_game.formats.lines import UNCOMMENTED, header_text, numbered_lines
@@ -168,7 +168,7 @@ class RecoveredDraft:
 
     def forget(self) -> bool:
         """Remove it; whether no other program goes on with it."""
-        return forget(self.file)
+        return remove_abandoned(self.file)
 
 
 def recovered(folder: Path) -> Iterator[RecoveredDraft]:
@@ -223,7 +223,7 @@ def reads_as(text: str, draft: Draft, *, named: bool = True) -> bool:
         given == writer.headers_of(draft)
         and read.level.tiles == draft.level.tiles
         and len(objects) == len(draft.objects)
-        and all(map(writer.same_record, objects, draft.objects))
+        and all(map(writer.same_spec, objects, draft.objects))
     )
 
 
@@ -258,7 +258,7 @@ class _Lines:
                     self.after[last].append(line)
 
     def _change_picture(self) -> None:
-        parts = [visible_parts(spec) for spec in self.draft.objects]
+        parts = [visible_glyphs(spec) for spec in self.draft.objects]
         for (number, line), chars in zip(self.rows, writer.picture_rows(self.draft.level, parts), strict=True):
             match = _ROW.fullmatch(line)
             # A blank is as empty as a dot: what a person left blank stays so.
@@ -275,7 +275,10 @@ class _Lines:
             self.replaced |= {number: [] for number in tiles}
             self.after[end] += writer.tile_lines(self.draft.level)
         owners: list[tuple[int, ObjectSpec]] = [
-            (number, entry.record) for number, entries in read.items() for entry in entries if isinstance(entry, Listed)
+            (number, entry.spec)
+            for number, entries in read.items()
+            for entry in entries
+            if isinstance(entry, ListedObject)
         ]
         wanted = self.draft.objects[self._count_drawn(len(owners)) :]
         keys = [repr(spec) for _, spec in owners]
@@ -317,7 +320,7 @@ class _Lines:
     def _count_drawn(self, listed: int) -> int:
         """How many of the first objects the picture alone makes: as many as before, where that is possible."""
         objects = self.draft.objects
-        most = writer.drawn_only(self.draft.level, [visible_parts(spec) for spec in objects])
+        most = writer.drawn_only(self.draft.level, [visible_glyphs(spec) for spec in objects])
         old = self.opened.objects
         before = len(old) - listed
         if not listed or old == objects:

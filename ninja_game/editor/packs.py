@@ -23,7 +23,7 @@ from ninja_game.errors import LinkError, NinjaGameError, PackError
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.shown_text import counted, file_stem, name_problem, shown_text
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import free_path, how_to_install
+from ninja_game.files.user_folder import free_path, install_hint
 from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
@@ -384,7 +384,7 @@ def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Ob
     if compiled_available():
         _certify(pack, path, seconds, jobs, say, obstacles)
     else:
-        notes.append(f"Certifying needs Numba: {how_to_install('fast')}")
+        notes.append(f"Certifying needs Numba: {install_hint('fast')}")
     pack, made = Pack(path), {}
     try:
         for file, pars in make_pars(pack):
@@ -434,7 +434,7 @@ def _with_obstacle(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> st
 
 def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstacles: Obstacles) -> None:
     """Certify the levels of which anything is not known yet, nor accepted."""
-    from ninja_game.search.certify import Wanted, certify_all
+    from ninja_game.search.certify import CertifyOptions, certify_all
     from ninja_game.search.solve import compile_solver
     from ninja_game.search.task import Progress, obstacle
 
@@ -446,7 +446,7 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
 
     in_order = [Path(each.named.file).name for each in episode_set(pack, "").levels]
     levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in KINDS)}
-    wanted = Wanted({"exit": 0, "gold": -1}, {"seconds": seconds})
+    wanted = CertifyOptions({"exit": 0, "gold": -1}, {"seconds": seconds})
     files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
     sought = {"exit": "a run to the exit", "gold": "a run with all gold"}
     goals = {file: " and ".join(sought[kind] for kind in KINDS if is_open(file, kind)) for file in levels}

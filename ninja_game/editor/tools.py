@@ -15,7 +15,7 @@ from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, has_switch, points, properties, with_word, word
 from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
-from ninja_game.formats.sayings import moved_saying, read_sayings
+from ninja_game.formats.messages import parse_messages, with_message_moved
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, LAUNCH_PAD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, WORLD_HEIGHT, WORLD_WIDTH
@@ -39,7 +39,7 @@ OTHER_KINDS = tuple(each.name for each in brush.OBJECT_TYPES if each.spec.kind n
 
 def said_cells(says: str) -> list[Cell | None]:
     """The cell near which each message of a level is said; None for one without a place."""
-    return [each.cell if each.place else None for each in read_sayings(says)]
+    return [each.cell if each.place else None for each in parse_messages(says)]
 
 
 def can_be_remade(spec: ObjectSpec) -> bool:
@@ -140,7 +140,7 @@ class EditorTools:
         elif self._doing == "message" and is_inside(self.cell):
             began = self.history.began
             place = said_cells(began.says).index(cell_of(*self._pressed_at))
-            self.history.change(replace(began, says=moved_saying(began.says, place, self.cell)))
+            self.history.change(replace(began, says=with_message_moved(began.says, place, self.cell)))
         elif self._doing == "choose":
             self.marquee = cell_of(*self._pressed_at), self.cell
             self.selection = self._joined(stamps.chosen_in(self.draft, stamps.area_between(*self.marquee)))

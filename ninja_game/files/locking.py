@@ -65,7 +65,7 @@ def lock(handle: int) -> bool:
     return True
 
 
-def hold(path: Path) -> int | None:
+def try_lock(path: Path) -> int | None:
     """Lock a file, which is made if it is missing, for as long as its handle stays open; None if another holds it.
 
     The system frees it when a process dies, however it dies. Raises OSError for a place without files.
@@ -77,10 +77,10 @@ def hold(path: Path) -> int | None:
     return None
 
 
-def left_behind(
+def read_abandoned(
     folder: Path, pattern: str, read: Callable[[Path], Found], damaged: tuple[type[Exception], ...]
 ) -> Iterator[Found]:
-    """What files hold whose programs have died, the newest first; those of running programs are left out.
+    """Read the files of programs that have died, the newest first; those of running programs are left out.
 
     ``damaged``: what ``read`` raises, besides OSError, for a file that is left out too.
     """
@@ -91,7 +91,7 @@ def left_behind(
                 dated.append((file.stat().st_mtime, file))
     for _, file in sorted(dated, reverse=True):
         with suppress(OSError, *damaged):
-            handle = hold(file.with_suffix(LOCK_SUFFIX))
+            handle = try_lock(file.with_suffix(LOCK_SUFFIX))
             if handle is None:
                 continue
             try:
@@ -101,10 +101,10 @@ def left_behind(
             yield found
 
 
-def forget(file: Path) -> bool:
+def remove_abandoned(file: Path) -> bool:
     """Remove a file whose program has died or let it go, and its lock; False where another program goes on with it."""
     with suppress(OSError):
-        handle = hold(file.with_suffix(LOCK_SUFFIX))
+        handle = try_lock(file.with_suffix(LOCK_SUFFIX))
         if handle is None:
             return False
         os.close(handle)

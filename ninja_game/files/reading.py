@@ -1,6 +1,6 @@
 """Files as people have them: texts in any encoding, with any line ends, alone or in folders. Only regular files.
 
-A text may take in others by their names, from its own folder or below it (``read_beside``). Every format reads them
+A text may take in others by their names, from its own folder or below it (``read_included``). Every format reads them
 here, so that a verification knows all of what its results depend on, and can have it read from memory on another
 machine (``known_files``).
 """
@@ -28,7 +28,7 @@ _inputs: set[tuple[int, int]] | None = None
 
 
 @dataclass(frozen=True)
-class LeftOut:
+class Skipped:
     """What a walk through a folder could not look at, and why."""
 
     path: Path
@@ -38,11 +38,11 @@ class LeftOut:
         return f"{self.path}: {self.why}"
 
 
-def files_below(folder: Path, *, follow_links: bool = True) -> Iterator[Path | LeftOut]:
+def files_below(folder: Path, *, follow_links: bool = True) -> Iterator[Path | Skipped]:
     """The files below a folder that may hold levels or recordings, in order of their names, hidden ones apart.
 
     Links are followed, or left out. Every folder is visited once, so that loops end. Only the folders on the way to the
-    present file are in memory. What cannot be looked at is given as LeftOut and stops nothing.
+    present file are in memory. What cannot be looked at is given as Skipped and stops nothing.
     """
     visited: set[tuple[int, int]] = set()
     waiting = [(folder, True)]
@@ -51,19 +51,21 @@ def files_below(folder: Path, *, follow_links: bool = True) -> Iterator[Path | L
         try:
             about = os.stat(path, follow_symlinks=follow_links or path == folder)  # noqa: PTH116 - of each run of a board
             if stat.S_ISLNK(about.st_mode):
-                yield LeftOut(path, "a link; put the file itself here")
+                yield Skipped(path, "a link; put the file itself here")
                 continue
             if not is_folder:
-                yield path if stat.S_ISREG(about.st_mode) else LeftOut(path, f"{what_it_is(about.st_mode)}, not a file")
+                yield (
+                    path if stat.S_ISREG(about.st_mode) else Skipped(path, f"{file_type(about.st_mode)}, not a file")
+                )
                 continue
             if (about.st_dev, about.st_ino) in visited:
-                yield LeftOut(path, "a link to a folder that is visited already")
+                yield Skipped(path, "a link to a folder that is visited already")
                 continue
             visited.add((about.st_dev, about.st_ino))
             with os.scandir(path) as entries:
                 names = sorted(((each.name, _is_folder(each)) for each in entries), reverse=True)
         except (OSError, ValueError) as error:
-            yield LeftOut(path, getattr(error, "strerror", "") or str(error))
+            yield Skipped(path, getattr(error, "strerror", "") or str(error))
             continue
         waiting += [
             (path / name, below)
@@ -130,7 +132,7 @@ def open_regular(path: Path) -> IO[bytes]:
         _inputs.add((about.st_dev, about.st_ino))
     if not stat.S_ISREG(mode):
         os.close(handle)
-        raise FileError("only a regular file is read", str(path), found=what_it_is(mode))
+        raise FileError("only a regular file is read", str(path), found=file_type(mode))
     return os.fdopen(handle, "rb")
 
 
@@ -189,10 +191,10 @@ def decoded(data: bytes, file: str) -> str:
     return text
 
 
-def what_it_is(mode: int) -> str:
+def file_type(mode: int) -> str:
     """What a file is, by its mode, as error messages call it.
 
-    >>> what_it_is(stat.S_IFIFO)
+    >>> file_type(stat.S_IFIFO)
     'a pipe'
     """
     kinds = {
@@ -202,8 +204,8 @@ def what_it_is(mode: int) -> str:
     return kinds.get(stat.S_IFMT(mode), "something else")
 
 
-class Beside(NamedTuple):
-    """A file that a text names: its path, "" for one elsewhere; its text, None where it cannot be read; why not.
+class IncludedFile(NamedTuple):
+    """A file that a text includes: its path, "" for one elsewhere; its text, None where it cannot be read; why not.
 
     There is no reason where no regular file is there.
     """
@@ -213,11 +215,11 @@ class Beside(NamedTuple):
     problem: str = ""
 
 
-_KNOWN: ContextVar[tuple[dict[str, Beside], bool] | None] = ContextVar("known files", default=None)
+_KNOWN: ContextVar[tuple[dict[str, IncludedFile], bool] | None] = ContextVar("known files", default=None)
 
 
 @contextmanager
-def known_files(known: dict[str, Beside], *, no_more: bool) -> Iterator[None]:
+def known_files(known: dict[str, IncludedFile], *, no_more: bool) -> Iterator[None]:
     """For a while files come from ``known``, by name; others are read and noted there, or, ``no_more``, are errors."""
     token = _KNOWN.set((known, no_more))
     try:
@@ -226,17 +228,17 @@ def known_files(known: dict[str, Beside], *, no_more: bool) -> Iterator[None]:
         _KNOWN.reset(token)
 
 
-PLACE = "link"  # what the text of a link is called; a file of that name in the current folder is another one
+LINK = "link"  # what the text of a link is called; a file of that name in the current folder is another one
 
 
 def has_folder(file: str) -> bool:
     """Whether the text of that name lies in a folder; one of a link does not."""
     known = _KNOWN.get()
     sent = bool(known and known[1] and known[0])
-    return sent or (file != PLACE and os.path.isfile(file))  # noqa: PTH113 - fails on no name
+    return sent or (file != LINK and os.path.isfile(file))  # noqa: PTH113 - fails on no name
 
 
-def read_beside(file: str, name: str) -> Beside:
+def read_included(file: str, name: str) -> IncludedFile:
     """The file of a name that stands in the text ``file``."""
     known, no_more = _KNOWN.get() or ({}, False)
     if name not in known:
@@ -246,11 +248,11 @@ def read_beside(file: str, name: str) -> Beside:
     return known[name]
 
 
-def _read(file: str, name: str) -> Beside:
+def _read(file: str, name: str) -> IncludedFile:
     path = path_below(Path(file).parent, name) if name else None
     if path is None or not os.path.isfile(path):  # noqa: PTH113
-        return Beside(str(path or ""))
+        return IncludedFile(str(path or ""))
     try:
-        return Beside(str(path), read_text(path))
+        return IncludedFile(str(path), read_text(path))
     except (OSError, NinjaGameError) as error:
-        return Beside(str(path), problem=reason(error))
+        return IncludedFile(str(path), problem=reason(error))

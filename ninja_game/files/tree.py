@@ -15,8 +15,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ninja_game.errors import FileError
-from ninja_game.files.reading import what_it_is
-from ninja_game.files.writing import as_bytes, named, replaced
+from ninja_game.files.reading import file_type
+from ninja_game.files.writing import as_bytes, named, replacing
 from ninja_game.runtime import FOLDER_HANDLES
 
 
@@ -38,7 +38,7 @@ class Tree:
         *folders, last = _parts(name)
         with (
             self._folder(folders, make=True) as (folder, at),
-            replaced(folder / last, _replaceable(folder / last, at), at, kept=self._kept) as file,
+            replacing(folder / last, _replaceable(folder / last, at), at, kept=self._kept) as file,
         ):
             file.write(as_bytes(content))
 
@@ -116,13 +116,13 @@ def _entered(path: Path, at: int | None) -> int | None:
 
 
 def _replaceable(path: Path, at: int | None) -> os.stat_result | None:
-    """What ``replaced`` has to know of the file with this name. Raises FileError for what is not a regular file."""
+    """What ``replacing`` has to know of the file with this name. Raises FileError for what is not a regular file."""
     try:
         about = os.stat(named(path, at), dir_fd=at, follow_symlinks=False)
     except FileNotFoundError:
         return None
     if not stat.S_ISREG(about.st_mode):
-        found, hint = what_it_is(about.st_mode), "nothing is written through links here; remove it"
+        found, hint = file_type(about.st_mode), "nothing is written through links here; remove it"
         raise FileError("only a regular file is written", str(path), found=found, hint=hint)
     return about
 

@@ -34,7 +34,7 @@ def user_folder() -> Path:
 
     Raises FileError where ``NINJA_GAME_HOME`` begins with a ``~name`` of an unknown user, or the user has no home.
     """
-    return chosen_folder(HOME_VARIABLE, _system_folder)
+    return folder_from_variable(HOME_VARIABLE, _system_folder)
 
 
 def _system_folder() -> Path:
@@ -51,7 +51,7 @@ def cache_folder() -> Path:
     return user_cache_path("ninja-game", appauthor=False)
 
 
-def chosen_folder(variable: str, otherwise: Callable[[], Path]) -> Path:
+def folder_from_variable(variable: str, otherwise: Callable[[], Path]) -> Path:
     """The folder that a variable of the environment names, else another. Raises FileError where there is neither."""
     named = os.environ.get(variable)
     try:
@@ -165,7 +165,7 @@ def bundled_replays() -> list[Path]:
     return sorted(data_folder("levels").glob(f"certificates/*{REPLAY_SUFFIX}"))
 
 
-def how_to_install(extra: str) -> str:
+def install_hint(extra: str) -> str:
     """What gets an optional part of the program: in a checkout its own tool, else pip of the Python that runs this.
 
     It names the packages of the part, not this one, which the user's index may not have.

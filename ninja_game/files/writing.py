@@ -16,14 +16,14 @@ from pathlib import Path
 from typing import IO
 
 from ninja_game.errors import FileError
-from ninja_game.files.reading import SUFFIXES, is_input, what_it_is
+from ninja_game.files.reading import SUFFIXES, file_type, is_input
 
 PART_PREFIX, PART_SUFFIX = ".ninja-game-", ".part"
 """Name of a temporary file; it lies in the folder of the file that it will become."""
 
 _unfinished: set[Path] = set()  # the temporary files that this process is writing
 
-_tidied: set[Path] = set()  # folders in which this process has looked for what killed writers left behind
+_tidied: set[Path] = set()  # folders that this process has cleared of killed writers' temporary files
 
 
 def write_atomically(
@@ -55,13 +55,13 @@ def open_atomically(path: Path, *, keep: Iterable[Path] = ()) -> Iterator[IO[byt
     Raises FileError for a path that cannot be written on principle, OSError with the name ``path`` for the rest.
     """
     target, about = _target(path, keep)
-    with replaced(target, about, shown=path) as file:
+    with replacing(target, about, shown=path) as file:
         yield file
         _target(path, keep)  # the block may have read it
 
 
 @contextmanager
-def replaced(
+def replacing(
     target: Path, about: os.stat_result | None, at: int | None = None, *, shown: Path | None = None, kept: bool = True
 ) -> Iterator[IO[bytes]]:
     """A binary file that takes the place of ``target`` when the block ends, and never if it ends in an exception.
@@ -150,7 +150,7 @@ def _target(path: Path, keep: Iterable[Path]) -> tuple[Path, os.stat_result | No
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(path)) from None
     if not stat.S_ISREG(about.st_mode):
-        raise FileError("only a regular file is written", str(path), found=what_it_is(about.st_mode))
+        raise FileError("only a regular file is written", str(path), found=file_type(about.st_mode))
     if is_input(about) or any(_reads(each, target) for each in keep):
         raise FileError("this file is read by the same command", str(path), hint="choose another name for the output")
     if not os.access(target, os.W_OK):

@@ -17,7 +17,7 @@ from typing import Any, Literal
 from urllib.parse import unquote
 
 from ninja_game.errors import FormatError, LinkError
-from ninja_game.files.reading import PLACE, decoded
+from ninja_game.files.reading import LINK, decoded
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_file import write_level_file
 from ninja_game.formats.n14.level_string import level_digest
@@ -34,8 +34,8 @@ from ninja_game.formats.replay.text import (
 )
 from ninja_game.sim.level import Level
 
-Kind = Literal["level", "pack", "replay"]
-KINDS: tuple[Kind, ...] = ("level", "pack", "replay")
+LinkKind = Literal["level", "pack", "replay"]
+LINK_KINDS: tuple[LinkKind, ...] = ("level", "pack", "replay")
 
 VERSION = 1
 """Raw deflate (RFC 1951) of the text in UTF-8 behind four bytes of CRC-32, in base64url without padding."""
@@ -57,11 +57,11 @@ _AROUND = "\0 \t\r\n.,;:!?)>]}\"'"
 class Link:
     """What a link carries: one text, or several of replays, as untrusted as any file."""
 
-    kind: Kind
+    kind: LinkKind
     texts: tuple[str, ...]
 
 
-def link_kind(text: str | Path) -> Kind | None:
+def link_kind(text: str | Path) -> LinkKind | None:
     """The kind of link that a text, or a path made of it, looks like, sound or broken; None for any other text.
 
     A link begins with its # or holds an address before it: a file may have any other name.
@@ -73,7 +73,7 @@ def link_kind(text: str | Path) -> Kind | None:
     if before.strip(_AROUND + "<([") and not _ADDRESS.search(before):
         return None
     fragment = unquote(fragment)
-    return next((kind for kind in KINDS if fragment.startswith(f"{kind}=")), None)
+    return next((kind for kind in LINK_KINDS if fragment.startswith(f"{kind}=")), None)
 
 
 def is_link(text: str | Path) -> bool:
@@ -81,7 +81,7 @@ def is_link(text: str | Path) -> bool:
     return link_kind(text) is not None
 
 
-def write_link(kind: Kind, texts: Sequence[str]) -> str:
+def write_link(kind: LinkKind, texts: Sequence[str]) -> str:
     """The fragment, from the # on. Raises LinkError for more than a link can carry.
 
     >>> write_link("level", ["a text"])
@@ -115,23 +115,23 @@ def read_link(text: str | Path) -> Link:
     """
     whole = str(text)
     if len(whole) > MOST_CHARACTERS:
-        raise LinkError("the link is too long", PLACE, expected=f"at most {MOST_CHARACTERS:,} characters")
+        raise LinkError("the link is too long", LINK, expected=f"at most {MOST_CHARACTERS:,} characters")
     _, mark, fragment = "".join(whole.split()).strip(_AROUND).partition("#")
     parts = unquote(fragment).split("&")
     found = [_PART.fullmatch(part) for part in parts[: MOST_TEXTS + 1]]
     if not mark or None in found:
         hint = "copy it again, whole"
-        raise LinkError("not a link of a level, pack or replay", PLACE, found=repr(fragment[:40]), hint=hint)
+        raise LinkError("not a link of a level, pack or replay", LINK, found=repr(fragment[:40]), hint=hint)
     matches = [match for match in found if match]
-    kind = next(kind for kind in KINDS if kind == matches[0][1])
+    kind = next(kind for kind in LINK_KINDS if kind == matches[0][1])
     if len(matches) > (MOST_TEXTS if kind == "replay" else 1) or any(match[1] != kind for match in matches):
-        raise LinkError("a link of too many things", PLACE, expected=f"a level, a pack, or up to {MOST_TEXTS} replays")
+        raise LinkError("a link of too many things", LINK, expected=f"a level, a pack, or up to {MOST_TEXTS} replays")
     left = MOST_BYTES
     texts = []
     for match in matches:
         if int(match[2]) != VERSION:
             hint = "a link from a newer ninja-game needs a newer ninja-game"
-            raise LinkError("a link of an unknown version", PLACE, found=match[2], expected=str(VERSION), hint=hint)
+            raise LinkError("a link of an unknown version", LINK, found=match[2], expected=str(VERSION), hint=hint)
         texts.append(_unpacked(match[3], left))
         left -= len(texts[-1])
     return Link(kind, tuple(texts))
@@ -145,12 +145,12 @@ def _unpacked(packed: str, most: int) -> str:
         inflate = zlib.decompressobj(-zlib.MAX_WBITS)
         unpacked = inflate.decompress(data[4:], most + 1)
         if len(unpacked) > most:
-            raise LinkError("the link unpacks to too much", PLACE, expected=f"at most {MOST_BYTES:,} bytes in all")
+            raise LinkError("the link unpacks to too much", LINK, expected=f"at most {MOST_BYTES:,} bytes in all")
         if not inflate.eof or inflate.unused_data or zlib.crc32(unpacked).to_bytes(4, "big") != data[:4]:
-            raise LinkError("the link is not whole", PLACE, hint=hint)
+            raise LinkError("the link is not whole", LINK, hint=hint)
     except (ValueError, zlib.error):
-        raise LinkError("the link is not whole", PLACE, hint=hint) from None
-    return decoded(unpacked, PLACE)
+        raise LinkError("the link is not whole", LINK, hint=hint) from None
+    return decoded(unpacked, LINK)
 
 
 def write_watch(files: Sequence[str]) -> str:
@@ -173,7 +173,7 @@ def watched(fragment: str) -> list[str]:
     _, mark, names = fragment.partition("#watch=")
     found = names.split(",") if mark else []
     if len(found) > MOST_TEXTS or not all(_STEM.fullmatch(name) for name in found):
-        raise LinkError("not a link of runs of this page", PLACE, found=ascii(names[:40]), hint="copy it again, whole")
+        raise LinkError("not a link of runs of this page", LINK, found=ascii(names[:40]), hint="copy it again, whole")
     return [f"replays/{name}.txt" for name in found]
 
 
@@ -246,10 +246,10 @@ def pack_texts(link: str | Path) -> dict[str, str]:
     except (ValueError, RecursionError):
         files = None
     if not isinstance(files, dict) or not all(isinstance(file, str) for file in files.values()):
-        raise LinkError("no pack in this link", PLACE, found=repr(text[:40]), expected="files by their names, as JSON")
+        raise LinkError("no pack in this link", LINK, found=repr(text[:40]), expected="files by their names, as JSON")
     odd = next((name for name in files if not _is_plain(name)), None)
     if odd is not None:
-        raise LinkError("a name that no file of a pack has", PLACE, found=ascii(odd[:40]))
+        raise LinkError("a name that no file of a pack has", LINK, found=ascii(odd[:40]))
     return files
 
 
@@ -260,11 +260,11 @@ def _is_plain(name: str) -> bool:
     return plain and 0 < len(name) <= _NAME_LIMIT
 
 
-def linked_texts(link: str | Path, *kinds: Kind) -> tuple[str, ...]:
+def linked_texts(link: str | Path, *kinds: LinkKind) -> tuple[str, ...]:
     """The texts in a link of one of some kinds, as a file would hold them. Raises LinkError."""
     found: Link = read_link(link)
     if found.kind not in kinds:
-        raise LinkError(f"a link of a {found.kind}", PLACE, expected=f"one of a {' or '.join(kinds)}")
+        raise LinkError(f"a link of a {found.kind}", LINK, expected=f"one of a {' or '.join(kinds)}")
     return tuple(map(_whole, found.texts))
 
 
@@ -272,7 +272,7 @@ def recordings_of(texts: Iterable[str]) -> list[Recording]:
     """The recordings in texts from elsewhere, which hold their levels. Raises LinkError, ReplayError, LevelError."""
     found = []
     for text in texts:
-        found += parse_replays(_whole(text), file=PLACE)
+        found += parse_replays(_whole(text), file=LINK)
     return found
 
 
@@ -287,9 +287,9 @@ def _whole(text: str) -> str:
     try:
         replays = parse_episode(text) if episode else [parse_replay(text)]
     except FormatError as error:
-        error.file = PLACE
+        error.file = LINK
         raise
     if any(replay.level is None for replay in replays):
-        raise LinkError("a replay without its level", PLACE, hint="record it with its level inside")
+        raise LinkError("a replay without its level", LINK, hint="record it with its level inside")
     whole = [replace(replay, level_path="", level_record=0) for replay in replays]
     return write_episode(whole) if episode else write_replay(*whole)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ninja_game.errors import LevelError, ReplayError
-from ninja_game.files.reading import PLACE, SUFFIXES, read_text, text_files
+from ninja_game.files.reading import LINK, SUFFIXES, read_text, text_files
 from ninja_game.formats.links import is_link, linked_texts
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.formats.pack.pack import PackFiles, is_pack
@@ -24,7 +24,7 @@ def texts_of(path: Path | str, *, named: bool = True) -> Iterator[tuple[str, str
     Raises FileError, LinkError; OSError for a file that cannot be opened.
     """
     if named and is_link(path):
-        yield from ((PLACE, text) for text in linked_texts(path, "level", "replay"))
+        yield from ((LINK, text) for text in linked_texts(path, "level", "replay"))
     else:
         yield from ((str(file), read_text(file)) for file in text_files(Path(path)))
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from ninja_game.errors import LevelError, ReplayError
-from ninja_game.files.reading import read_beside
+from ninja_game.files.reading import read_included
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
 from ninja_game.formats.lines import numbered_lines
@@ -19,16 +19,16 @@ from ninja_game.formats.replay.notations import is_tas_text
 from ninja_game.formats.replay.text import Replay, is_episode, is_replay, parse_episode, parse_replay
 from ninja_game.sim.level import TILES, Level
 
-Form = Literal["replay", "episode", "ascii", "file", "demo", "inputs", "string"]
+TextFormat = Literal["replay", "episode", "ascii", "file", "demo", "inputs", "string"]
 """A replay of ours, several that are an episode, a readable level of ours, a file of N's records, a demo of N alone,
 inputs in another tool's notation, in-game strings of levels or anything else."""
 
 
-def form_of(text: str) -> Form:
+def format_of(text: str) -> TextFormat:
     """The format of a text, sound or not.
 
-    >>> form_of("ninja-game level 1"), form_of("$hill#us##0|5^60,540#"), form_of("3:12|0|1"), form_of("0|5^60,540")
-    ('ascii', 'file', 'demo', 'string')
+    >>> [format_of(text) for text in ("ninja-game level 1", "$hill#us##0|5^60,540#", "3:12|0|1", "0|5^60,540")]
+    ['ascii', 'file', 'demo', 'string']
     """
     if is_replay(text):
         return "replay"
@@ -65,7 +65,7 @@ class NamedLevel:
     file: str
     record: int = 0
     line: int = 1
-    form: Form = "file"
+    form: TextFormat = "file"
     teaches: str = ""
     says: str = ""
 
@@ -77,7 +77,7 @@ class NamedLevel:
 
 def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
     """All levels in a text of any format. Raises LevelError or ReplayError."""
-    form = form_of(text)
+    form = format_of(text)
     if form in ("replay", "episode"):
         replays = [parse_replay(text, file=file)] if form == "replay" else parse_episode(text, file=file)
         levels = [level_of_replay(each, file) for each in replays]
@@ -138,7 +138,7 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, ch
         return replay.level
     source = "the given level"
     if replay.level_path:
-        found = read_beside(file, replay.level_path)
+        found = read_included(file, replay.level_path)
         source = found.path
         if found.problem:
             raise ReplayError("the replay's level cannot be read", file, found=source, hint=found.problem)

@@ -7,19 +7,19 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
+from ninja_game.backend.worlds import Body
 from ninja_game.errors import DemoError, ReplayError
 from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
-from ninja_game.formats.named_level import Form, form_of, level_of_replay
-from ninja_game.formats.replay.input_text import included_beside, read_inputs
-from ninja_game.formats.replay.made import with_made, without_made
+from ninja_game.formats.named_level import TextFormat, format_of, level_of_replay
+from ninja_game.formats.replay.input_text import include_reader, read_inputs
 from ninja_game.formats.replay.notations import in_our_notation
+from ninja_game.formats.replay.provenance import with_provenance, without_provenance
 from ninja_game.formats.replay.text import Replay, episode_key, lifetimes, parse_episode, parse_replay
-from ninja_game.sim.inputs import Demo, fitted_demo
+from ninja_game.sim.inputs import Demo, fit_demo
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import Body
 from ninja_game.sim.rules import LIFETIME
 
 MOST_LEGACY_TICKS = 20_000_000
@@ -41,7 +41,7 @@ class Recording:
     file: str = ""
     record: int = 0
     line: int = 1
-    form: Form = "replay"
+    form: TextFormat = "replay"
     episode: str = ""
     lifetime: int = LIFETIME
 
@@ -125,19 +125,19 @@ def record_of(recording: Recording) -> LevelRecord:
     if recording.body != "circle":
         raise ReplayError("a run with another body is not a demo of N", recording.file, found=recording.body)
     if replay.demo_length is not None:
-        demo = fitted_demo(replay.inputs, replay.demo_length)
+        demo = fit_demo(replay.inputs, replay.demo_length)
     else:
         # A demo of length N runs N + 1 ticks, the last one without inputs of its own (game.md §4.4).
         short = Demo(inputs[:-1], float(len(inputs) - 1))
         demo = short if short.playback(len(inputs)) == inputs else Demo(inputs, float(len(inputs)))
     level = write_level_string(recording.level, exact=True)
-    comment = with_made(recording.comment, replay.made, replay.co_authors)
+    comment = with_provenance(recording.comment, replay.made, replay.co_authors)
     return LevelRecord(recording.name, recording.author or replay.level_author, comment, level, write_demo(demo))
 
 
 def holds_recordings(text: str) -> bool:
     """Whether there are recordings in a text, readable or not. Raises LevelError for a broken level file."""
-    form = form_of(text)
+    form = format_of(text)
     return any(record.demo for record in read_level_file(text)) if form == "file" else form not in {"ascii", "string"}
 
 
@@ -146,7 +146,7 @@ def parse_replays(text: str, *, file: str = "", level: Level | None = None, chan
 
     Raises ReplayError, DemoError or LevelError.
     """
-    match form_of(text):
+    match format_of(text):
         case "replay":
             replay = parse_replay(text, file=file, level=level)
             return [Recording(level_of_replay(replay, file, level, changed=changed), replay, file=file)]
@@ -175,7 +175,7 @@ def _recording_of_lines(text: str, file: str, level: Level | None) -> Recording:
     """Inputs in the notation of another tool. Raises ReplayError."""
     if level is None:
         raise ReplayError("inputs without a level", file, hint="give it with --level")
-    read = read_inputs(in_our_notation(text, file), file=file, include=included_beside(file))
+    read = read_inputs(in_our_notation(text, file), file=file, include=include_reader(file))
     replay = Replay.of_inputs(read.keys, level, name=Path(file).stem, markers=read.markers)
     return Recording(level, replay, file=file, form="inputs")
 
@@ -213,7 +213,7 @@ def recording_of(record: LevelRecord, file: str, level: Level | None) -> Recordi
         error.what += f" (character {error.column} of the demo)"
         error.file, error.line, error.column = file, record.line, 0
         raise
-    comment, made, co_authors = without_made(record.comment)
+    comment, made, co_authors = without_provenance(record.comment)
     replay = replace(demo_replay(demo, level, record.name, record.author), made=made, co_authors=co_authors)
     return Recording(level, replay, comment, file, record.number, record.line, "file")
 

@@ -74,7 +74,7 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
 
     Raises MemoryUnavailableError without Numba, another NinjaGameError or OSError where it cannot be kept.
     """
-    # Only who makes a level needs NumPy.
+    # Imports NumPy, which a packed level does not need.
     from ninja_game.generator.generate import generate
 
     for again in range(_OTHER_SEEDS + 1):
@@ -91,9 +91,9 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
 def _keep(file: Path, named: NamedLevel, run: Replay, difficulty: float) -> None:
     """Write a level into the pack, whose table of pars grows by a line."""
     from ninja_game.runs.verify import verify_recording
-    from ninja_game.search.certificate import named_run
+    from ninja_game.search.certificate import named_replay
 
-    replay = write_replay(named_run(run, "generate", name=named.name, author=AUTHOR, level_author=AUTHOR))
+    replay = write_replay(named_replay(run, "generate", name=named.name, author=AUTHOR, level_author=AUTHOR))
     verdict = verify_recording(parse_replays(replay, file=file.stem, level=named.level)[0])
     digests = level_digest(named.level)[:DIGITS], verdict.xy_sha256[:DIGITS]
     pars = Pars(*digests, run.end_tick, None, difficulty)

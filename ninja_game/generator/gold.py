@@ -168,16 +168,12 @@ def _lay(scene: Scene, points: list[Point], wanted: int) -> bool:
     """Put a group where all of it has room, away from other groups; whether it could be."""
     if len(scene.gold) >= wanted or len(points) < 2 or not all(_fits(scene, point) for point in points):
         return False
-    centre = centre_of(points)
+    centre = sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
     if any(dist(centre, other) < BETWEEN for other in scene.baits):
         return False
     scene.baits.append(centre)
     scene.gold += [object_of(f"gold {round(px)},{round(py)}px") for px, py in points]
     return True
-
-
-def centre_of(points: list[Point]) -> Point:
-    return sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
 
 
 def lay_about(scene: Scene, place: Point, rng: Random) -> bool:

@@ -53,7 +53,8 @@ def guards(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
 def zaps(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     """Around stones and along walls."""
     way = rng.choice(("surface-cw", "surface-ccw"))
-    for column, row in _beside_tiles(scene):
+    beside = [(c, r) for c, r in sorted(scene.steps) if scene.full((c, r + 1)) != scene.full((c, r - 1))]
+    for column, row in beside:
         direction = "right" if scene.full((column, row + 1)) == (way == "surface-ccw") else "left"
         yield object_of(f"zap drone {column},{row} {way} {direction}")
 
@@ -152,12 +153,6 @@ def _enemy(scene: Scene, spec: ObjectSpec, apart: float) -> ObjectSpec | None:
 
 
 _SHOOTERS = (kinds.TURRET, kinds.LAUNCHER)
-
-
-def _beside_tiles(scene: Scene) -> Iterator[Cell]:
-    for column, row in sorted(scene.steps):
-        if scene.full((column, row + 1)) != scene.full((column, row - 1)):
-            yield column, row
 
 
 def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from ninja_game.formats.ascii.legend import TILE_OF_CHAR
-from ninja_game.formats.ascii.object_lines import Listed, read_object_line
+from ninja_game.formats.ascii.object_lines import ListedObject, read_object_line
 from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
 from ninja_game.generator.shaping import FINE, Ink
 from ninja_game.sim import kinds
@@ -220,8 +220,8 @@ _LEANS = {
 def object_of(line: str) -> ObjectSpec:
     """The object of a line, as in the list of an ASCII level."""
     (listed,) = read_object_line(line)
-    assert isinstance(listed, Listed)  # noqa: S101 - lines of this package place objects
-    return listed.record
+    assert isinstance(listed, ListedObject)  # noqa: S101 - lines of this package place objects
+    return listed.spec
 
 
 class Scene:
@@ -325,7 +325,7 @@ class Scene:
         """Whether a point is in a cell that can be reached, and this many px from all that is there."""
         ok = cell_of(*point) in self.steps
         return ok and all(
-            dist(point, place) >= (key if spec.kind in _KEY else max(other, _ROOM.get(spec.kind, 0.0)))
+            dist(point, place) >= (key if spec.kind in _KEY else max(other, _CLEARANCE.get(spec.kind, 0.0)))
             for spec in self.objects
             for place in places(spec)
         )
@@ -338,7 +338,7 @@ class Scene:
 
 
 _KEY = (kinds.NINJA, kinds.EXIT, kinds.DOOR)
-_ROOM = {kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0, kinds.BOUNCE_BLOCK: 22.0}
+_CLEARANCE = {kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0, kinds.BOUNCE_BLOCK: 22.0}
 """px that stay free around fixtures."""
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from ninja_game.errors import MissingExtraError
-from ninja_game.files.user_folder import how_to_install
+from ninja_game.files.user_folder import install_hint
 
 try:
     from gymnasium.envs import registration
@@ -35,7 +35,7 @@ try:
 except ModuleNotFoundError as error:
     if not str(error.name).startswith("gymnasium"):
         raise
-    raise MissingExtraError(f"ninja_game.learn needs Gymnasium; {how_to_install('learn')}") from None
+    raise MissingExtraError(f"ninja_game.learn needs Gymnasium; {install_hint('learn')}") from None
 
 __all__ = [
     "Curriculum", "DeathPenalty", "Demonstration", "DistanceShaping", "EnvWorlds", "Evaluation", "ExitReward",

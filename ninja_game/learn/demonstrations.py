@@ -21,14 +21,14 @@ from numpy.typing import NDArray
 
 from ninja_game.budget import DATASET_MIB
 from ninja_game.errors import ArgumentError, BudgetError, MissingExtraError, NinjaGameError
-from ninja_game.files.user_folder import how_to_install
+from ninja_game.files.user_folder import install_hint
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.n14.level_string import level_digest, write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.learn.actions import BUTTON_KEYS, DISCRETE_KEYS
 from ninja_game.learn.observations.observation import Observed
 from ninja_game.learn.single import NinjaEnv
-from ninja_game.learn.worlds import Shown
+from ninja_game.learn.worlds import TaskSettings
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, KEYS_DOWN
 from ninja_game.sim.level import Level
@@ -73,7 +73,7 @@ def demonstration(
     actions: str = "discrete",
     time_limit: int | None = None,
     most_bytes: int = DATASET_MIB * 2**20,
-    **settings: Unpack[Shown],
+    **settings: Unpack[TaskSettings],
 ) -> Demonstration:
     """What an environment makes of a recording, by ``NinjaEnv`` with its level and body.
 
@@ -85,17 +85,17 @@ def demonstration(
     """
     keys = recording.inputs
     limit = time_limit or len(keys)
-    made = NinjaEnv(recording.level, body=recording.body, frame_skip=1, time_limit=limit, actions=actions, **settings)
+    env = NinjaEnv(recording.level, body=recording.body, frame_skip=1, time_limit=limit, actions=actions, **settings)
     down = np.frombuffer(keys, np.uint8) & KEYS_DOWN
     buttons = ((down[:, np.newaxis] & BUTTON_KEYS) > 0).astype(np.int8)
     played = buttons if actions == "buttons" else _ACTION_OF_KEYS[down]
-    seen = [made.reset()[0]]
+    seen = [env.reset()[0]]
     size = bytes_of(seen[0])
     rewards: list[float] = []
     info: dict[str, Any] = {}
     terminated = False
     for action in played:
-        observation, reward, terminated, truncated, info = made.step(action)
+        observation, reward, terminated, truncated, info = env.step(action)
         seen.append(observation)
         if size * len(seen) > most_bytes:
             found = f"{len(keys):,} ticks of {size:,} bytes each"
@@ -104,9 +104,11 @@ def demonstration(
         if terminated or truncated:
             break
     ticks = len(rewards)
-    if made.inputs != keys[:ticks] and not _same_run(recording, made.inputs):
-        what = "it presses jump again while the key is down"
-        raise UnplayableRecordingError(f"{recording.file}: {recording.name}: {what}")
+    if env.inputs != keys[:ticks]:
+        runs = [run_level(recording.level, inputs, body=recording.body) for inputs in (keys, env.inputs)]
+        if runs[0] != runs[1]:
+            what = "it presses jump again while the key is down"
+            raise UnplayableRecordingError(f"{recording.file}: {recording.name}: {what}")
     terminations, truncations = np.zeros((2, ticks), np.bool_)
     terminations[-1], truncations[-1] = terminated, not terminated
     observations = _stacked(seen)
@@ -114,11 +116,6 @@ def demonstration(
         recording.name, recording.level, recording.body, observations, played[:ticks], np.array(rewards), terminations,
         truncations, info["outcome"], info["gold"],
     )  # fmt: skip
-
-
-def _same_run(recording: Recording, inputs: bytes) -> bool:
-    recorded = run_level(recording.level, recording.inputs, body=recording.body)
-    return recorded == run_level(recording.level, inputs, body=recording.body)
 
 
 def bytes_of(observations: Observed) -> int:
@@ -161,7 +158,7 @@ def write_npz(path: Path, episodes: Sequence[Demonstration]) -> None:
 
 def require_minari() -> None:
     if find_spec("minari") is None or find_spec("h5py") is None:
-        raise MissingExtraError(f"data sets of Minari need it; {how_to_install('minari')}")
+        raise MissingExtraError(f"data sets of Minari need it; {install_hint('minari')}")
 
 
 def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: Any) -> Any:

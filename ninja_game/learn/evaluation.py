@@ -21,7 +21,7 @@ from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 
-Actions: TypeAlias = Iterator[NDArray[np.integer]]
+ActionStream: TypeAlias = Iterator[NDArray[np.integer]]
 
 
 class Agent(Protocol):
@@ -84,7 +84,7 @@ class Evaluation:
     time_limit: int
     results: list[LevelResult]
 
-    def often_passed(self, rate: float = 0.9) -> int:
+    def count_passed(self, rate: float = 0.9) -> int:
         """How many levels were passed in that share of their episodes or more."""
         return sum(each.rate >= rate for each in self.results)
 
@@ -115,13 +115,13 @@ def evaluate(
     for level_name, level in zip(source.names, source.levels, strict=True):
         if isinstance(agent, Planner):
             worlds = EnvWorlds(level, 1, **settings)
-            actions: Actions = iter(np.asarray(agent.plan(level, seed)).reshape(-1, 1))
+            actions: ActionStream = iter(np.asarray(agent.plan(level, seed)).reshape(-1, 1))
         else:
             worlds = EnvWorlds(level, episodes, repeat=repeat, longest_wait=longest_wait, **settings)
             first = first_seed(level, seed)
             worlds.reset(seeds=range(first, first + episodes))
-            actions = chosen(agent, worlds, seed)
-        results.append(_result(level_name, played(worlds, actions)))
+            actions = policy_actions(agent, worlds, seed)
+        results.append(_result(level_name, play_episodes(worlds, actions)))
     return Evaluation(name, source.digest, seed, repeat, longest_wait, time_limit, results)
 
 
@@ -130,13 +130,13 @@ def first_seed(level: Level, seed: int = EVALUATION_SEED) -> int:
     return seed + int(level_digest(level)[:12], 16)
 
 
-def chosen(agent: Policy, worlds: EnvWorlds, seed: int) -> Actions:
+def policy_actions(agent: Policy, worlds: EnvWorlds, seed: int) -> ActionStream:
     agent.reset(worlds.count, seed)
     while True:
         yield agent.act(worlds.observations)
 
 
-class Ends(NamedTuple):
+class EpisodeEnds(NamedTuple):
     """How the episode of each world has ended, (n,): outcome, 0 for one that was late, ticks, gold, reward."""
 
     outcomes: NDArray[np.int64]
@@ -145,10 +145,10 @@ class Ends(NamedTuple):
     rewards: NDArray[np.float64]
 
 
-def played(worlds: EnvWorlds, actions: Actions) -> Ends:
+def play_episodes(worlds: EnvWorlds, actions: ActionStream) -> EpisodeEnds:
     """One episode in every world; where the actions come to an end, what runs still is late."""
     outcomes, ticks, gold = np.zeros((3, worlds.count), np.int64)
-    ends = Ends(outcomes, ticks, gold, np.zeros(worlds.count))
+    ends = EpisodeEnds(outcomes, ticks, gold, np.zeros(worlds.count))
     running = np.ones(worlds.count, np.bool_)
     for row in actions:
         worlds.step(DISCRETE_KEYS[row])
@@ -161,7 +161,7 @@ def played(worlds: EnvWorlds, actions: Actions) -> Ends:
     return ends
 
 
-def _result(name: str, ends: Ends) -> LevelResult:
+def _result(name: str, ends: EpisodeEnds) -> LevelResult:
     count, passed, dead = len(ends.ticks), ends.outcomes == OUTCOME_EXIT, ends.outcomes == OUTCOME_DEAD
     return LevelResult(
         name, count, int(passed.sum()), int(dead.sum()), int((~passed & ~dead).sum()),

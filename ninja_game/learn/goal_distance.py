@@ -13,7 +13,7 @@ import numpy as np
 
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Indices
-from ninja_game.learn.observations.part import Setting, clamp
+from ninja_game.learn.observations.part import PartContext, clamp
 from ninja_game.search.heuristics import FARTHEST, POINTS, Heuristics, open_bits, point_at
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import entry_point, fast
@@ -32,11 +32,11 @@ class GoalDistance:
     of each world's switch state.
     """
 
-    def __init__(self, levels: Sequence[Level], setting: Setting) -> None:
-        self._levels, self._worlds, self._setting = levels, setting.worlds, setting
-        self._kernel = setting.worlds.kernel(measure_distance)
+    def __init__(self, levels: Sequence[Level], context: PartContext) -> None:
+        self._levels, self._worlds, self._context = levels, context.worlds, context
+        self._kernel = context.worlds.kernel(measure_distance)
         self._made: dict[int, Heuristics] = {}
-        count = setting.count
+        count = context.count
         self.ticks, self.start = np.zeros((2, count))
         self.states = np.full(count, NO_STATE, np.int64)
         self.rows = np.zeros(count, np.int64)
@@ -44,7 +44,7 @@ class GoalDistance:
         self._free = list(range(len(self.fields)))
         self._row_of: dict[tuple[int, int], int] = {}
         self._stale = np.zeros(count, np.bool_)
-        self._switches = setting.rows(lambda number: [(slot,) for slot in self._heuristics(number).slots.tolist()], 1)
+        self._switches = context.rows(lambda number: [(slot,) for slot in self._heuristics(number).slots.tolist()], 1)
 
     def _heuristics(self, number: int) -> Heuristics:
         """The fields of a level, which any memory makes alike: the fastest does."""
@@ -53,22 +53,22 @@ class GoalDistance:
             self._made[number] = Heuristics(alone.maps, alone.records)
         return self._made[number]
 
-    def begin(self, level_of: Indices, which: Indices) -> None:
-        """Worlds have begun an episode, or were put elsewhere: forget what was."""
-        self.states[which] = NO_STATE
-        self.measure(level_of, which, 0, len(which))
+    def begin(self, level_of: Indices, indices: Indices) -> None:
+        """Measure worlds that were reset or restored; their old switch states are forgotten."""
+        self.states[indices] = NO_STATE
+        self.measure(level_of, indices, 0, len(indices))
         self.settle(level_of)
 
-    def measure(self, level_of: Indices, which: Indices, first: int, last: int) -> None:
-        """Look how far the worlds ``which[first:last]`` are now; not yet those whose switch state is another."""
+    def measure(self, level_of: Indices, indices: Indices, first: int, last: int) -> None:
+        """Look how far the worlds ``indices[first:last]`` are now; not yet those whose switch state is another."""
         worlds = self._worlds
         self._kernel(
-            worlds.maps, level_of, worlds.worlds, which, first, last,
+            worlds.maps, level_of, worlds.worlds, indices, first, last,
             *self._switches, self.states, self._stale, self.fields, self.rows, self.ticks,
         )  # fmt: skip
 
     def settle(self, level_of: Indices) -> Indices:
-        """Give the worlds whose switch state is another their fields, and measure them; their numbers."""
+        """Give worlds whose switch state has changed its field, and measure them again; their indices (k,)."""
         stale = np.flatnonzero(self._stale)
         if stale.size:
             self._stale[stale] = False
@@ -87,7 +87,7 @@ class GoalDistance:
                 self._free = [row for row in range(len(self.fields)) if row not in used]
                 self._row_of = {known: row for known, row in self._row_of.items() if row in used}
             self._row_of[key] = row = self._free.pop()
-            start = self._setting.fresh[level].start
+            start = self._context.fresh[level].start
             np.minimum(self._heuristics(level).field(state, *start), np.float32(FARTHEST), out=self.fields[row])
         return self._row_of[key]
 
@@ -100,12 +100,12 @@ def point_within(x: float, y: float) -> int:
 
 @entry_point
 def measure_distance(
-    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int,
+    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int,
     bounds: Any, switches: Any, states: Any, stale: Any, fields: Any, rows: Any, ticks: Any,
 ) -> None:  # fmt: skip
     """Write the switch states of some worlds and their ``ticks`` to the exit; ``stale``: the state is another now."""
     for k in range(first, last):
-        index = which[k]
+        index = indices[k]
         level = level_of[index]
         w = worlds[index]
         state = open_bits(w, switches, bounds[2 * level], bounds[2 * level + 1])

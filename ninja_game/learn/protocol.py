@@ -28,7 +28,7 @@ PROTOCOL: dict[str, Any] = {"repeat": REPEAT, "longest_wait": LONGEST_WAIT, "tim
 CHANCES = 2**32  # kernels take a chance as a whole number of this many parts
 
 
-def beginnings(drawn: NDArray[np.uint64], longest_wait: int) -> NDArray[np.int64]:
+def draw_starts(drawn: NDArray[np.uint64], longest_wait: int) -> NDArray[np.int64]:
     """For episodes that begin, by a random number of 64 bits each: steps of waiting, first state of ``next_random``."""
     high, low = np.divmod(drawn, np.uint64(CHANCES))
     return np.stack([high % np.uint64(longest_wait + 1), low % np.uint64(CHANCES - 1) + np.uint64(1)]).astype(np.int64)

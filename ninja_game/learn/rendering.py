@@ -118,17 +118,17 @@ def episode_text(level: Level, body: Body, inputs: bytes) -> str:
         run.step_keys(keys)
     seen = {each.id: (each.x, each.y, each.status) for each in run.objects}
     objects, ninja = [], []
-    for number, record in enumerate(filter(makes_object, level.objects)):
-        x, y, status = seen.get(number, (*record.values[:2], 1))
-        values = record.values
-        if record.kind == NINJA:
+    for number, spec in enumerate(filter(makes_object, level.objects)):
+        x, y, status = seen.get(number, (*spec.values[:2], 1))
+        values = spec.values
+        if spec.kind == NINJA:
             ninja.append(ObjectSpec(NINJA, (run.ninja.x, run.ninja.y)))
-        elif record.kind in _MOVING:
-            objects.append(ObjectSpec(record.kind, (x, y, *values[2:])))
-        elif record.kind == EXIT and status:
+        elif spec.kind in _MOVING:
+            objects.append(ObjectSpec(spec.kind, (x, y, *values[2:])))
+        elif spec.kind == EXIT and status:
             objects.append(ObjectSpec(EXIT, (*values[:2], *_NOWHERE)))
-        elif status or record.kind not in _GONE_WHEN_0:
-            objects.append(record)
+        elif status or spec.kind not in _GONE_WHEN_0:
+            objects.append(spec)
     # A later record covers an earlier one.
     picture = level_picture(Level(level.tiles, tuple(objects + ninja))).plain
     return f"{picture}\ntick {run.tick}, {run.outcome}, {run.gold} gold"

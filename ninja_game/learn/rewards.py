@@ -105,20 +105,20 @@ class Shaping:
         self._terms, self._goal = list(terms), goal
         self._potential = np.zeros(len(goal.ticks))
 
-    def begin(self, which: Indices) -> None:
-        """These worlds are somewhere else now: no reward for that."""
-        self._potential[which] = self._measured(which)
+    def begin(self, indices: Indices) -> None:
+        """Forget the potentials of worlds that were reset or restored, which earns no reward."""
+        self._potential[indices] = self._measured(indices)
 
-    def add(self, rewards: NDArray[np.float64], which: Indices, terminated: NDArray[np.bool_]) -> None:
-        """Add what the last step of these worlds is worth."""
-        before, now = self._potential[which], self._measured(which)
-        after = np.where(terminated[which], 0.0, now)
+    def add(self, rewards: NDArray[np.float64], indices: Indices, terminated: NDArray[np.bool_]) -> None:
+        """Add the shaping terms of the last step to ``rewards`` (n,), for the worlds ``indices`` (k,)."""
+        before, now = self._potential[indices], self._measured(indices)
+        after = np.where(terminated[indices], 0.0, now)
         for term in self._terms:
-            rewards[which] += term.weight * (term.discount * after - before)
-        self._potential[which] = now
+            rewards[indices] += term.weight * (term.discount * after - before)
+        self._potential[indices] = now
 
-    def _measured(self, which: Indices) -> NDArray[np.float64]:
-        ticks, start = self._goal.ticks[which], self._goal.start[which]
+    def _measured(self, indices: Indices) -> NDArray[np.float64]:
+        ticks, start = self._goal.ticks[indices], self._goal.start[indices]
         there = (start > 0.0) & (start < FARTHEST)
         potential = 1.0 - ticks / np.where(there, start, 1.0)
         return np.where(there, np.maximum(potential, LOWEST), 0.0)

@@ -33,7 +33,7 @@ from ninja_game.learn.worlds import (
     refuse_unknown,
 )
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.inputs import JUMP_HELD, pressed
+from ninja_game.sim.inputs import JUMP_HELD, with_press_bit
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.sim.states import OUTCOME_NAMES
@@ -131,7 +131,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         _, done, _, _, ended, down, _, _ = worlds.facts(0)
         held = self._inputs[-1] & JUMP_HELD if self._inputs else 0
         ticks = done - len(self._inputs)
-        self._inputs += bytes([pressed(down, held)]).ljust(ticks, bytes([down]))
+        self._inputs += bytes([with_press_bit(down, held)]).ljust(ticks, bytes([down]))
         self._running = not ended
         self._show(ticks)
         return self._observation(), float(worlds.rewards[0]), ended == TERMINATED, ended == TRUNCATED, self._info()

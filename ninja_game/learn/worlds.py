@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import open_worlds
+from ninja_game.backend.plain import save_plain
 from ninja_game.batch.batch import Indices, WorldChoice, numbers_of
 from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
@@ -29,24 +30,23 @@ from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.levels.origins import Origin, level_source
 from ninja_game.learn.levels.source import LevelChoice, LevelSequences
 from ninja_game.learn.observations.observation import Observation, PartLike
-from ninja_game.learn.observations.part import Setting, new_levels, put_levels
-from ninja_game.learn.protocol import CHANCES, beginnings, next_random
+from ninja_game.learn.observations.part import PartContext, initial_levels, put_levels
+from ninja_game.learn.protocol import CHANCES, draw_starts, next_random
 from ninja_game.learn.rewards import DistanceShaping, RewardLike, Shaping, reward_terms, weights_of
 from ninja_game.sim.digest import world_digest
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, MINE_EXPLODED
-from ninja_game.sim.inputs import pressed
+from ninja_game.sim.inputs import with_press_bit
 from ninja_game.sim.memory.declare import entry_point
-from ninja_game.sim.memory.plain import save_plain
 from ninja_game.sim.memory.schema import MAX_EVENTS, World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 from ninja_game.sim.world import step
 from ninja_game.simulation import Body, SaveState, Simulation, is_box
 
-PAID_EXIT, PAID_DEATH, PAID_PIECE, PAID_TICK = range(4)  # columns of what is paid
+EXIT_WEIGHT, DEATH_WEIGHT, GOLD_WEIGHT, TICK_WEIGHT = range(4)  # indices of ``weights``
 OUTCOME, TICKS, GOLD, EVENTS, ENDED, PLAYED, WAIT, RANDOM = range(8)
-"""Columns of the facts about each world. PLAYED: the keys of its last tick. WAIT, RANDOM: of `protocol.py`, for how
-many steps nothing is pressed yet, and the random number that decides whether keys are repeated."""
+"""Columns of ``facts``, a row for each world. PLAYED: the keys of its last tick. WAIT: steps left in which no key is
+pressed; RANDOM: state of the generator that decides whether keys are repeated (`protocol.py`)."""
 TERMINATED, TRUNCATED = 1, 2  # how an episode has ended; 0: it goes on
 CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 """Events after which objects that stay where they are look another way."""
@@ -54,22 +54,22 @@ CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 
 @entry_point
 def advance_worlds(
-    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, keys: Any,
+    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, keys: Any,
     frame_skip: int, time_limit: int, repeat: int, weights: Any,
     rewards: Any, facts: Any, changed: Any, terminated: Any, truncated: Any,
 ) -> int:  # fmt: skip
-    """Run worlds ``which[first:last]``, each with its ``keys`` for ``frame_skip`` ticks; the number of ticks run.
+    """Run worlds ``indices[first:last]``, each with its ``keys`` for ``frame_skip`` ticks; the number of ticks run.
 
     A world stops at its first exit contact or death, and at ``time_limit`` ticks. Jump is pressed, as at a keyboard,
     where it is held and was not in the tick before. ``repeat`` of CHANCES: how often it plays the keys of the step
-    before; while it waits, none. ``weights`` (PAID_EXIT to PAID_TICK): what each is worth; ``rewards`` (worlds)
+    before; while it waits, none. ``weights`` (EXIT_WEIGHT to TICK_WEIGHT): what each is worth; ``rewards`` (worlds)
     receives the sum. ``facts`` (worlds x OUTCOME to RANDOM): EVENTS are those of all ticks, as bits. ``changed``
     (worlds): whether one of CHANGES happened; also set where the list of events was full. ``terminated``, ``truncated``
     (worlds): what ENDED tells.
     """
     total = 0
     for k in range(first, last):
-        index = which[k]
+        index = indices[k]
         level = maps[level_of[index]]
         w = worlds[index]
         down = int(keys[index])
@@ -83,37 +83,37 @@ def advance_worlds(
         facts[index, PLAYED] = down
         tick = w.tick
         gold = w.gold
-        seen = 0
+        event_bits = 0
         crowded = False
         for _ in range(frame_skip):
-            step(level, w, pressed(down, w.ninja.jump_held))
+            step(level, w, with_press_bit(down, w.ninja.jump_held))
             for event in range(w.event_count):
-                seen |= 1 << w.events[event].kind
+                event_bits |= 1 << w.events[event].kind
             if w.event_count >= MAX_EVENTS:
                 crowded = True
             if w.outcome or w.tick >= time_limit:
                 break
         ticks = w.tick - tick
-        reward = weights[PAID_PIECE] * (w.gold - gold) + weights[PAID_TICK] * ticks
+        reward = weights[GOLD_WEIGHT] * (w.gold - gold) + weights[TICK_WEIGHT] * ticks
         if w.outcome == OUTCOME_EXIT:
-            reward += weights[PAID_EXIT]
+            reward += weights[EXIT_WEIGHT]
         elif w.outcome == OUTCOME_DEAD:
-            reward += weights[PAID_DEATH]
+            reward += weights[DEATH_WEIGHT]
         rewards[index] = reward
         facts[index, OUTCOME] = w.outcome
         facts[index, TICKS] = w.tick
         facts[index, GOLD] = w.gold
-        facts[index, EVENTS] = seen
+        facts[index, EVENTS] = event_bits
         facts[index, ENDED] = TERMINATED if w.outcome else TRUNCATED if w.tick >= time_limit else 0
         terminated[index] = w.outcome != 0
         truncated[index] = w.outcome == 0 and w.tick >= time_limit
-        changed[index] = crowded or (seen & CHANGES) != 0
+        changed[index] = crowded or (event_bits & CHANGES) != 0
         total += ticks
     return total
 
 
 NO_LEVEL = -1
-TOGETHER = 512
+CHUNK_WORLDS = 512
 """Worlds that are run and then observed before the next ones: so many stay in the processor's cache."""
 
 
@@ -128,7 +128,7 @@ class EnvState:
     owner: tuple[Any, ...] = field(repr=False)
 
 
-class Shown(TypedDict, total=False):
+class TaskSettings(TypedDict, total=False):
     """Arguments of ``EnvWorlds``: what is shown and paid, and by which memory."""
 
     observation: PartLike | Sequence[PartLike]
@@ -138,7 +138,7 @@ class Shown(TypedDict, total=False):
     memory: str
 
 
-class EnvSettings(Shown, total=False):
+class EnvSettings(TaskSettings, total=False):
     """Arguments of ``EnvWorlds`` that both Gymnasium classes take."""
 
     frame_skip: int
@@ -174,7 +174,7 @@ class EnvWorlds:
     ``goal`` (``GoalDistance``: how far each world is from the exit) even if no reward and no part needs it. ``body``,
     ``memory``, ``threads``: as of a ``Batch``; neither memory nor threads change a result.
 
-    What it shows is written again by each call; copy what you want to keep. (n: the number of worlds.)
+    The arrays below are overwritten by each call; copy what must last. n is the number of worlds.
 
     ============  ====================  =======================================================================
     observations  (n, …), or a dict     what the parts of the observation say
@@ -216,38 +216,40 @@ class EnvWorlds:
         self.source = level_source(level)
         self.levels = self.source.levels
         self.count, self.body, self.frame_skip, self.time_limit = count, body, frame_skip, time_limit
-        self._endless = self.source.largest is not None
+        self._unbounded = self.source.largest is not None
         loaded = self.levels if self.source.largest is None else [self.source.largest] * count
         self._worlds = open_worlds(memory, loaded, count, box=is_box(body))
         self.memory, self.threads = self._worlds.name, thread_count(threads)
         self._changed = np.ones(count, np.bool_)
-        fresh = new_levels(self._worlds, range(len(loaded)))
-        room = self._worlds.slots * self._endless
-        setting = Setting(self._worlds, fresh, self._changed, time_limit, self.memory == "compiled", room=room)
+        fresh = initial_levels(self._worlds, range(len(loaded)))
+        max_objects = self._worlds.slots * self._unbounded
+        context = PartContext(
+            self._worlds, fresh, self._changed, time_limit, self.memory == "compiled", max_objects=max_objects
+        )
         self.observation = Observation(observation, flat=flat)
         self.terms = terms = reward_terms(reward)
         shaping = [term for term in terms if isinstance(term, DistanceShaping)]
         self._guided = any(part.needs_goal for part in self.observation.parts)
         wanted = goal_distance or self._guided or shaping
-        if wanted and self._endless:
+        if wanted and self._unbounded:
             raise ArgumentError("the solver's field is not made for levels without end; take others, such as 'packed'")
-        self.goal = GoalDistance(self.levels, setting) if wanted else None
+        self.goal = GoalDistance(self.levels, context) if wanted else None
         self._shaping = Shaping(shaping, self.goal) if self.goal and shaping else None
         self.observations = self.observation.memory(count)
-        self._setting = replace(setting, goal=self.goal)
-        self._writers = self.observation.writers(self.observations, self._setting)
+        self._context = replace(context, goal=self.goal)
+        self._writers = self.observation.writers(self.observations, self._context)
         self._advance = self._worlds.kernel(advance_worlds)
         self._everyone: Indices = np.arange(count, dtype=np.intp)
         self._levels = LevelSequences(self.source, count)
         level_of: Indices = np.asarray(self._worlds.level_of)
-        self.levels_now: Indices = np.full(count, NO_LEVEL) if self._endless else level_of
+        self.levels_now: Indices = np.full(count, NO_LEVEL) if self._unbounded else level_of
         self.rewards = np.zeros(count)
         self._facts = np.zeros((8, count), np.int64).T
         self.outcomes, self.ticks, self.gold, self.events = self._facts.T[:ENDED]
         self._ended, self.played = self._facts[:, ENDED], self._facts[:, PLAYED]
         self._longest_wait = longest_wait
         self.terminated, self.truncated = np.zeros((2, count), np.bool_)
-        weights = setting.table(weights_of(terms), np.float64)
+        weights = context.table(weights_of(terms), np.float64)
         # What the kernels take, first and last.
         self._places = (self._worlds.maps, level_of, self._worlds.worlds)
         chance = int(repeat * CHANCES)
@@ -264,7 +266,7 @@ class EnvWorlds:
     __copy__ = deepcopy
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _made_with, (self._settings,), (self.save(), self._levels, self._facts, self.rewards)
+        return _rebuilt, (self._settings,), (self.save(), self._levels, self._facts, self.rewards)
 
     def __setstate__(self, state: tuple[EnvState, LevelSequences, NDArray[np.int64], NDArray[np.float64]]) -> None:
         saved, self._levels, facts, rewards = state
@@ -280,42 +282,42 @@ class EnvWorlds:
 
         ``restart``: worlds that do not step but begin a new episode instead, without a reward.
         """
-        which = self._everyone
+        indices = self._everyone
         if restart is not None and restart.size:
             steps = np.ones(self.count, np.bool_)
             steps[restart] = False
-            which = np.flatnonzero(steps)
+            indices = np.flatnonzero(steps)
             self._restart(restart)
 
         def work(first: int, last: int) -> int:
             ticks = 0
-            for start in range(first, last, TOGETHER):
-                end = min(start + TOGETHER, last)
-                ticks += self._advance(*self._places, which, start, end, keys, *self._episodes)
+            for start in range(first, last, CHUNK_WORLDS):
+                end = min(start + CHUNK_WORLDS, last)
+                ticks += self._advance(*self._places, indices, start, end, keys, *self._episodes)
                 if self.goal:
-                    self.goal.measure(self.levels_now, which, start, end)
-                self._write(which, start, end)
+                    self.goal.measure(self.levels_now, indices, start, end)
+                self._write(indices, start, end)
             return ticks
 
-        ticks = thread_pool(self.threads).share(work, len(which), self.frame_skip)
+        ticks = thread_pool(self.threads).share(work, len(indices), self.frame_skip)
         if self.goal:
             moved = self.goal.settle(self.levels_now)
             if self._guided:
                 self._observe(moved)
         if self._shaping:
-            self._shaping.add(self.rewards, which, self.terminated)
+            self._shaping.add(self.rewards, indices, self.terminated)
         ended = self.ended()
         if ended.size:
             self.source.report(self.levels_now[ended], self.outcomes[ended] == OUTCOME_EXIT)
         return ticks
 
-    def _write(self, which: Indices, first: int, last: int) -> int:
+    def _write(self, indices: Indices, first: int, last: int) -> int:
         for kernel, arguments in self._writers:
-            kernel(*self._places, which, first, last, *arguments)
+            kernel(*self._places, indices, first, last, *arguments)
         return 0
 
-    def _observe(self, which: Indices) -> None:
-        thread_pool(self.threads).share(lambda first, last: self._write(which, first, last), len(which))
+    def _observe(self, indices: Indices) -> None:
+        thread_pool(self.threads).share(lambda first, last: self._write(indices, first, last), len(indices))
 
     def facts(self, index: int) -> list[int]:
         """The facts about one world, OUTCOME to RANDOM (the kernels above): faster than number by number."""
@@ -331,7 +333,7 @@ class EnvWorlds:
     def reset(
         self, worlds: WorldChoice = None, *, seeds: Sequence[int] | None = None, levels: LevelChoice | None = None
     ) -> None:
-        """Begin new episodes. ``seeds``: new seeds of these worlds; ``levels``: what they play, else it is drawn."""
+        """Begin new episodes. ``seeds``: new seeds of these worlds; ``levels``: the levels to play; None: drawn."""
         numbers = numbers_of(worlds, self.count, "worlds")
         if seeds is not None:
             self._levels.seed(numbers, seeds)
@@ -339,22 +341,22 @@ class EnvWorlds:
 
     def _restart(self, numbers: Indices, levels: LevelChoice | None = None) -> None:
         chosen, drawn = self._levels.next(numbers, levels)
-        if self._endless:
+        if self._unbounded:
             self._enter(numbers, chosen)
         else:
             self._worlds.load(numbers.tolist(), chosen.tolist())
         self._facts[numbers] = 0
         self.terminated[numbers] = self.truncated[numbers] = False
-        self._facts[numbers, WAIT], self._facts[numbers, RANDOM] = beginnings(drawn, self._longest_wait)
+        self._facts[numbers, WAIT], self._facts[numbers, RANDOM] = draw_starts(drawn, self._longest_wait)
         self._look(numbers, None)
 
     def _enter(self, numbers: Indices, chosen: Indices) -> None:
         """Start worlds of levels without end, of which each has a place for the one that it plays."""
         levels = [self.levels[number] for number in chosen.tolist()]
         put_levels(self._worlds, numbers, levels)
-        for index, fresh in zip(numbers.tolist(), new_levels(self._worlds, numbers.tolist()), strict=True):
-            self._setting.fresh[index] = fresh
-            self._setting.renew(index)
+        for index, fresh in zip(numbers.tolist(), initial_levels(self._worlds, numbers.tolist()), strict=True):
+            self._context.fresh[index] = fresh
+            self._context.rewrite(index)
         self.levels_now[numbers] = chosen
 
     def _look(self, numbers: Indices, starts: NDArray[np.float64] | None) -> None:
@@ -382,9 +384,9 @@ class EnvWorlds:
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):
             raise ArgumentError(f"{len(state.levels)} saved worlds do not fit {len(numbers)} of these")
-        if self._endless:
+        if self._unbounded:
             self._enter(numbers, state.levels)
-        self._worlds.restore_many(state.states, numbers, numbers if self._endless else state.levels)
+        self._worlds.restore_many(state.states, numbers, numbers if self._unbounded else state.levels)
         self._facts[numbers, :RANDOM] = state.facts[:, :RANDOM]
         self._facts[numbers, EVENTS] = 0
         self.terminated[:], self.truncated[:] = self._ended == TERMINATED, self._ended == TRUNCATED
@@ -408,6 +410,6 @@ class EnvWorlds:
         return self.levels, self.body, self.memory, self.time_limit, self.goal is not None
 
 
-def _made_with(settings: dict[str, Any]) -> EnvWorlds:
+def _rebuilt(settings: dict[str, Any]) -> EnvWorlds:
     """A function of its own, so that a copy has copies of the settings too: a source of levels may learn."""
     return EnvWorlds(**settings)

@@ -1,4 +1,4 @@
-"""What an examination of a level, a pack or a run can find, by code: text and hint (``assets/findings.toml``)."""
+"""Findings about levels, packs and runs, by code: text and hint (``assets/findings.toml``)."""
 
 from __future__ import annotations
 
@@ -97,21 +97,21 @@ class RunProblem(NamedTuple):
         return RUN_RULES[self.code].hint
 
 
-def in_run(code: str, **values: object) -> RunProblem:
+def run_problem(code: str, **values: object) -> RunProblem:
     """A problem of this code about a run; ``values``: what its text names."""
     return RunProblem(code, RUN_RULES[code].text.format(**values))
 
 
-def in_pack(code: str, place: str = "", **values: object) -> PackFinding:
+def pack_finding(code: str, place: str = "", **values: object) -> PackFinding:
     """A finding of this code about a pack; ``values``: what its text names."""
     return PackFinding(place, code, PACK_RULES[code].text.format(**values))
 
 
-def in_design(code: str, place: str, **values: object) -> PackFinding:
+def design_finding(code: str, place: str, **values: object) -> PackFinding:
     """What a level lacks; ``values``: what its text names."""
     return PackFinding(place, code, DESIGN_RULES[code].text.format(**values))
 
 
-def found(code: str, records: tuple[int, ...] = (), cells: tuple[Cell, ...] = (), **values: object) -> Finding:
+def level_finding(code: str, records: tuple[int, ...] = (), cells: tuple[Cell, ...] = (), **values: object) -> Finding:
     """A finding of this code; ``values``: what its text names."""
     return Finding(code, LEVEL_RULES[code].text.format(**values), records, cells)

@@ -40,15 +40,15 @@ def level_picture(level: Level) -> Text:
     tiles.tiles = grid_tiles(level)
     columns, rows = 2 * COLUMNS, ROWS
     signs = [[(_block(tiles, column, row), "grey62") for column in range(columns)] for row in range(rows)]
-    for record in level.objects:
-        for char, px, py in symbol_chars(record):
+    for spec in level.objects:
+        for char, px, py in symbol_chars(spec):
             # What lies on a side of its cell is drawn in that cell.
             x, y = px - SYMBOL_OF_CHAR[char].dx, py - SYMBOL_OF_CHAR[char].dy
             # A character is half a cell wide; a cell's centre belongs to its left one.
             if CELL <= x <= CELL * (COLUMNS + 1) and CELL <= y <= CELL * (ROWS + 1):
                 column = min(max(round((x - CELL) / HALF) - 1, 0), columns - 1)
                 row = min(int((y - CELL) / CELL), rows - 1)
-                signs[row][column] = (char, COLOURS[record.kind])
+                signs[row][column] = (char, COLOURS[spec.kind])
     text = Text(no_wrap=True)
     for digits in RULER.replace(";", "").splitlines():
         text.append("    " + " ".join(digits[4:]).rstrip() + "\n", "dim")

@@ -11,8 +11,8 @@ from math import cos, dist, isnan, pi, sin, sqrt
 
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.ascii.writer import best_form
-from ninja_game.formats.sayings import NEAR, read_sayings
-from ninja_game.levels.findings import Finding, found
+from ninja_game.formats.messages import NEAR, parse_messages
+from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.sim import kinds, rules
 from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision import tiles
@@ -26,11 +26,11 @@ from ninja_game.sim.objects.door import create_door
 from ninja_game.sim.states import LOCKED, TRAP
 
 
-def _made_door(world: World, record: ObjectSpec) -> Object:
+def _made_door(world: World, spec: ObjectSpec) -> Object:
     """The door that the game makes of a well-formed record."""
     door = Object()
-    door.kind, (door.x, door.y) = kinds.DOOR, record.values[:2]
-    create_door(world, door, record.values)
+    door.kind, (door.x, door.y) = kinds.DOOR, spec.values[:2]
+    create_door(world, door, spec.values)
     grid_remove(world, door)
     return door
 
@@ -59,7 +59,7 @@ class Ground:
         self.doors = {spec: _made_door(world, spec) for spec in set(specs)}
         self.doors_on_side = Counter(edges_of(self.doors[spec]) for spec in specs)
         self.closed_edges = {edge for door in self.doors.values() if door.mechanism != TRAP for edge in edges_of(door)}
-        ninjas = [record for record in level.objects if record.kind == kinds.NINJA]
+        ninjas = [spec for spec in level.objects if spec.kind == kinds.NINJA]
         start = cell_at(*ninjas[-1].values) if ninjas and well_formed(ninjas[-1]) else 0
         exits = [spec.values for spec in self.objects if spec.kind == kinds.EXIT and well_formed(spec)]
         self.ends = [("the exit", values[:2], _BARRING) for values in exits]
@@ -92,9 +92,9 @@ class Ground:
         reach = radius + rules.RADIUS + _BETWEEN
         steps = [2.0 * step for step in range(-int(reach / 2), int(reach / 2) + 1)]
         places = ((x + a, y + b) for a in steps for b in steps if a * a + b * b < reach * reach)
-        return not any(self._has_room(*place) for place in places)
+        return not any(self._fits_at(*place) for place in places)
 
-    def _has_room(self, x: float, y: float) -> bool:
+    def _fits_at(self, x: float, y: float) -> bool:
         """Whether the ninja's centre could be here with the ninja out of all tiles."""
         reached = cell_at(x, y) in self.cells or not self.certain
         return reached and not any(solid_at(self.level, x + a, y + b) for a, b in _RIM)
@@ -159,11 +159,11 @@ def _touches(cell: int, x: float, y: float, radius: float) -> bool:
 
 _BETWEEN = sqrt(2.0)
 """As far, px, may the nearest of the places of ``is_in_wall`` be from where the ninja is."""
-_ROOM = rules.RADIUS - _BETWEEN
+_INNER_RADIUS = rules.RADIUS - _BETWEEN
 _BESIDE = 0.01
 """How far on both sides of a border its places are looked at, px."""
 _ALONG = [k - 11.5 for k in range(24)]
-_RIM = [(0.0, 0.0), *((_ROOM * cos(pi * k / 8), _ROOM * sin(pi * k / 8)) for k in range(16))]
+_RIM = [(0.0, 0.0), *((_INNER_RADIUS * cos(pi * k / 8), _INNER_RADIUS * sin(pi * k / 8)) for k in range(16))]
 _FIXED = {kinds.LAUNCH_PAD, kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER}
 _BARRING, _DEADLY = _FIXED | {kinds.MINE}, _FIXED | {kinds.DRONE, kinds.FLOOR_GUARD}
 """Kinds that nobody means to lie over an exit, which drones leave free, or over the start, where mines are deadly."""
@@ -190,18 +190,18 @@ def level_findings(level: Level, says: str = "") -> list[Finding]:
 
     ``says``: as its file has it. Raises LevelError where that cannot be read.
     """
-    numbers = [number for number, record in enumerate(level.objects) if makes_object(record)]
+    numbers = [number for number, spec in enumerate(level.objects) if makes_object(spec)]
     objects = [level.objects[number] for number in numbers]
     if len(objects) >= CAPACITY:
-        return [found("too-many-objects", count=len(objects), most=CAPACITY - 1)]
+        return [level_finding("too-many-objects", count=len(objects), most=CAPACITY - 1)]
     ground = Ground(level)
     odd: dict[Finding, list[int]] = {}
     first: dict[ObjectSpec, int] = {}
     covering = _mines_over_gold(objects)
-    for id_, record in enumerate(objects):
-        again = [found("duplicate")] if first.setdefault(record, id_) != id_ else []
-        over = [found("mine-over-gold")] if record in covering else []
-        for finding in (*oddities(record, ground), *again, *over):
+    for id_, spec in enumerate(objects):
+        again = [level_finding("duplicate")] if first.setdefault(spec, id_) != id_ else []
+        over = [level_finding("mine-over-gold")] if spec in covering else []
+        for finding in (*oddities(spec, ground), *again, *over):
             odd.setdefault(finding, []).append(id_)
     of_objects = []
     for finding, ids in odd.items():
@@ -212,14 +212,14 @@ def level_findings(level: Level, says: str = "") -> list[Finding]:
     return [*of_level, *unseen_messages(says, ground), *_odd_tiles(level), *of_objects]
 
 
-def object_name(record: ObjectSpec, number: int) -> str:
+def object_name(spec: ObjectSpec, number: int) -> str:
     """An object, with its place as ``_shown_place`` has it: ``gold at 12,18 (288,442px, object 7)``; ids from 0."""
-    keyword, place, _ = best_form(record)
-    name = keyword or kinds.KIND_NAMES[record.kind]
-    if not place and len(record.values) > 1:
-        place = place_text(*record.values[:2])
-        name = f"{name} with its switch" if record.kind == kinds.DOOR else name
-    where = f"{name} at {_shown_place(record.values[0], record.values[1], place)}" if place else name
+    keyword, place, _ = best_form(spec)
+    name = keyword or kinds.KIND_NAMES[spec.kind]
+    if not place and len(spec.values) > 1:
+        place = place_text(*spec.values[:2])
+        name = f"{name} with its switch" if spec.kind == kinds.DOOR else name
+    where = f"{name} at {_shown_place(spec.values[0], spec.values[1], place)}" if place else name
     return f"{where[:-1]}, object {number})" if where.endswith(")") else f"{where} (object {number})"
 
 
@@ -238,17 +238,17 @@ def _some(names: Sequence[str], count: int) -> str:
 def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
     """The messages of a header's value whose moment never comes. Raises LevelError where they cannot be read."""
     doors = {door.mechanism for door in ground.doors.values()}
-    kinds_here = {record.kind for record in ground.objects if well_formed(record)}
+    kinds_here = {spec.kind for spec in ground.objects if well_formed(spec)}
     missing = {
         "switch": "exit" * (kinds.EXIT not in kinds_here), "gold": "gold" * (kinds.GOLD not in kinds_here),
         "lock": "locked door" * (LOCKED not in doors), "trap": "trap door" * (TRAP not in doors),
     }  # fmt: skip
-    for each in read_sayings(says):
+    for each in parse_messages(says):
         if lacks := missing.get(each.when):
-            yield found("unseen-message", text=each.text, why=f"there is no {lacks}")
+            yield level_finding("unseen-message", text=each.text, why=f"there is no {lacks}")
         elif each.place and not ground.comes_near(*each.place, NEAR):
             why = "the ninja never comes near its place"
-            yield found("unseen-message", cells=(each.cell,), text=each.text, why=why)
+            yield level_finding("unseen-message", cells=(each.cell,), text=each.text, why=why)
 
 
 def _odd_tiles(level: Level) -> Iterator[Finding]:
@@ -260,60 +260,60 @@ def _odd_tiles(level: Level) -> Iterator[Finding]:
     for what, some in odd.items():
         places = [(cell // ROWS + 1, cell % ROWS + 1) for cell in some]
         names = [f"tile {level.tile(*place)} at {place[0]},{place[1]}" for place in places[:_NAMES_SHOWN]]
-        yield found("odd-tile", cells=tuple(places), what=what)._replace(names=_some(names, len(places)))
+        yield level_finding("odd-tile", cells=tuple(places), what=what)._replace(names=_some(names, len(places)))
 
 
 def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
     """What concerns the level as a whole, with the ids of the objects to look at."""
-    ninjas = [id_ for id_, record in enumerate(objects) if record.kind == kinds.NINJA]
+    ninjas = [id_ for id_, spec in enumerate(objects) if spec.kind == kinds.NINJA]
     if not ninjas:
-        yield found("no-ninja")
+        yield level_finding("no-ninja")
     elif len(ninjas) > 1:
         last = object_name(objects[ninjas[-1]], ninjas[-1])
-        yield found("several-ninjas", tuple(ninjas[:-1]), count=len(ninjas), last=last)
+        yield level_finding("several-ninjas", tuple(ninjas[:-1]), count=len(ninjas), last=last)
     yield from _deadly_start(objects)
-    if not any(record.kind == kinds.EXIT and well_formed(record) for record in objects):
-        yield found("no-exit")
+    if not any(spec.kind == kinds.EXIT and well_formed(spec) for spec in objects):
+        yield level_finding("no-exit")
     if len(objects) > MANY_OBJECTS:
-        yield found("many-objects", count=len(objects), most=MANY_OBJECTS)
-    waiting = [id_ for id_, record in enumerate(objects) if _waits_for_its_turn(record)]
+        yield level_finding("many-objects", count=len(objects), most=MANY_OBJECTS)
+    waiting = [id_ for id_, spec in enumerate(objects) if _waits_for_its_turn(spec)]
     if len(waiting) > MANY_THINKERS:
         seconds = len(waiting) * (rules.THINK_PAUSE + 1) / rules.TICKS_PER_SECOND
-        yield found("slow-thinkers", tuple(waiting), count=len(waiting), seconds=seconds)
-    ignored = [record.text or str(record.kind) for record in level.objects if not makes_object(record)]
+        yield level_finding("slow-thinkers", tuple(waiting), count=len(waiting), seconds=seconds)
+    ignored = [spec.text or str(spec.kind) for spec in level.objects if not makes_object(spec)]
     if ignored:
-        yield found("unknown-type", count=len(ignored), first=ignored[0][:40])
+        yield level_finding("unknown-type", count=len(ignored), first=ignored[0][:40])
 
 
-def _waits_for_its_turn(record: ObjectSpec) -> bool:
+def _waits_for_its_turn(spec: ObjectSpec) -> bool:
     """Whether an object looks for the ninja only when its turn in the thinker ring comes."""
-    if record.kind == kinds.DRONE and well_formed(record):
-        return record.values[4] in (1, 2)
-    return record.kind in (kinds.TURRET, kinds.LAUNCHER)
+    if spec.kind == kinds.DRONE and well_formed(spec):
+        return spec.values[4] in (1, 2)
+    return spec.kind in (kinds.TURRET, kinds.LAUNCHER)
 
 
 def _mines_over_gold(objects: Sequence[ObjectSpec]) -> set[ObjectSpec]:
     gold: dict[tuple[float, float], list[tuple[float, ...]]] = {}
-    for record in objects:
-        if record.kind == kinds.GOLD and well_formed(record):
-            x, y = record.values
-            gold.setdefault((x // _OVER, y // _OVER), []).append(record.values)
+    for spec in objects:
+        if spec.kind == kinds.GOLD and well_formed(spec):
+            x, y = spec.values
+            gold.setdefault((x // _OVER, y // _OVER), []).append(spec.values)
     covering = set()
-    for record in objects:
-        if gold and record.kind == kinds.MINE and well_formed(record):
-            column, row = (value // _OVER for value in record.values)
+    for spec in objects:
+        if gold and spec.kind == kinds.MINE and well_formed(spec):
+            column, row = (value // _OVER for value in spec.values)
             places = [(column + a, row + b) for a in (-1, 0, 1) for b in (-1, 0, 1)]
-            if any(dist(record.values, piece) < _OVER for place in places for piece in gold.get(place, ())):
-                covering.add(record)
+            if any(dist(spec.values, piece) < _OVER for place in places for piece in gold.get(place, ())):
+                covering.add(spec)
     return covering
 
 
 def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
-    starts = [record.values for record in objects if record.kind == kinds.NINJA and well_formed(record)]
-    for id_, record in enumerate(objects):
-        mine = record.kind == kinds.MINE and well_formed(record)
-        if mine and starts and dist(record.values, starts[-1]) < rules.MINE_RADIUS + rules.RADIUS:
-            yield found("deadly-start", (id_,), mine=object_name(record, id_))
+    starts = [spec.values for spec in objects if spec.kind == kinds.NINJA and well_formed(spec)]
+    for id_, spec in enumerate(objects):
+        mine = spec.kind == kinds.MINE and well_formed(spec)
+        if mine and starts and dist(spec.values, starts[-1]) < rules.MINE_RADIUS + rules.RADIUS:
+            yield level_finding("deadly-start", (id_,), mine=object_name(spec, id_))
             return
 
 
@@ -325,37 +325,37 @@ _HIDDEN = 2 / 3
 _UNIT_TOLERANCE = 0.02  # pads of other editors have 0.7 for both parts of a diagonal
 
 
-def oddities(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+def oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     """What is odd about an object of the level that ``ground`` describes; nothing for a proper one."""
-    if not well_formed(record):
-        count, needed = len(record.values), kinds.VALUE_COUNTS[record.kind]
-        does = "starts at 45,70px" if record.kind == kinds.NINJA else "does nothing"
-        yield found("value-count", count=count, needed=needed, does=does)
+    if not well_formed(spec):
+        count, needed = len(spec.values), kinds.VALUE_COUNTS[spec.kind]
+        does = "starts at 45,70px" if spec.kind == kinds.NINJA else "does nothing"
+        yield level_finding("value-count", count=count, needed=needed, does=does)
         return
-    if any(map(isnan, record.values)):
-        yield found("not-a-number")
-    if record.kind != kinds.DOOR:
-        yield from _place_oddities(record, ground)
-    if record.kind in _CHECKS:
-        yield from _CHECKS[record.kind](record, ground)
+    if any(map(isnan, spec.values)):
+        yield level_finding("not-a-number")
+    if spec.kind != kinds.DOOR:
+        yield from _place_oddities(spec, ground)
+    if spec.kind in _CHECKS:
+        yield from _CHECKS[spec.kind](spec, ground)
 
 
-def _place_oddities(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
-    x, y = record.values[:2]
+def _place_oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    x, y = spec.values[:2]
     if isnan(x) or isnan(y):
         return
     cell = cell_at(x, y)
-    near = [what for what, place, barring in ground.ends if record.kind in barring and dist((x, y), place) < _HIDES]
-    yield from (found("covers", what=what) for what in dict.fromkeys(near))
-    if record.kind == kinds.FLOOR_GUARD:
+    near = [what for what, place, barring in ground.ends if spec.kind in barring and dist((x, y), place) < _HIDES]
+    yield from (level_finding("covers", what=what) for what in dict.fromkeys(near))
+    if spec.kind == kinds.FLOOR_GUARD:
         return
     if not cell:
-        yield found("outside-grid")
-    elif record.kind in _IN_TILE and _deep(ground, x, y):
+        yield level_finding("outside-grid")
+    elif spec.kind in _IN_TILE and _deep(ground, x, y):
         border = tiles.COLUMN[cell] in (0, COLUMNS + 1) or tiles.ROW[cell] in (0, ROWS + 1)
-        yield found("in-border") if border else found("in-tile", what=_IN_TILE[record.kind])
-    elif record.kind in (kinds.DRONE, kinds.THWUMP) and ground.is_full(cell):
-        yield found("in-full-tile")
+        yield level_finding("in-border") if border else level_finding("in-tile", what=_IN_TILE[spec.kind])
+    elif spec.kind in (kinds.DRONE, kinds.THWUMP) and ground.is_full(cell):
+        yield level_finding("in-full-tile")
 
 
 _IN_TILE = {
@@ -375,89 +375,89 @@ def _deep(ground: Ground, x: float, y: float) -> bool:
 def _untouched(ground: Ground, x: float, y: float, radius: float, switch: str = "") -> Iterator[Finding]:
     """That no ninja touches a disc, or no slow one. ``switch``: "-switch" where it is that of an object."""
     if not ground.touchable(x, y, radius):
-        yield found("unreachable" + switch, place=_shown_place(x, y, place_text(x, y)))
+        yield level_finding("unreachable" + switch, place=_shown_place(x, y, place_text(x, y)))
     elif ground.is_in_wall(x, y, radius):
-        yield found("in-wall" + switch, place=_shown_place(x, y, place_text(x, y)))
+        yield level_finding("in-wall" + switch, place=_shown_place(x, y, place_text(x, y)))
 
 
-def _exit(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
-    x, y, switch_x, switch_y = record.values
+def _exit(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    x, y, switch_x, switch_y = spec.values
     if cell_at(x, y):
         yield from _untouched(ground, x, y, rules.EXIT_RADIUS)
     yield from _untouched(ground, switch_x, switch_y, rules.SWITCH_RADIUS, "-switch")
 
 
-def _gold(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
-    x, y = record.values
+def _gold(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    x, y = spec.values
     if not cell_at(x, y):
         return
     places = [(x + a * rules.GOLD_RADIUS, y + b * rules.GOLD_RADIUS) for a in _SAMPLES for b in _SAMPLES]
     if untouched := [*_untouched(ground, x, y, rules.GOLD_RADIUS)]:
         yield from untouched
     elif sum(solid_at(ground.level, *place) for place in places) >= _HIDDEN * len(places):
-        yield found("hidden-gold")
+        yield level_finding("hidden-gold")
 
 
-def _launch_pad(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001 - all checks have one signature
-    _, _, a, b = record.values
+def _launch_pad(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001 - all checks have one signature
+    _, _, a, b = spec.values
     length = sqrt(a * a + b * b)
     if abs(length - 1.0) > _UNIT_TOLERANCE:
-        yield found("pad-normal", length=length)
+        yield level_finding("pad-normal", length=length)
 
 
-def _one_way(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001
-    if record.values[2] not in _DIRECTIONS:
-        yield found("direction", but=": it faces down")
+def _one_way(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001
+    if spec.values[2] not in _DIRECTIONS:
+        yield level_finding("direction", but=": it faces down")
 
 
-def _thwump(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001
-    if record.values[2] not in _DIRECTIONS:
-        yield found("direction", but=": it never moves, its right side kills")
+def _thwump(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001
+    if spec.values[2] not in _DIRECTIONS:
+        yield level_finding("direction", but=": it never moves, its right side kills")
 
 
-def _floor_guard(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
-    cell = cell_at(*record.values[:2])
+def _floor_guard(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    cell = cell_at(*spec.values[:2])
     if tiles.COLUMN[cell] in (0, COLUMNS + 1):
-        yield found("guard-in-border")
+        yield level_finding("guard-in-border")
     elif ground.is_full(cell):
-        yield found("in-full-tile")
+        yield level_finding("in-full-tile")
     elif ground.edges[4 * cell + 1] != rules.SOLID:
-        yield found("guard-without-floor")
+        yield level_finding("guard-without-floor")
 
 
-def _drone(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
-    x, y, movement, seeker, weapon, direction = record.values
+def _drone(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    x, y, movement, seeker, weapon, direction = spec.values
     if weapon not in (0, 1, 2):
-        yield found("weapon")
+        yield level_finding("weapon")
     if movement not in range(6):
-        yield found("movement")
+        yield level_finding("movement")
     if direction not in _DIRECTIONS:
-        yield found("direction", but="")
+        yield level_finding("direction", but="")
     if seeker not in (0, 1):
-        yield found("seeker-flag")
+        yield level_finding("seeker-flag")
     elif seeker and weapon != 0:
-        yield found("seeker-with-weapon")
+        yield level_finding("seeker-with-weapon")
     cell = cell_at(x, y)
     sides = range(4 * cell, 4 * cell + 4)
     if cell and all(ground.edges[side] != rules.OFF or side in ground.closed_edges for side in sides):
-        yield found("closed-in")
+        yield level_finding("closed-in")
 
 
-def _door(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
-    x, y, vertical, trap, _, _, locked, _, _ = record.values
-    edges = edges_of(ground.doors[record])
+def _door(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    x, y, vertical, trap, _, _, locked, _, _ = spec.values
+    edges = edges_of(ground.doors[spec])
     if vertical not in (0, 1):
-        yield found("vertical-flag")
+        yield level_finding("vertical-flag")
     if trap not in (0, 1) or locked not in (0, 1):
-        yield found("door-flags")
+        yield level_finding("door-flags")
     elif trap and locked:
-        yield found("locked-trap")
+        yield level_finding("locked-trap")
     if 0 in edges:
-        yield found("door-outside")
+        yield level_finding("door-outside")
     elif ground.doors_on_side[edges] > 1:
-        yield found("doors-on-one-side")
+        yield level_finding("doors-on-one-side")
     elif any(ground.edges[edge] == rules.SOLID or ground.is_full(edge // 4) for edge in edges):
-        yield found("closed-anyway")
+        yield level_finding("closed-anyway")
     if is_set(trap) or is_set(locked):
         yield from _untouched(ground, x, y, rules.DOOR_SWITCH_RADIUS, "-switch")
 

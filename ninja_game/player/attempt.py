@@ -6,13 +6,13 @@ from dataclasses import replace
 from typing import Any
 
 from ninja_game.budget import NO_LIMIT
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import level_score
 from ninja_game.player.records import SELF, killer_of
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.events import DIED
-from ninja_game.sim.inputs import pressed
+from ninja_game.sim.inputs import with_press_bit
 from ninja_game.sim.kinds import INERT
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -59,8 +59,8 @@ class Attempt:
         return bool(self.assists)
 
     @property
-    def made(self) -> Made:
-        return Made(played=True, assists=tuple(sorted(self.assists)))
+    def made(self) -> Provenance:
+        return Provenance(played=True, assists=tuple(sorted(self.assists)))
 
     @property
     def outcome(self) -> str:
@@ -81,7 +81,7 @@ class Attempt:
         was_held = world.ninja.jump_held
         gold = world.gold
         running = world.outcome == 0
-        keys = pressed(held, was_held)
+        keys = with_press_bit(held, was_held)
         if invincible and running:
             self.assists.add("invincible")
             self.death_refused |= tick_without_death(self.simulation, keys)

@@ -20,6 +20,7 @@ from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
+from ninja_game.backend.worlds import BODIES
 from ninja_game.budget import PAGE_BUDGET
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import SUFFIXES, files_in, read_bytes
@@ -39,7 +40,6 @@ from ninja_game.player.schema import SCHEMA, TABLES, VERSION, OtherVersionError,
 from ninja_game.player.settings import read_settings
 from ninja_game.player.store import Store
 from ninja_game.runs.verify import verify_recording
-from ninja_game.sim.memory.interface import BODIES
 
 MOST_FILES = 4096
 MOST_BYTES = 256 * 2**20  # of all files, unpacked

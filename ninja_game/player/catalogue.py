@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.reading import LeftOut, files_below, files_in, stamp_of
+from ninja_game.files.reading import Skipped, files_below, files_in, stamp_of
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.index import PackIndex
@@ -148,7 +148,7 @@ class Catalogue:
         if self.folder is not None:
             packs = [*self._pack_paths(), self.folder / CERTIFICATES]
             for found in files_below(self.folder):
-                if isinstance(found, LeftOut):
+                if isinstance(found, Skipped):
                     self.problems.append(str(found))
                 elif not any(found.is_relative_to(pack) for pack in packs):
                     entries += self._entries_of(found)

@@ -17,10 +17,10 @@ from typing import NamedTuple
 from ninja_game.errors import DAMAGED, LevelError
 from ninja_game.files.reading import stamp_of
 from ninja_game.formats.load import load_levels
+from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay, lifetimes, parse_replay, write_replay
-from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.levels.episodes import YOURS, Entry, Episode
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, save_work
@@ -134,11 +134,11 @@ class LevelContext:
         marks, level = self.data.marks, self.entry.digest
         return self.data.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
 
-    def sayings(self) -> tuple[Saying, ...]:
+    def sayings(self) -> tuple[LevelMessage, ...]:
         if not self.shows_hints:
             return ()
         with suppress(LevelError):
-            return read_sayings(self.entry.named.says)
+            return parse_messages(self.entry.named.says)
         return ()
 
     def died(self, attempt: Attempt) -> None:

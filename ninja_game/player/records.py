@@ -8,16 +8,16 @@ from datetime import UTC, datetime
 from functools import lru_cache
 from typing import NamedTuple, get_type_hints
 
+from ninja_game.backend.worlds import BODIES
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.object_lines import WEAPONS
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
-from ninja_game.formats.replay.made import names_of_text, parse_made
+from ninja_game.formats.replay.provenance import names_of_text, parse_provenance
 from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.formats.run_time import level_score
 from ninja_game.player.store import Store
 from ninja_game.sim.events import DIED
 from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
-from ninja_game.sim.memory.interface import BODIES
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import NO_CAUSE
 
@@ -109,7 +109,7 @@ class Records:
                 return Replay(
                     inputs=inputs, final_tick=final_tick, outcome=outcome, gold=gold, digest=digest, name=name,
                     author=player, body=body, level_digest=level, level=_level(text),
-                    made=parse_made(made), co_authors=names_of_text(co_authors),
+                    made=parse_provenance(made), co_authors=names_of_text(co_authors),
                 )  # fmt: skip
             except (NinjaGameError, ValueError) as error:
                 self.store.report(f"A replay in the records is damaged ({error}).")

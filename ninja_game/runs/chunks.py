@@ -25,7 +25,7 @@ from ninja_game import __version__
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import DAMAGED, BudgetError, DemoError, FileError, FormatError, LevelError, ReplayError
 from ninja_game.files.locking import lock
-from ninja_game.files.reading import Beside, known_files, what_it_is
+from ninja_game.files.reading import IncludedFile, file_type, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, is_episode
@@ -54,7 +54,7 @@ class Chunk:
     file: str
     first: int = 0
     text: str = field(default="", repr=False)
-    beside: dict[str, Beside] | None = field(default=None, repr=False)
+    beside: dict[str, IncludedFile] | None = field(default=None, repr=False)
     records: tuple[LevelRecord, ...] = field(default=(), repr=False)
     problem: str = ""
     named: bool = True
@@ -94,7 +94,7 @@ def chunks_in(paths: Iterable[Path], record: int | None = None) -> Iterator[Chun
 
 def self_contained(chunk: Chunk, level: Level | None = None) -> Chunk:
     """The chunk with all files inside that its text takes in; where something is wrong, as it is."""
-    beside: dict[str, Beside] = {}
+    beside: dict[str, IncludedFile] = {}
     if not chunk.records and not chunk.problem:
         with known_files(beside, no_more=False):
             list(recording_of_text(chunk.text, chunk.file, level, named=chunk.named))
@@ -206,7 +206,7 @@ class CheckpointLog:
     def __init__(self, path: Path) -> None:
         if path.exists() and not path.is_file():
             raise FileError(
-                "only a regular file can be a checkpoint log", str(path), found=what_it_is(path.stat().st_mode)
+                "only a regular file can be a checkpoint log", str(path), found=file_type(path.stat().st_mode)
             )
         self.path = path
         self._places: dict[str, int] = {}

@@ -13,7 +13,7 @@ from ninja_game.formats.ascii.reader import is_ascii_level
 from ninja_game.formats.ascii.writer import RULER
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
-from ninja_game.formats.named_level import NamedLevel, form_of, parse_levels
+from ninja_game.formats.named_level import NamedLevel, format_of, parse_levels
 from ninja_game.formats.recording import Recording, holds_recordings, parse_replays, record_of
 from ninja_game.formats.replay.notations import write_celeste, write_libtas
 from ninja_game.formats.replay.text import RULES_VERSION, Replay, write_episode, write_replay
@@ -116,7 +116,7 @@ def level_file_text(texts: Iterable[tuple[str, str]], level: Level | None = None
 
 
 def _records(text: str, file: str, level: Level | None) -> Iterator[LevelRecord]:
-    if form_of(text) == "file":
+    if format_of(text) == "file":
         given = write_level_string(level, exact=True) if level else ""
         return (replace(record, level=record.level or given) for record in read_level_file(text, file=file))
     if holds_recordings(text):

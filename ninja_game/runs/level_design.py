@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.levels.findings import PackFinding, in_design
+from ninja_game.levels.findings import PackFinding, design_finding
 from ninja_game.levels.warnings import Ground
 from ninja_game.runs.trace import RunTrace, trace_level
 from ninja_game.sim import kinds
@@ -74,7 +74,7 @@ def design_findings(counts: Design, place: str = "") -> Iterator[PackFinding]:
     for code, (name, sign, bound) in BOUNDS.items():
         value = getattr(counts, name)
         if value is not None and (value < bound if sign == ">=" else value > bound):
-            yield in_design(code, place, value=value, bound=bound)
+            yield design_finding(code, place, value=value, bound=bound)
 
 
 def design(level: Level, inputs: bytes) -> Design:

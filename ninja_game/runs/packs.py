@@ -15,7 +15,7 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import DIGITS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
-from ninja_game.levels.findings import DESIGN_RULES, PackFinding, in_pack
+from ninja_game.levels.findings import DESIGN_RULES, PackFinding, pack_finding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.verify import Verdict, verify_recording, with_demands
@@ -136,22 +136,22 @@ def lint(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> I
     for stale in open_ones.values():
         if stale.code not in unasked:
             place = f"{pack.files.place(INDEX)}:{stale.line}"
-            yield in_pack("accepted-in-vain", place, file=stale.file, finding=stale.code)
+            yield pack_finding("accepted-in-vain", place, file=stale.file, finding=stale.code)
 
 
 def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[PackFinding]:
     in_episodes = {level.file for levels in pack.episodes.values() for level in levels}
-    yield from (in_pack("unreadable", why=problem) for problem in pack.problems)
+    yield from (pack_finding("unreadable", why=problem) for problem in pack.problems)
     yield from _about_index(pack)
     for file, named in pack.levels.items():
         if named.file not in in_episodes:
-            yield in_pack("single-level", pack.files.place(file))
+            yield pack_finding("single-level", pack.files.place(file))
     yield from _about_levels(pack)
     yield from _about_order(pack)
     for file, named in pack.levels.items() if with_gold else ():
         rich = pack.certificate(file, "gold") or not named.level.gold
         if not rich and is_certified(pack, file, "exit"):
-            yield in_pack("no-gold-run", pack.files.place(file))
+            yield pack_finding("no-gold-run", pack.files.place(file))
     sound = True
     for finding in _about_certificates(pack):
         sound = False
@@ -168,22 +168,22 @@ def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[Pac
 def _about_index(pack: Pack) -> Iterator[PackFinding]:
     place, index = pack.files.place(INDEX), pack.index
     if not index.author:
-        yield in_pack("no-author", place)
+        yield pack_finding("no-author", place)
     used = {episode.number // EPISODES_PER_COLUMN for episode in index.episodes}
     if used and index.columns and max(used) >= len(index.columns):
-        yield in_pack("column-without-name", place, column=max(used), needed=max(used) + 1)
+        yield pack_finding("column-without-name", place, column=max(used), needed=max(used) + 1)
     names: dict[str, int] = {}
     for episode in index.episodes:
         where, number = f"{place}:{episode.line}", episode.number
         if not episode.name:
-            yield in_pack("episode-name", where, number=number)
+            yield pack_finding("episode-name", where, number=number)
         elif episode.name in names:
-            yield in_pack("same-episode-name", where, number=number, other=names[episode.name])
+            yield pack_finding("same-episode-name", where, number=number, other=names[episode.name])
         names[episode.name] = number
         if episode not in pack.episodes:
-            yield in_pack("empty-episode", where, number=number)
+            yield pack_finding("empty-episode", where, number=number)
     if not index.episodes:
-        yield in_pack("no-episodes", place)
+        yield pack_finding("no-episodes", place)
 
 
 def _about_levels(pack: Pack) -> Iterator[PackFinding]:
@@ -193,15 +193,15 @@ def _about_levels(pack: Pack) -> Iterator[PackFinding]:
     for file, named in pack.levels.items():
         place = pack.files.place(file)
         if named.form == "ascii" and named.name == PurePath(file).stem:
-            yield in_pack("no-name", place)
+            yield pack_finding("no-name", place)
         digest = level_digest(named.level)
         for code, key, seen in (("same-name", named.name.casefold().strip(), names), ("same-content", digest, levels)):
             if key in seen:
-                yield in_pack(code, place, other=seen[key])
+                yield pack_finding(code, place, other=seen[key])
             seen.setdefault(key, file)
         if file[:2].isdecimal() and file[2:3] == "-" and file[4:5] == "-":
             if file[:4] in places:
-                yield in_pack("same-place", place, number=file[:4], other=places[file[:4]])
+                yield pack_finding("same-place", place, number=file[:4], other=places[file[:4]])
             places.setdefault(file[:4], file)
         for finding in level_findings(named.level, named.says):
             yield PackFinding(place, finding.code, finding.sentence)
@@ -211,17 +211,17 @@ def _about_certificates(pack: Pack) -> Iterator[PackFinding]:
     named = {pack.certificate(file, kind) for file in pack.files.levels for kind in KINDS}
     for name in pack.files.names:
         if name.startswith(CERTIFICATES) and name not in named:
-            yield in_pack("stray-certificate", pack.files.place(name))
+            yield pack_finding("stray-certificate", pack.files.place(name))
     for file in pack.levels:
         for kind in KINDS:
             try:
                 found = certificate(pack, file, kind)
                 if found:
-                    yield from (in_pack("certificate", found.place, why=problem) for problem in found.problems)
+                    yield from (pack_finding("certificate", found.place, why=problem) for problem in found.problems)
                 elif kind == "exit":
-                    yield in_pack("no-certificate", pack.files.place(file))
+                    yield pack_finding("no-certificate", pack.files.place(file))
             except NinjaGameError as error:
-                yield in_pack("unreadable", why=error)
+                yield pack_finding("unreadable", why=error)
 
 
 def _about_order(pack: Pack) -> Iterator[PackFinding]:
@@ -231,21 +231,21 @@ def _about_order(pack: Pack) -> Iterator[PackFinding]:
             hard, easy = pars.get(one.file), pars.get(other.file)
             if hard and easy and hard.grade not in ("", "easy", "medium") and easy.grade == "easy":
                 values = {"grade": hard.grade, "other": PurePath(other.file).name, "easier": easy.grade}
-                yield in_pack("hard-before-easy", one.file, **values)
+                yield pack_finding("hard-before-easy", one.file, **values)
     first, *later = [pars.get(level.file) for levels in pack.episodes.values() for level in levels] or [None]
     known = [each.difficulty for each in later if each and each.difficulty is not None]
     if first and first.grade not in ("", "easy") and len(known) > 1 and (first.difficulty or 0.0) > max(known):
         place = next(iter(pack.episodes.values()))[0].file
-        yield in_pack("hardest-first", place, grade=first.grade)
+        yield pack_finding("hardest-first", place, grade=first.grade)
 
 
 def _about_pars(pack: Pack) -> Iterator[PackFinding]:
     place = pack.files.place(PARS)
     if PARS not in pack.files.names:
-        yield in_pack("no-pars", place)
+        yield pack_finding("no-pars", place)
         return
     try:
         if pack.read_pars() != dict(make_pars(pack, tries=0)):
-            yield in_pack("old-pars", place)
+            yield pack_finding("old-pars", place)
     except NinjaGameError as error:
-        yield in_pack("unreadable", why=error)
+        yield pack_finding("unreadable", why=error)

@@ -10,12 +10,12 @@ from functools import lru_cache
 from pathlib import Path
 
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
-from ninja_game.files.reading import LeftOut, files_below
+from ninja_game.files.reading import Skipped, files_below
 from ninja_game.formats.links import is_link
 from ninja_game.formats.load import texts_of
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.formats.named_level import form_of, parse_levels
+from ninja_game.formats.named_level import format_of, parse_levels
 from ninja_game.formats.recording import Recording, parse_replays, recording_of
 from ninja_game.formats.replay.headers import LEVELS_KEPT
 from ninja_game.formats.replay.text import is_replay
@@ -41,7 +41,7 @@ def texts_in(paths: Iterable[Path]) -> Iterator[tuple[str, str, bool] | Unreadab
         empty = True
         for file in files_below(path):
             empty = False
-            yield from [Unreadable(str(file))] if isinstance(file, LeftOut) else _texts_of(file, named=False)
+            yield from [Unreadable(str(file))] if isinstance(file, Skipped) else _texts_of(file, named=False)
         if empty:
             yield Unreadable(f"{path}: no recordings here")
 
@@ -71,7 +71,7 @@ def recordings_in(paths: Iterable[Path], level: Level | None = None) -> Iterator
 
 def records_of(text: str, file: str = "") -> list[LevelRecord]:
     """The records of a file of recordings of N; none for any other file, and for one that cannot be read."""
-    if form_of(text) != "file":
+    if format_of(text) != "file":
         return []
     try:
         records = read_level_file(text, file=file)

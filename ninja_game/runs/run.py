@@ -16,7 +16,8 @@ from collections.abc import Generator, Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, SupportsIndex, TypeVar, cast
 
-from ninja_game.backend.memories import PLAIN, Plan, go_on, open_worlds
+from ninja_game.backend.memories import PLAIN, Plan, open_worlds, switch_to_compiled
+from ninja_game.backend.worlds import RunPath
 from ninja_game.budget import PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
@@ -24,9 +25,8 @@ from ninja_game.formats.replay.headers import Waypoint
 from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay
 from ninja_game.formats.run_time import level_score
 from ninja_game.sim.digest import replay_digest
-from ninja_game.sim.inputs import ALL_KEYS, check_inputs, fitted_inputs
+from ninja_game.sim.inputs import ALL_KEYS, check_inputs, fit_inputs
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import RunRecord
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
 from ninja_game.simulation import Body, is_box
@@ -148,10 +148,10 @@ def run_in_slices(
     world = open_worlds(memory, level, box=is_box(body), at_once=True, ticks=most)
     stays = world.name == "compiled" or memory in ("plain", PLAIN)
     slice_ticks = affordable_ticks(level, slice_work if stays else min(slice_work, PLAIN_WORK))
-    records: list[RunRecord] = []
+    records: list[RunPath] = []
     in_time = True
     while world.tick() < most and not world.outcome():
-        world = go_on(world, memory, most - world.tick())
+        world = switch_to_compiled(world, memory, most - world.tick())
         # Up to the tick at which the lifetime would run out without more gold; nothing else can be too late.
         deadline = lifetime + GOLD_BONUS * world.gold()
         in_time = in_time and world.tick() < deadline
@@ -205,7 +205,7 @@ def record_replay(
     as ``run_level`` does.
     """
     keys = inputs_of(inputs)
-    played = fitted_inputs(keys, ticks) if ticks is not None else keys
+    played = fit_inputs(keys, ticks) if ticks is not None else keys
     if not played:
         raise ArgumentError("a replay has at least one tick")
     run = run_level(level, played, body=body, memory="plain", digest=True, budget=budget)

@@ -15,7 +15,8 @@ from typing import Any, SupportsIndex, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import go_on, open_worlds
+from ninja_game.backend.memories import open_worlds, switch_to_compiled
+from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS, TraceArrays
 from ninja_game.budget import NO_LIMIT, PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.recording import Recording
@@ -25,7 +26,6 @@ from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import MAX_TICKS, check_inputs
 from ninja_game.sim.kinds import KIND_NAMES, KIND_OF
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, TraceRecord
 from ninja_game.sim.memory.schema import MAX_EVENTS
 from ninja_game.simulation import Body, is_box
 
@@ -114,12 +114,12 @@ def trace_level(
     end, most, at_once = len(inputs), affordable_ticks(level, budget), BLOCK if after is not None else MAX_TICKS
     if world.name == "plain":
         at_once = min(at_once, affordable_ticks(level, PLAIN_WORK))
-    blocks: list[TraceRecord] = []
+    blocks: list[TraceArrays] = []
     over = after is None
     while world.tick() < end:
         if world.tick() == most or (over and end > most):
             raise over_budget(level, end, budget)
-        world = go_on(world, memory, end - world.tick())
+        world = switch_to_compiled(world, memory, end - world.tick())
         block = inputs[world.tick() : min(end, most, world.tick() + at_once)]
         if (world.tick() + len(block)) * len(ids) > MAX_CELLS:
             found = f"{world.tick() + len(block)} ticks of {len(ids)} objects"
@@ -138,14 +138,14 @@ def trace_level(
     )
 
 
-def ninja_columns(record: TraceRecord) -> dict[str, NDArray[Any]]:
-    """TRACED_PLACES (float64) and TRACED_NUMBERS (int32) by name, each (ticks,)."""
-    places = np.frombuffer(record.ninja, np.float64).reshape(-1, len(TRACED_PLACES))
-    numbers = np.frombuffer(record.numbers, np.int32).reshape(-1, len(TRACED_NUMBERS))
-    return dict(zip((*TRACED_PLACES, *TRACED_NUMBERS), (*places.T, *numbers.T), strict=True))
+def ninja_columns(record: TraceArrays) -> dict[str, NDArray[Any]]:
+    """TRACED_FLOATS (float64) and TRACED_INTS (int32) by name, each (ticks,)."""
+    places = np.frombuffer(record.ninja, np.float64).reshape(-1, len(TRACED_FLOATS))
+    numbers = np.frombuffer(record.numbers, np.int32).reshape(-1, len(TRACED_INTS))
+    return dict(zip((*TRACED_FLOATS, *TRACED_INTS), (*places.T, *numbers.T), strict=True))
 
 
-def _ninja_rows(record: TraceRecord) -> NDArray[np.void]:
+def _ninja_rows(record: TraceArrays) -> NDArray[np.void]:
     seen = ninja_columns(record)
     rows = np.empty(len(seen["x"]), NINJA_RECORD)
     for name in NINJA_RECORD.names or ():
@@ -153,9 +153,9 @@ def _ninja_rows(record: TraceRecord) -> NDArray[np.void]:
     return rows
 
 
-def object_rows(record: TraceRecord, count: int) -> NDArray[np.void]:
+def object_rows(record: TraceArrays, count: int) -> NDArray[np.void]:
     """The objects of each tick as OBJECT_RECORD."""
-    shape = len(record.numbers) // len(TRACED_NUMBERS), count
+    shape = len(record.numbers) // len(TRACED_INTS), count
     places = np.frombuffer(record.places, np.float64).reshape(*shape, 2)
     rows = np.empty(shape, OBJECT_RECORD)
     rows["x"], rows["y"] = places[..., 0], places[..., 1]
@@ -163,12 +163,12 @@ def object_rows(record: TraceRecord, count: int) -> NDArray[np.void]:
     return rows
 
 
-def switched_doors(record: TraceRecord, count: int) -> NDArray[np.uint8]:
+def switched_doors(record: TraceArrays, count: int) -> NDArray[np.uint8]:
     """Whether each object is a door that is not as it began: an automatic or locked one open, a trap closed."""
-    return np.frombuffer(record.switched, np.uint8).reshape(len(record.numbers) // len(TRACED_NUMBERS), count)
+    return np.frombuffer(record.switched, np.uint8).reshape(len(record.numbers) // len(TRACED_INTS), count)
 
 
-def event_names(record: TraceRecord) -> tuple[str, ...]:
+def event_names(record: TraceArrays) -> tuple[str, ...]:
     """The names of each tick's events, with blanks between."""
     ticks = np.frombuffer(record.events, np.uint8).reshape(-1, MAX_EVENTS)
     names = [""] * len(ticks)

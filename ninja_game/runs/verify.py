@@ -16,7 +16,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
-from ninja_game.levels.findings import RunProblem, in_run
+from ninja_game.levels.findings import RunProblem, run_problem
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, run_in_slices, run_to_completion
 from ninja_game.sim.inputs import with_press_bits
@@ -157,11 +157,11 @@ def verify_in_slices(
         problems = list(_broken_claims(claimed, run)) if claimed else []
         if memory == "both":
             difference = memory_difference(recording, run.ticks)
-            problems += [in_run("memories-differ", what=difference)] if difference else []
+            problems += [run_problem("memories-differ", what=difference)] if difference else []
     if not claimed and run.outcome != "exit":
-        problems.append(in_run("not-passed", ending=_ending(recording, run)))
+        problems.append(run_problem("not-passed", ending=_ending(recording, run)))
     if recording.episode and not run.in_time:
-        problems.append(in_run("out-of-time", lifetime=recording.lifetime, gold=run.gold))
+        problems.append(run_problem("out-of-time", lifetime=recording.lifetime, gold=run.gold))
     sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.replay.inputs))
     return replace(
         verdict, outcome=run.outcome, end_tick=run.end_tick, gold=run.gold,
@@ -181,14 +181,14 @@ def with_demands(
     """
     demanded = []
     if (only_these or strict) and verdict.level_digest not in levels:
-        demanded.append(in_run("other-level", digest=verdict.level_digest))
+        demanded.append(run_problem("other-level", digest=verdict.level_digest))
     elif (only_these or strict) and verdict.episode and verdict.episode not in episodes:
-        demanded.append(in_run("other-episode"))
+        demanded.append(run_problem("other-episode"))
     unknown = (None, NOT_RUN) if demanded else ()
     for field, expected in STRICT.items() if strict else ():
         found = getattr(verdict, field)
         if found != expected and found not in unknown:
-            demanded.append(in_run("not-strict", field=field, found=_as_json(found), expected=_as_json(expected)))
+            demanded.append(run_problem("not-strict", field=field, found=_as_json(found), expected=_as_json(expected)))
     name = levels.get(verdict.level_digest, "")
     return replace(verdict, level_name=name, problems=verdict.problems + tuple(demanded))
 
@@ -209,10 +209,10 @@ def _ending(recording: Recording, run: RunResult) -> str:
 def _broken_claims(replay: Replay, run: RunResult) -> Iterator[RunProblem]:
     """What a replay of ours says and is not so: the first waypoint that is missed, then what its last tick claims."""
     if replay.rules != RULES_VERSION:
-        yield in_run("other-rules", rules=replay.rules, now=RULES_VERSION)
+        yield run_problem("other-rules", rules=replay.rules, now=RULES_VERSION)
     yield from _missed_waypoint(replay, run)
     if run.ticks != replay.ticks:
-        yield in_run("other-end", tick=run.ticks - 1, outcome=run.outcome, claimed=replay.final_tick)
+        yield run_problem("other-end", tick=run.ticks - 1, outcome=run.outcome, claimed=replay.final_tick)
         return
     claims: dict[str, tuple[object, object]] = {
         "outcome": (run.outcome, replay.outcome),
@@ -222,7 +222,7 @@ def _broken_claims(replay: Replay, run: RunResult) -> Iterator[RunProblem]:
         claims["digest"] = (run.digest, replay.digest)
     for field, (found, claimed) in claims.items():
         if found != claimed:
-            yield in_run("wrong-claim", tick=replay.final_tick, field=field, found=found, claimed=claimed)
+            yield run_problem("wrong-claim", tick=replay.final_tick, field=field, found=found, claimed=claimed)
 
 
 def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[RunProblem]:
@@ -235,7 +235,7 @@ def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[RunProblem]:
         for field, found, claimed in zip(waypoint._fields, here, waypoint, strict=True):
             if found != claimed:
                 values = {"field": field, "found": found, "claimed": claimed, "agrees": passed}
-                yield in_run("missed-waypoint", tick=waypoint.tick, **values)
+                yield run_problem("missed-waypoint", tick=waypoint.tick, **values)
                 return
         passed = f"up to tick {waypoint.tick}"
 

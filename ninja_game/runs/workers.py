@@ -23,7 +23,7 @@ from multiprocessing import get_context, parent_process
 from typing import Any, TypeAlias, TypeVar
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.user_folder import how_to_install
+from ninja_game.files.user_folder import install_hint
 from ninja_game.signals import signals_deferred
 
 J = TypeVar("J")
@@ -153,7 +153,7 @@ class Cluster:
         try:
             from distributed import Client, KilledWorker
         except ImportError:
-            raise ClusterError(f"a cluster needs Dask distributed; {how_to_install('cluster')}") from None
+            raise ClusterError(f"a cluster needs Dask distributed; {install_hint('cluster')}") from None
         self.lost: tuple[type[BaseException], ...] = (KilledWorker,)
         # What it has to say comes as exceptions.
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)

@@ -58,7 +58,7 @@ OTHER_ENDS = 8
 """Ends of a leg that are kept where another switch than a wanted one was touched. Not tuned."""
 SURVIVAL = 60
 """Ticks that the ninja must be able to live after the end of a leg. Not tuned."""
-MORE, EXHAUSTED, NO_ROOM = 0, 1, 2  # how a slice of a search ended
+MORE, EXHAUSTED, OUT_OF_NODES = 0, 1, 2  # how a slice of a search ended
 
 
 @entry_point
@@ -97,7 +97,7 @@ def expand(
     """Expand nodes until ``budget`` ticks were run, a switch state wants its field, or enough ends of a leg are found.
 
     ``known``: the run along which to search; None: a search for the exit or of a leg, compiled without what runs along
-    one. Returns MORE, EXHAUSTED (nothing is left) or NO_ROOM (for nodes).
+    one. Returns MORE, EXHAUSTED (nothing is left) or OUT_OF_NODES (for nodes).
     """
     here = start.worlds[0]
     w = start.worlds[1]
@@ -106,7 +106,7 @@ def expand(
     while counters.ticks < stop and counters.fields_wanted == 0 and counters.ends - counters.other_ends < goal.ends:
         full = counters.nodes + 16 > len(arrays.nodes) or counters.links + 16 > len(arrays.links)
         if full or counters.entries * 4 > len(arrays.table) * 3:
-            return NO_ROOM
+            return OUT_OF_NODES
         index = pop_lowest(arrays)
         if index < 0:
             return EXHAUSTED
@@ -140,7 +140,7 @@ def expand(
                 elif w.tick < LIFETIME + GOLD_BONUS * w.gold:
                     keep_child(index, action, played, start, arrays, goal, backed_up, resolution)
             elif w.outcome == OUTCOME_EXIT and w.gold >= goal.gold:
-                keep_run(index, action, played, w.tick, arrays, known)
+                update_certificates(index, action, played, w.tick, arrays, known)
     return MORE
 
 
@@ -189,7 +189,9 @@ def macro_of(ninja: Ninja, choice: int, counters: Counters, resolution: Resoluti
 
 
 @fast
-def keep_run(parent: int, action: int, played: int, tick: int, arrays: SearchArrays, known: KnownRun | None) -> None:
+def update_certificates(
+    parent: int, action: int, played: int, tick: int, arrays: SearchArrays, known: KnownRun | None
+) -> None:
     """Note that a node leads to the exit; keep the run if it is the shortest."""
     counters = arrays.counters[0]
     if known is None:

@@ -21,7 +21,7 @@ from ninja_game.formats.replay.notations import Marker
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.run import record_replay, run_level
 from ninja_game.sim.digest import state_digest
-from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, pressed, with_press_bits
+from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
 
@@ -57,7 +57,7 @@ def with_plain_triggers(level: Level, inputs: bytes, *, body: Body = "circle", g
         raise UnverifiedRunError("the run triggers jumps without a fresh press, as no keyboard does") from None
 
 
-def named_run(run: Replay, command: str, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
+def named_replay(run: Replay, command: str, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
     """A run that a command found, under a name, which its level has too; one that was played stays its player's."""
     made, author = (run.made, run.author) if run.made.played else (run.made.searched(command), author)
     return replace(run, name=name, author=author, level_name=name, level_author=level_author, made=made)
@@ -66,7 +66,9 @@ def named_run(run: Replay, command: str, *, name: str = "", author: str = "", le
 AUTHOR = "ninja-game check"
 
 
-def kept_run(level: NamedLevel, path: Path, *, body: Body = "circle", gold: int = 0) -> tuple[Replay, bool] | None:
+def read_certificate(
+    level: NamedLevel, path: Path, *, body: Body = "circle", gold: int = 0
+) -> tuple[Replay, bool] | None:
     """A replay's run, if it still does on a level what is wanted, and whether it was made on just this level.
 
     None if the file is missing, or if its run does not pass this level any more. Raises NinjaGameError for a file that
@@ -83,7 +85,7 @@ def kept_run(level: NamedLevel, path: Path, *, body: Body = "circle", gold: int 
     return replace(run, author=kept.player, made=kept.replay.made), same
 
 
-def keep_run(level: NamedLevel, run: Replay) -> None:
+def update_certificates(level: NamedLevel, run: Replay) -> None:
     """Make a run of a level file the certificate beside it, for each goal that it serves better than the one there.
 
     Raises NinjaGameError for a certificate that cannot be read; OSError.
@@ -92,17 +94,17 @@ def keep_run(level: NamedLevel, run: Replay) -> None:
         if run.gold < gold:
             continue
         path = Path(level.file).parent / certificate_name(Path(level.file).name, kind)
-        kept, of_this_level = kept_run(level, path, gold=gold) or (None, False)
+        kept, of_this_level = read_certificate(level, path, gold=gold) or (None, False)
         if not (kept and of_this_level and kept.end_tick <= run.end_tick):
             write_certificate(level, path, run)
 
 
 def write_certificate(level: NamedLevel, path: Path, run: Replay) -> None:
-    replay = named_run(run, "check", name=level.name, author=AUTHOR, level_author=level.author)
+    replay = named_replay(run, "check", name=level.name, author=AUTHOR, level_author=level.author)
     Tree(path.parent).write(path.name, write_replay(replay))
 
 
-def better_run(run: Replay, recording: Recording, command: str) -> Replay:
+def improved_replay(run: Replay, recording: Recording, command: str) -> Replay:
     """A run that a command made of a recording: names and authors stay, and it says what was done and to whose run."""
     old = recording.replay
     return replace(
@@ -144,13 +146,13 @@ _CHOICES = (*range(8), *range(12, 16))
 
 
 def without_idle_keys(
-    level: Level, inputs: bytes, begun: bytes, *, body: Body = "circle", first: int = 0, last: int | None = None
+    level: Level, inputs: bytes, original: bytes, *, body: Body = "circle", first: int = 0, last: int | None = None
 ) -> bytes:
     """A run with the same state after each tick, by plainer keys in the ticks ``first`` … ``last`` - 1 (None: all).
 
-    Of keys that lead to just the same state each tick gets those of the run that it was made of, ``begun``, as long as
-    that goes the same way; then as few changes as possible. Runs over MOST_TICKS, and such with triggers that no
-    keyboard makes, stay as they are.
+    Of keys that lead to just the same state each tick gets those of ``original``, the run that this one was made of, as
+    long as that goes the same way; then as few changes as possible. Runs over MOST_TICKS, and such with triggers that
+    no keyboard makes, stay as they are.
     """
     import numpy as np  # which a page has not
 
@@ -168,17 +170,19 @@ def without_idle_keys(
         return state_digest(world)
 
     batch.run(np.repeat(np.frombuffer(inputs[:first], np.uint8)[:, np.newaxis], len(_CHOICES), 1), stop=True)
-    needed = np.array([[_CHOICES.index(pressed(keys, before & JUMP_HELD)) for keys in range(8)] for before in range(8)])
+    needed = np.array(
+        [[_CHOICES.index(with_press_bit(keys, before & JUMP_HELD)) for keys in range(8)] for before in range(8)]
+    )
     costs = np.full(8, np.inf)
     costs[inputs[first - 1] & KEYS_DOWN if first else 0] = 0
-    came_from, aligned = [], begun[:first] == inputs[:first]
+    came_from, aligned = [], original[:first] == inputs[:first]
     for tick in range(first, last):
         own = _CHOICES.index(inputs[tick])
         batch.run(np.array([_CHOICES], np.uint8), stop=True)
         same = (batch.positions == batch.positions[own]).all(1) & (batch.previous == batch.previous[own]).all(1)
         for index in np.flatnonzero(same).tolist():
             same[index] = index == own or state_of(index) == state_of(own)
-        wanted = begun[tick] if tick < len(begun) else -1
+        wanted = original[tick] if tick < len(original) else -1
         aligned = aligned and wanted in _CHOICES and bool(same[_CHOICES.index(wanted)])
         other = (np.arange(8) != (wanted & KEYS_DOWN)) * (100 if aligned else 1) * (wanted >= 0)
         steps = costs[:, np.newaxis] + 4 * (1 - np.eye(8)) + other + np.where(same[needed], 0, np.inf)
@@ -187,7 +191,7 @@ def without_idle_keys(
         state_of.cache_clear()
         batch.copy([own] * len(_CHOICES), range(len(_CHOICES)))
     if last < len(inputs):  # the tick behind must trigger as before
-        costs += [0 if pressed(inputs[last], keys & JUMP_HELD) == inputs[last] else np.inf for keys in range(8)]
+        costs += [0 if with_press_bit(inputs[last], keys & JUMP_HELD) == inputs[last] else np.inf for keys in range(8)]
     made = [int(costs.argmin())]
     for before in reversed(came_from):
         made.append(int(before[made[-1]]))
@@ -207,7 +211,7 @@ def playback(rows: list[Row]) -> bytes:
     return with_press_bits([keys for keys, ticks in rows for _ in range(ticks)])
 
 
-def smoothed(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0, price: int = 0) -> bytes:
+def smooth_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0, price: int = 0) -> bytes:
     """A run to the exit with fewer key changes, at most ``price`` ticks longer than ``inputs``.
 
     Short rows of keys are given to their neighbours, the shortest first, as long as the run still reaches the exit.

@@ -14,13 +14,13 @@ from typing import Any
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.replay.text import Replay
-from ninja_game.search.certificate import UnverifiedRunError, kept_run, write_certificate
+from ninja_game.search.certificate import UnverifiedRunError, read_certificate, write_certificate
 from ninja_game.search.solve import Progress, Task, solve
 
 
 @dataclass(frozen=True)
 class Certified:
-    """What is known of a goal of a level: the best run, None if there is none, and how it came about.
+    """The result for one goal of a level: the best run, None if there is none, and where it comes from.
 
     ``gold``: pieces that the run had to collect; ``how``: "kept" (it was there), "found", "shortened", or "not found";
     ``progress``: where the search stood at its end, None where there was none.
@@ -33,7 +33,7 @@ class Certified:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class CertifyOptions:
     """What is to be certified: the gold of each goal (-1: all), by its name.
 
     ``task``: what a ``Task`` is made with, for any level; ``improve``: also runs that are kept are shortened.
@@ -47,7 +47,7 @@ class Wanted:
 def certify_all(
     levels: Sequence[NamedLevel],
     files: Sequence[Mapping[str, Path]],
-    wanted: Wanted,
+    wanted: CertifyOptions,
     *,
     jobs: int,
     report: Callable[[str, Progress], None],
@@ -76,14 +76,18 @@ def certify_all(
 
 
 def _certify(
-    level: NamedLevel, where: Mapping[str, Path], wanted: Wanted, report: Callable[[Progress], None], stop: Event
+    level: NamedLevel,
+    where: Mapping[str, Path],
+    wanted: CertifyOptions,
+    report: Callable[[Progress], None],
+    stop: Event,
 ) -> dict[str, Certified]:
     """Certify a level: one goal after the other; a run that serves another goal better is its run too."""
     found: dict[str, Certified] = {}
     amounts = {name: level.level.gold if gold < 0 else gold for name, gold in wanted.goals.items()}
     for name, gold in amounts.items():
         task = Task(level.level, gold=gold, **wanted.task)
-        kept = kept_run(level, where[name], body=task.body, gold=task.gold) if where else None
+        kept = read_certificate(level, where[name], body=task.body, gold=task.gold) if where else None
         found[name] = _certify_goal(level, where.get(name), task, kept, found, report, stop, wanted.improve)
     for name, other in [(name, other) for name in found for other in found if name != other]:
         run, best = found[other].run, found[name].run

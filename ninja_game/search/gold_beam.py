@@ -15,8 +15,8 @@ import numpy as np
 
 from ninja_game.backend.memories import compiled
 from ninja_game.search.legs import (
-    MORE_THAN_ANY,
     ROLLOUTS,
+    UNBOUNDED,
     Checkpoint,
     Frontier,
     Leg,
@@ -28,7 +28,7 @@ from ninja_game.search.legs import (
 )
 from ninja_game.search.nodes import Resolution, Start
 from ninja_game.search.searching import Search
-from ninja_game.sim.inputs import KEYS_DOWN, pressed
+from ninja_game.sim.inputs import KEYS_DOWN, with_press_bit
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.world import step
 
@@ -63,7 +63,7 @@ HOPE = 1.1
 @entry_point
 def play_on(start: Start, keys: int) -> None:
     w = start.worlds[1]
-    step(start.levels[0], w, pressed(keys & KEYS_DOWN, w.ninja.jump_held))
+    step(start.levels[0], w, with_press_bit(keys & KEYS_DOWN, w.ninja.jump_held))
 
 
 class GoldBeam:
@@ -80,7 +80,7 @@ class GoldBeam:
         self.passes = 0
         self.legs = 0
         self.depths: dict[int, dict[tuple[int, int], Frontier]] = {}
-        self.ticks = MORE_THAN_ANY
+        self.ticks = UNBOUNDED
         self.wanted = 0
         self._fields = LegFields(self.heuristics)
         self.piece_ticks = PieceTicks(self._fields)
@@ -150,7 +150,7 @@ class GoldBeam:
             leg = Leg(roots, 0, frontier.mask, frontier.count, 1, 0, self.heuristics.field)
         else:
             field = partial(self._fields.to_piece, target)
-            leg = Leg(roots, frontier.count + 1, frontier.mask, MORE_THAN_ANY, BEAM_ENDS, ROLLOUTS, field)
+            leg = Leg(roots, frontier.count + 1, frontier.mask, UNBOUNDED, BEAM_ENDS, ROLLOUTS, field)
         self.search.begin_leg(leg, resolution, seed=self.seed * 100_000 + self.legs, bound=self.ticks)
         budget = BEAM_TICKS * (EXIT_FACTOR if target < 0 else effort)
         self.search.run_leg(budget, spend, part=BEAM_EXTRA)

@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.layout import Records
 from ninja_game.backend.memories import compiled_if_possible
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, fast
-from ninja_game.sim.memory.layout import Records
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import AUTOMATIC, LOCKED
@@ -43,7 +43,7 @@ MOVE_X = [1, 1, 0, -1, -1, -1, 0, 1]
 MOVE_Y = [0, 1, 1, 1, 0, -1, -1, -1]
 MOVE_TICKS = [1.45, 1.85, 1.2, 1.85, 1.45, 2.3, 1.9, 2.3]
 
-Field = NDArray[np.float32]
+DistanceField = NDArray[np.float32]
 Costs = NDArray[np.float32]
 Blocks = NDArray[np.uint8]
 
@@ -66,13 +66,13 @@ def free_points(levels: Any, costs: Costs) -> None:
 
 
 @entry_point
-def spread(costs: Costs, blocked: Blocks, field: Field, queue: NDArray[np.int32], waiting: Blocks) -> None:
+def spread(costs: Costs, blocked: Blocks, field: DistanceField, queue: NDArray[np.int32], waiting: Blocks) -> None:
     """Lower ``field`` (ticks, UNREACHED where unknown) to the shortest way to the points that are set already.
 
     ``costs``: factor of a step onto a point, 0: impassable. ``blocked``: bit k of a point forbids its move k.
     ``queue``: room for POINTS + 1 indices.
     """
-    room = POINTS + 1
+    capacity = POINTS + 1
     head = 0
     tail = 0
     for point in range(POINTS):
@@ -83,7 +83,7 @@ def spread(costs: Costs, blocked: Blocks, field: Field, queue: NDArray[np.int32]
             waiting[point] = 1
     while head != tail:
         point = queue[head]
-        head = (head + 1) % room
+        head = (head + 1) % capacity
         waiting[point] = 0
         column = point % ACROSS
         row = point // ACROSS
@@ -102,7 +102,7 @@ def spread(costs: Costs, blocked: Blocks, field: Field, queue: NDArray[np.int32]
                 if not waiting[start]:
                     waiting[start] = 1
                     queue[tail] = start
-                    tail = (tail + 1) % room
+                    tail = (tail + 1) % capacity
 
 
 @fast
@@ -123,7 +123,7 @@ def points_at(places: NDArray[np.float64]) -> NDArray[np.int64]:
     return points
 
 
-def widened(field: Field, steps: int = 3) -> Field:
+def widened(field: DistanceField, steps: int = 3) -> DistanceField:
     """The field with values also for impassable points beside passable ones (the ninja may rest between points)."""
     grid = field.reshape(DOWN, ACROSS).copy()
     for _ in range(steps):
@@ -156,7 +156,7 @@ FARTHEST = 20_000.0
 SWITCH_COST = 3.0
 """How many times longer a step beside a switch counts that is better touched later."""
 
-Source = tuple[float, float, float]
+FieldSource = tuple[float, float, float]
 """Where a field begins (px), and its value there (ticks)."""
 
 
@@ -201,7 +201,7 @@ class Heuristics:
             elif kind == kinds.GOLD:
                 gold.append((slot, x, y))
             elif kind == kinds.MINE:
-                self._avoid(x, y)
+                self.costs[points_about(x, y, 15.0)] *= np.float32(MINE_COST)
             elif kind == kinds.ONE_WAY:
                 self._bar_one_way(x, y, float(record["face_x"]), float(record["face_y"]))
         self.exits = exits
@@ -226,7 +226,7 @@ class Heuristics:
         """What the moving enemies of a world do."""
         return bytes(world["objects"]["routine"][self.enemies].astype(np.uint8))
 
-    def tour_fields(self, switch_state: int) -> Field:
+    def tour_fields(self, switch_state: int) -> DistanceField:
         """Ticks to each piece of gold and, last, to the exit by way of its switch (pieces + 1 x points).
 
         Closed locked doors count as passable but dear.
@@ -237,13 +237,13 @@ class Heuristics:
         fields.append(self._field(dear, self._exit_sources(switch_state, dear)))
         return np.array([widened(field) for field in fields], np.float32)
 
-    def field_to(self, place: tuple[float, float], switch_state: int, x: float, y: float) -> Field:
+    def field_to(self, place: tuple[float, float], switch_state: int, x: float, y: float) -> DistanceField:
         """Ticks from every point to what a ninja at (x, y) should do next to get to a place, and on to it."""
         costs = self._careful(self._closed(switch_state, 0.0), switch_state)
         dear = self._careful(self._closed(switch_state, DOOR_COST), switch_state)
         return self._toward([(*place, 0.0)], costs, dear, switch_state, point_at(x, y))
 
-    def field(self, switch_state: int, x: float, y: float) -> Field:
+    def field(self, switch_state: int, x: float, y: float) -> DistanceField:
         """Ticks from every point to what a ninja at (x, y) should do next in this switch state, and on to the exit."""
         costs = self._closed(switch_state, 0.0)
         dear = self._closed(switch_state, DOOR_COST)
@@ -255,7 +255,7 @@ class Heuristics:
         field = widened(self._field(self._closed(switch_state, 0.0), places))
         return bool(field[point_at(x, y)] < UNREACHED)
 
-    def _exit_sources(self, switch_state: int, dear: Costs) -> list[Source]:
+    def _exit_sources(self, switch_state: int, dear: Costs) -> list[FieldSource]:
         """The open exits, and the switches of the others, worth what lies behind them."""
         sources = []
         for bit, exit_ in enumerate(self.exits):
@@ -267,7 +267,9 @@ class Heuristics:
                 sources.append((exit_.switch_x, exit_.switch_y, rest + 30.0))
         return sources
 
-    def _toward(self, sources: list[Source], costs: Costs, dear: Costs, switch_state: int, here: int) -> Field:
+    def _toward(
+        self, sources: list[FieldSource], costs: Costs, dear: Costs, switch_state: int, here: int
+    ) -> DistanceField:
         """The field of some places, by way of the switches of locked doors that are in the way from a point."""
         visited: set[int] = set()
         while True:
@@ -283,7 +285,7 @@ class Heuristics:
             rest = min(float(imagined[point_at(door.switch_x, door.switch_y)]), 5000.0)
             sources = [(door.switch_x, door.switch_y, rest)]
 
-    def _field(self, costs: Costs, sources: list[Source]) -> Field:
+    def _field(self, costs: Costs, sources: list[FieldSource]) -> DistanceField:
         field = np.full(POINTS, UNREACHED, np.float32)
         for x, y, value in sources:
             # The ninja touches an object from up to 16 px away: any free point about it will do.
@@ -313,7 +315,7 @@ class Heuristics:
                 costs[points_about(switch.switch_x, switch.switch_y, 18.0)] *= np.float32(SWITCH_COST)
         return costs
 
-    def _first_door(self, field: Field, here: int, switch_state: int) -> Switchable | None:
+    def _first_door(self, field: DistanceField, here: int, switch_state: int) -> Switchable | None:
         """The first closed locked door on the way down a field."""
         closed = {
             point: switch
@@ -330,10 +332,6 @@ class Heuristics:
                 return None
             here = there
         return None
-
-    def _avoid(self, x: float, y: float) -> None:
-        for point in points_about(x, y, 15.0):
-            self.costs[point] *= np.float32(MINE_COST)
 
     def _bar_one_way(self, x: float, y: float, face_x: float, face_y: float) -> None:
         """Forbid the moves through a one-way platform's face; the ninja's centre meets it 22 px from its middle."""

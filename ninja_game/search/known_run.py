@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ninja_game.search.heuristics import UNREACHED, open_mask
 from ninja_game.search.nodes import Start, copy_words
-from ninja_game.sim.inputs import KEYS_DOWN, pressed
+from ninja_game.sim.inputs import KEYS_DOWN, with_press_bit
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_RUNNING
@@ -67,7 +67,7 @@ def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], unt
     if noted:
         note(run, w, switch_slots)
     for tick in range(until):
-        step(start.levels[0], w, pressed(run.keys[tick], w.ninja.jump_held))
+        step(start.levels[0], w, with_press_bit(run.keys[tick], w.ninja.jump_held))
         if noted:
             note(run, w, switch_slots)
         if w.outcome != OUTCOME_RUNNING:

@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.search.heuristics import FARTHEST, Field, Heuristics, point_at
+from ninja_game.search.heuristics import FARTHEST, DistanceField, Heuristics, point_at
 from ninja_game.search.nodes import StateWords
 
-MORE_THAN_ANY = 1 << 30
+UNBOUNDED = 1 << 30
 """More gold than there is: what a leg wants at the exit that is to end elsewhere. And more ticks than a run has."""
 ROLLOUTS = 16
 """Random runs that try whether the end of a leg can be survived. Not tuned."""
@@ -23,7 +23,7 @@ MASKS_KEPT = 16  # sets of fields to all pieces, likewise
 Spend = Callable[[int], bool]
 """Counts the ticks that a search has just simulated; true: it is over."""
 
-FieldOf = Callable[[int, float, float], Field]
+FieldOf = Callable[[int, float, float], DistanceField]
 """The field of a switch state, for a ninja at (x, y)."""
 
 
@@ -103,10 +103,10 @@ class LegFields:
     def __init__(self, heuristics: Heuristics) -> None:
         self.heuristics = heuristics
         self.points = np.array([point_at(x, y) for x, y in heuristics.gold_places], np.int64)
-        self._tours: dict[int, Field] = {}
-        self._pieces: dict[tuple[int, int], Field] = {}
+        self._tours: dict[int, DistanceField] = {}
+        self._pieces: dict[tuple[int, int], DistanceField] = {}
 
-    def tours(self, mask: int) -> Field:
+    def tours(self, mask: int) -> DistanceField:
         """The fields of all pieces and of the exit in a switch state (``Heuristics.tour_fields``)."""
         if mask not in self._tours:
             if len(self._tours) >= MASKS_KEPT:
@@ -114,7 +114,7 @@ class LegFields:
             self._tours[mask] = self.heuristics.tour_fields(mask)
         return self._tours[mask]
 
-    def to_piece(self, piece: int, mask: int, x: float, y: float) -> Field:
+    def to_piece(self, piece: int, mask: int, x: float, y: float) -> DistanceField:
         """The field of a piece in a switch state."""
         if (piece, mask) not in self._pieces:
             if len(self._pieces) >= FIELDS_KEPT:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ninja_game.backend.memories import compiled
 from ninja_game.search.macros import Keys
 from ninja_game.search.nodes import RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
-from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, pressed, with_press_bits
+from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
 from ninja_game.sim.memory.schema import TileMap, World
@@ -125,7 +125,7 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
 
 
 CHECKPOINT = 8  # ticks between the save-states of the current run
-ROOM = 64
+SPARE_TICKS = 64
 """Ticks by which a current run may be longer than the run that the local search began with."""
 LEASH = 90.0
 """Px; a trial run that is farther from the current run's path is given up."""
@@ -178,7 +178,7 @@ def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
     for k in range(first * CHECKPOINT, limit):
         if k % CHECKPOINT == 0:
             copy_words(runs.checkpoints[k // CHECKPOINT], start.scratch)
-        step(start.levels[0], w, pressed(runs.current[k], w.ninja.jump_held))
+        step(start.levels[0], w, with_press_bit(runs.current[k], w.ninja.jump_held))
         runs.path[k, 0] = w.ninja.x
         runs.path[k, 1] = w.ninja.y
         if w.outcome != OUTCOME_RUNNING:
@@ -192,7 +192,7 @@ def try_run(level: TileMap, w: World, runs: Runs, first: int, shift: int, limit:
     path = runs.path
     ticks = runs.counters[0].ticks
     for k in range(first, limit):
-        step(level, w, pressed(runs.trial[k], w.ninja.jump_held))
+        step(level, w, with_press_bit(runs.trial[k], w.ninja.jump_held))
         if w.outcome != OUTCOME_RUNNING:
             return k + 1 - first
         if k % 8 == 7:
@@ -205,19 +205,19 @@ def try_run(level: TileMap, w: World, runs: Runs, first: int, shift: int, limit:
 
 
 @fast
-def make_trial(runs: Runs, room: int) -> tuple[int, int]:
+def make_trial(runs: Runs, capacity: int) -> tuple[int, int]:
     """Make the trial run of the current one by mutations near each other: the first changed tick, ticks of delay."""
     current = runs.current
     trial = runs.trial
     counters = runs.counters[0]
     ticks = counters.ticks
-    for k in range(room):
+    for k in range(capacity):
         trial[k] = current[k]
     first = random_below(counters, ticks)
-    tick, shift = mutate(trial, room, first, counters)
+    tick, shift = mutate(trial, capacity, first, counters)
     while random_below(counters, 2):
         near = max(0, min(first + random_below(counters, 80) - 40, ticks - 1))
-        again, more = mutate(trial, room, near, counters)
+        again, more = mutate(trial, capacity, near, counters)
         tick = min(tick, again)
         shift += more
     while tick < ticks and trial[tick] == current[tick]:
@@ -234,8 +234,8 @@ def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget
     while counters.played < stop:
         counters.trials += 1
         ticks = counters.ticks
-        room = min(ticks + 4, len(runs.trial))
-        tick, shift = make_trial(runs, room)
+        capacity = min(ticks + 4, len(runs.trial))
+        tick, shift = make_trial(runs, capacity)
         if tick >= ticks:
             counters.played += 2
             continue
@@ -243,21 +243,21 @@ def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget
         allowed = counters.score + temperature * luck * luck * luck * luck
         checkpoint = tick // CHECKPOINT
         copy_words(start.scratch, runs.checkpoints[checkpoint])
-        limit = min(int(allowed) + 1, room)
+        limit = min(int(allowed) + 1, capacity)
         counters.played += try_run(start.levels[0], w, runs, checkpoint * CHECKPOINT, shift, limit) + 4
         if w.outcome != OUTCOME_EXIT or w.gold < gold:
             continue
         score = score_of(w)
         if score > allowed:
             continue
-        for k in range(room):
+        for k in range(capacity):
             runs.current[k] = runs.trial[k]
         counters.score = score
         counters.ticks = w.tick
         if score < counters.best_score:
             counters.best_score = score
             counters.best_ticks = w.tick
-            for k in range(room):
+            for k in range(capacity):
                 runs.best[k] = runs.trial[k]
         retrace(start, runs, tick, w.tick)
 
@@ -271,10 +271,10 @@ class LocalSearch:
     def __init__(self, start: Start, inputs: bytes, *, gold: int, seed: int) -> None:
         self.start = start
         self.gold = gold
-        room = len(inputs) + ROOM
-        best, current, trial = np.zeros((3, room), np.uint8)
-        checkpoints = np.zeros((room // CHECKPOINT + 1, len(start.initial)), np.int64)
-        self.runs = Runs(best, current, trial, np.zeros((room, 2)), checkpoints, zeroed(LocalCounters, 1))
+        capacity = len(inputs) + SPARE_TICKS
+        best, current, trial = np.zeros((3, capacity), np.uint8)
+        checkpoints = np.zeros((capacity // CHECKPOINT + 1, len(start.initial)), np.int64)
+        self.runs = Runs(best, current, trial, np.zeros((capacity, 2)), checkpoints, zeroed(LocalCounters, 1))
         self.counters = self.runs.counters[0]
         self.counters.random = int(np.random.default_rng([seed, 7]).integers(1, 1 << 62))
         self.counters.best_ticks = len(inputs)

@@ -12,7 +12,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bit
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.world import step
@@ -36,9 +36,9 @@ def macro_keys(direction: int, mode: int, held: int, k: int) -> int:
     elif direction > 0:
         keys = KEY_RIGHT
     if mode == PRESSED:
-        return pressed(keys + JUMP_HELD, held or k)
+        return with_press_bit(keys + JUMP_HELD, held or k)
     if mode == PRESSED_AGAIN and k > 0:
-        return pressed(keys + JUMP_HELD, k - 1)
+        return with_press_bit(keys + JUMP_HELD, k - 1)
     return keys
 
 
@@ -80,7 +80,7 @@ def follow(level: TileMap, w: World, keys: Keys, row: int, limit: int) -> int:
     for k in range(limit):
         if row + k >= len(keys):
             return k
-        step(level, w, pressed(keys[row + k], w.ninja.jump_held))
+        step(level, w, with_press_bit(keys[row + k], w.ninja.jump_held))
         if w.outcome:
             return k + 1
     return limit

@@ -14,12 +14,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.compiled import load_worlds
+from ninja_game.backend.layout import STATE_START, Records, dtype_of, new_worlds, used_bytes
 from ninja_game.backend.memories import compiled
 from ninja_game.search.heuristics import UNREACHED
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.compiled import load_worlds
 from ninja_game.sim.memory.declare import entry_point, f4, fast, i4, i8, struct, struct_base
-from ninja_game.sim.memory.layout import STATE_START, Records, dtype_of, new_worlds, used_bytes
 
 StateWords = NDArray[np.int64]
 Int32s = NDArray[np.int32]
@@ -88,7 +88,7 @@ class Link:
 
 @struct
 class Counters(RandomState):
-    """What a search counts, and what its kernels and their caller tell each other."""
+    """The counters of a search, shared by its kernels and their caller."""
 
     nodes: i8  #: made so far
     entries: i8  #: of the table, in use
@@ -210,7 +210,7 @@ def new_arrays(nodes: int) -> SearchArrays:
 
 
 def clear(arrays: Any) -> None:
-    """Forget all nodes, entries, links and save-states. The table is that of the nodes, or an empty one."""
+    """Reset the arrays for a new search. ``arrays.table`` is either the one that these nodes are in, or empty."""
     arrays.table[arrays.nodes["entry"][: int(arrays.counters[0].nodes)]] = 0
     arrays.chunk_next[:] = np.arange(1, len(arrays.chunk_next) + 1, dtype=np.int32)
     arrays.chunk_next[-1] = -1

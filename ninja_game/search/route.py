@@ -15,8 +15,8 @@ import numpy as np
 
 from ninja_game.search.heuristics import FARTHEST, UNREACHED, Heuristics, point_at
 from ninja_game.search.legs import (
-    MORE_THAN_ANY,
     ROLLOUTS,
+    UNBOUNDED,
     Checkpoint,
     FieldOf,
     Frontier,
@@ -101,7 +101,7 @@ class Route:
         self._stalled_ticks += self.search.ticks
         frontier.spent += self.search.ticks
         self._stalled_steps += 1
-        if leg.gold < MORE_THAN_ANY:
+        if leg.gold < UNBOUNDED:
             return self.search.best()
         ends = self.search.ends()
         if target >= 0 and not any(end.taken >> target & 1 for end in ends):
@@ -159,11 +159,11 @@ class Route:
         rollouts = ROLLOUTS if frontier.tries <= CAREFUL_TRIES else 0
         if target >= 0:
             field = partial(self._fields.to_piece, target)
-            return Leg(roots, frontier.count + 1, frontier.mask, MORE_THAN_ANY, ROUTE_ENDS, rollouts, field)
+            return Leg(roots, frontier.count + 1, frontier.mask, UNBOUNDED, ROUTE_ENDS, rollouts, field)
         if self._may_leave(frontier):
             return Leg(roots, 0, frontier.mask, self.gold, 1, 0, self.heuristics.field)
         way = self._way_to_a_switch(frontier)
-        return Leg(roots, MORE_THAN_ANY, frontier.mask, MORE_THAN_ANY, ROUTE_ENDS, rollouts, *way)
+        return Leg(roots, UNBOUNDED, frontier.mask, UNBOUNDED, ROUTE_ENDS, rollouts, *way)
 
     def _way_to_a_switch(self, frontier: Frontier) -> tuple[FieldOf, int]:
         """The fields of the first door in the way; at later tries, in turn, those of the other doors' switches.

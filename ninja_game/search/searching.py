@@ -113,7 +113,7 @@ class Search:
         return BackedUpHeuristic(table, self.resolution)
 
     def run(self, budget: int) -> int:
-        """Search on for about ``budget`` ticks; MORE, EXHAUSTED or NO_ROOM."""
+        """Search on for about ``budget`` ticks; MORE, EXHAUSTED or OUT_OF_NODES."""
         end = self.ticks + min(budget, ticks_at_once(self.start))
         while self.ticks < end:
             ended = compiled(expand)(

@@ -158,7 +158,7 @@ class _Job:
         while not found and not spend(0):
             found = route.step(spend)
         never = [self.heuristics.gold_ids[piece] for piece in route.never_taken()] if route.gold else None
-        self.state.note_left(route.search.untouched, route.most, never)
+        self.state.note_unreached(route.search.untouched, route.most, never)
         if found:
             self.state.submit(found)
 
@@ -195,7 +195,7 @@ class _Job:
             if until_found and (self.state.runs or search.best()):
                 break
         if not self.state.runs:
-            self.state.note_left(search.untouched)
+            self.state.note_unreached(search.untouched)
         best = search.best()
         if not best:
             return None

@@ -1,4 +1,4 @@
-"""What to solve, in which order a solver looks, and what its jobs share.
+"""What to solve, the order of a solver's searches, and the progress that its jobs share.
 
 Coarse and greedy searches come first, then finer, patient and varied ones, then local searches. Amounts of work are in
 ticks of a local search; a tick of a search counts more, for its save-states and tables.
@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from threading import Event, Lock
 
 from ninja_game.formats.replay.text import Replay
-from ninja_game.levels.findings import Finding, found
+from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.levels.warnings import object_name
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.nodes import Resolution
@@ -73,13 +73,13 @@ class Task:
 
 def obstacle(level: Level, gold: int, progress: Progress) -> Finding:
     """What kept a search from a run to the exit with so much gold, and where that is."""
-    numbers = [number for number, record in enumerate(level.objects) if makes_object(record)]
+    numbers = [number for number, spec in enumerate(level.objects) if makes_object(spec)]
 
     def at(code: str, ids: Iterable[int]) -> Finding:
         names = [object_name(level.objects[numbers[id_]], id_) for id_ in ids]
         never = f"never {', '.join(names)}" if names else "each piece now and then"
         records = tuple(numbers[id_] for id_ in ids) or tuple(n for n in numbers if level.objects[n].kind == GOLD)
-        finding = found(code, records, most=progress.gold, never=never)
+        finding = level_finding(code, records, most=progress.gold, never=never)
         return finding if code == "gold-left" else finding._replace(names=", ".join(names))
 
     if gold > progress.gold and progress.untaken is not None:
@@ -119,8 +119,8 @@ class SharedProgress:
             if inputs not in self.runs:
                 self.runs = sorted([*self.runs, inputs], key=lambda run: (len(run), run))[:CANDIDATES]
 
-    def note_left(self, untouched: list[int], most: int = 0, untaken: list[int] | None = None) -> None:
-        """Note what a search never came to: switches, gold; the most pieces at once."""
+    def note_unreached(self, untouched: list[int], most: int = 0, untaken: list[int] | None = None) -> None:
+        """Note which switches and gold (ids) a search never reached, and the most pieces that it had at once."""
         with self.lock:
             progress = self.progress
             progress.gold = max(progress.gold, most)

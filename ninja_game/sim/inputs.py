@@ -31,7 +31,7 @@ _HELD = bytes(JUMP_PRESSED if keys & JUMP_HELD else 0 for keys in range(256))
 
 
 @fast
-def pressed(keys: int, held: int) -> int:
+def with_press_bit(keys: int, held: int) -> int:
     """The keys of a tick with JUMP_PRESSED where the jump key goes down: it is down and was not (``held``) before."""
     down = keys & KEYS_DOWN
     return down + JUMP_PRESSED if down & JUMP_HELD and not held else down
@@ -50,7 +50,7 @@ MAX_TICKS = 1_000_000
 """Longest run, almost seven hours: a slip in a number must not fill the memory."""
 
 
-def fitted_inputs(inputs: bytes, ticks: int) -> bytes:
+def fit_inputs(inputs: bytes, ticks: int) -> bytes:
     """The inputs of the first ``ticks`` ticks; beyond them no key is down. Raises DemoError for more than a million."""
     if not 0 <= ticks <= MAX_TICKS:
         raise DemoError("a run of too many ticks", found=str(ticks)[:20], expected=f"0 to {MAX_TICKS}")
@@ -91,14 +91,14 @@ class Demo:
         Input k while k < length; then the last one once more, its press of jump too; then no key.
         """
         end = self.end
-        played = fitted_inputs(self.inputs, end)
-        return fitted_inputs(played + played[-1:], ticks)
+        played = fit_inputs(self.inputs, end)
+        return fit_inputs(played + played[-1:], ticks)
 
 
-def fitted_demo(inputs: bytes, length: float) -> Demo:
+def fit_demo(inputs: bytes, length: float) -> Demo:
     """The demo with as many inputs as it plays: superfluous ones dropped, missing ones added (no key)."""
     demo = Demo(inputs, length)
-    return Demo(fitted_inputs(inputs, demo.end), length, max(0, demo.end - len(inputs)))
+    return Demo(fit_inputs(inputs, demo.end), length, max(0, demo.end - len(inputs)))
 
 
 def check_inputs(inputs: bytes) -> None:

@@ -92,6 +92,6 @@ VALUE_COUNTS = tuple(kind.value_count for kind in KINDS if kind.number >= 0)
 """By number, of the kinds of the level string."""
 
 ENEMIES = tuple(kind.number for kind in KINDS if kind.killer and kind.moves)
-"""What looks for the ninja or goes its way, and kills."""
+"""Kinds that move or shoot, and kill."""
 MOVING_ENEMIES = tuple(kind.number for kind in KINDS if kind.by_touch and kind.moves)
 """Those of them that kill where they are, not by shots alone; of a launcher that is where its rocket is."""

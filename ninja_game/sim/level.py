@@ -26,14 +26,14 @@ class ObjectSpec(NamedTuple):
     text: str = ""
 
 
-def makes_object(record: ObjectSpec) -> bool:
+def makes_object(spec: ObjectSpec) -> bool:
     """Whether a record is of a kind that there is; all others create nothing and get no id (objects.md §2.1)."""
-    return 0 <= record.kind < len(VALUE_COUNTS)
+    return 0 <= spec.kind < len(VALUE_COUNTS)
 
 
-def well_formed(record: ObjectSpec) -> bool:
+def well_formed(spec: ObjectSpec) -> bool:
     """Whether a record makes an object and has the number of values that its kind needs."""
-    return makes_object(record) and len(record.values) == VALUE_COUNTS[record.kind]
+    return makes_object(spec) and len(spec.values) == VALUE_COUNTS[spec.kind]
 
 
 @dataclass(frozen=True)
@@ -50,10 +50,10 @@ class Level:
 
     def __post_init__(self) -> None:
         """Give every NaN one identity, by which tuples compare it: a level equals its copy from another process."""
-        if any(value != value for record in self.objects for value in record.values):
+        if any(value != value for spec in self.objects for value in spec.values):
             objects = [
-                record._replace(values=tuple(NOT_A_NUMBER if value != value else value for value in record.values))
-                for record in self.objects
+                spec._replace(values=tuple(NOT_A_NUMBER if value != value else value for value in spec.values))
+                for spec in self.objects
             ]
             object.__setattr__(self, "objects", tuple(objects))
 
@@ -64,7 +64,7 @@ class Level:
     @property
     def gold(self) -> int:
         """How many pieces of gold there are."""
-        return [record.kind for record in self.objects].count(GOLD)
+        return [spec.kind for spec in self.objects].count(GOLD)
 
     def tile(self, column: int, row: int) -> int:
         """Tile id at interior cell ``column`` 1…31, ``row`` 1…23 (indices of the full 33 x 25 grid)."""

@@ -28,7 +28,7 @@ def grid_tiles(data: Level) -> list[int]:
     return tiles
 
 
-class RecordTable(NamedTuple):
+class ObjectTable(NamedTuple):
     """A level's records as ``populate`` takes them, and how many slots its world needs (slot 0, nobody, among them)."""
 
     kinds: list[int]
@@ -37,27 +37,27 @@ class RecordTable(NamedTuple):
     slots: int
 
 
-def record_table(data: Level) -> RecordTable:
+def object_table(data: Level) -> ObjectTable:
     """The records that make an object: the door through which every level comes, whatever its origin.
 
     What comes through it no rule can stumble over. A record of an unknown kind creates nothing (objects.md
     §2.1). Raises LevelError for a level that is none, without a ninja or with too many objects.
     """
     _check(data)
-    records = list(filter(makes_object, data.objects))
-    kinds = [int(record.kind) for record in records]
+    specs = list(filter(makes_object, data.objects))
+    kinds = [int(spec.kind) for spec in specs]
     if NINJA not in kinds:
         raise LevelError("this level cannot be played: it has no ninja", hint="add one, a record of type 5")
-    counts = [len(record.values) for record in records]
-    values = [[*map(float, record.values[:9]), *[0.0] * (9 - len(record.values))] for record in records]
-    slots = len(records) + 1 + kinds.count(EXIT)
+    counts = [len(spec.values) for spec in specs]
+    values = [[*map(float, spec.values[:9]), *[0.0] * (9 - len(spec.values))] for spec in specs]
+    slots = len(specs) + 1 + kinds.count(EXIT)
     if slots > CAPACITY:
         raise LevelError(
             "this level has too many objects",
             found=f"{slots - 1} (an exit counts twice)",
             expected=f"at most {CAPACITY - 1}",
         )
-    return RecordTable(kinds, counts, values, slots)
+    return ObjectTable(kinds, counts, values, slots)
 
 
 def _check(data: object) -> None:
@@ -67,15 +67,15 @@ def _check(data: object) -> None:
         raise LevelError("this is not a level", found=repr(data)[:40], expected="a Level", hint=hint)
     if len(data.tiles) != TILES or not all(issubclass(kind, int) for kind in set(map(type, data.tiles))):
         raise LevelError("not the tiles of a level", expected=f"{TILES} whole numbers")
-    for number, record in enumerate(data.objects):
+    for number, spec in enumerate(data.objects):
         try:
-            good = isinstance(record.kind, int) and all(isinstance(float(value), float) for value in record.values)
+            good = isinstance(spec.kind, int) and all(isinstance(float(value), float) for value in spec.values)
         except (TypeError, ValueError, OverflowError, AttributeError):
             good = False
         if not good:
             expected = "a whole number as its kind, and float64 numbers"
             raise LevelError(
-                f"object {number} of the level is not an ObjectSpec", found=repr(record)[:60], expected=expected
+                f"object {number} of the level is not an ObjectSpec", found=repr(spec)[:60], expected=expected
             )
 
 

@@ -8,7 +8,7 @@ from typing import Any, Self
 
 from ninja_game.files.shown_text import file_stem
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.made import names_of_text
+from ninja_game.formats.replay.provenance import names_of_text
 
 
 def _player_of(recording: Recording) -> str:

@@ -18,7 +18,7 @@ from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.links import is_link
 from ninja_game.formats.load import load_levels, load_replays, texts_of
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.named_level import NamedLevel, form_of
+from ninja_game.formats.named_level import NamedLevel, format_of
 from ninja_game.formats.recording import Recording, holds_recordings, parse_replays
 from ninja_game.formats.replay.input_text import Inputs, read_inputs
 from ninja_game.formats.replay.notations import in_our_notation, is_tas_text
@@ -89,7 +89,7 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
 
 def _begun_on(path: Path, text: str, record: int | None, level: Level | None) -> OpenedRun:
     """A run on a level of a file without recordings, or with the inputs of its ``text`` on ``level``."""
-    if level is not None and form_of(text) == "string":
+    if level is not None and format_of(text) == "string":
         text = text.strip().removeprefix("inputs:")
         read = inputs_of_text(text, str(path)) if text.strip() else Inputs(b"")
         return new_run(NamedLevel(path.stem, "", "", level, str(path)), InputTrack(read.keys, read.markers))

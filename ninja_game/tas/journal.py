@@ -20,7 +20,7 @@ from ninja_game.errors import DAMAGED, FileError
 from ninja_game.files.reading import open_regular
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import parse_replays
-from ninja_game.sim.loader import record_table
+from ninja_game.sim.loader import object_table
 from ninja_game.tas.contributions import NONE, Contributions
 from ninja_game.tas.files import OpenedRun, RunFile, run_file_of
 from ninja_game.tas.tracks import (
@@ -131,7 +131,7 @@ def read_journal(file: Path) -> RecoveredRun:
         said = json.loads(lines.readline())
         (recording,) = parse_replays(said["replay"])
         recording = replace(recording, file=str(said.get("source", "")))
-        record_table(recording.level)
+        object_table(recording.level)
         path, digest, branches_digest = (str(said[key]) for key in ("path", "digest", "branches_digest"))
         run_file = run_file_of(Path(path), digest, branches_digest) if path else RunFile()
         tracks = [track_of_json(said["track"])]

@@ -9,17 +9,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import go_on, open_worlds
+from ninja_game.backend.memories import open_worlds, switch_to_compiled
+from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS, MemoryName
 from ninja_game.budget import tick_cost
 from ninja_game.errors import FormatError
 from ninja_game.runs.save_states import SaveStates
 from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
 from ninja_game.search.formula.language import Formula, Values, parse_number, parse_truth
 from ninja_game.search.formula.names import FACTS, NAMES, flag_field, id_of, ninja_view, no_object
-from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs
+from ninja_game.sim.inputs import MAX_TICKS, fit_inputs
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, MemoryName
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
 from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.simulation import Body, SaveState, is_box
@@ -30,7 +30,7 @@ AFTERMATH = 40
 _GROWTH = 4096  # rows by which the table grows at least
 _WATCHED_RECORD = np.dtype([*OBJECT_RECORD.descr, ("switched", "u1")])
 
-NINJA_FIELDS = (*TRACED_PLACES, "state", "in_air")
+NINJA_FIELDS = (*TRACED_FLOATS, "state", "in_air")
 """The fields of the ninja on which its picture depends."""
 
 
@@ -83,8 +83,8 @@ class Timeline:
         self.watched: tuple[int, ...] = ()
         self._states: SaveStates[Any] = SaveStates(0, self._worlds.save(), values=tick_cost(level))
         self._columns: dict[str, NDArray[Any]] = {
-            **{name: np.zeros(0) for name in TRACED_PLACES},
-            **{name: np.zeros(0, np.int32) for name in TRACED_NUMBERS},
+            **{name: np.zeros(0) for name in TRACED_FLOATS},
+            **{name: np.zeros(0, np.int32) for name in TRACED_INTS},
         }
         self._objects = np.zeros((0, 0), _WATCHED_RECORD)
         self._events: list[str] = []
@@ -111,7 +111,7 @@ class Timeline:
         """Other inputs. What they have in common with those before stays simulated. The first tick that differs."""
         # Behind the inputs no key is down: a run that grows by such ticks goes the same way.
         longest = max(len(self.inputs), len(inputs))
-        same = first_difference(fitted_inputs(self.inputs, longest), fitted_inputs(inputs, longest))
+        same = first_difference(fit_inputs(self.inputs, longest), fit_inputs(inputs, longest))
         self.inputs = inputs
         self._forget(min(same, len(self)))
         return same
@@ -155,7 +155,7 @@ class Timeline:
     def _go_on(self, ticks: int) -> None:
         """Before so many ticks: be in the compiled memory, once it is worth it and its kernels are there."""
         self._ticks_on_plain += ticks
-        worlds = go_on(self._worlds, self.asked_memory, self._ticks_on_plain)
+        worlds = switch_to_compiled(self._worlds, self.asked_memory, self._ticks_on_plain)
         if worlds is not self._worlds:
             self._worlds = worlds
             worlds.load([0], [0])
@@ -168,7 +168,7 @@ class Timeline:
 
     def _run(self, first: int, last: int) -> None:
         """Simulate the ticks ``first`` … ``last`` - 1 and note what they show."""
-        inputs = fitted_inputs(self.inputs[first:last], last - first)
+        inputs = fit_inputs(self.inputs[first:last], last - first)
         record = self._worlds.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
         for name, values in ninja_columns(record).items():
             self._columns[name][first:last] = values
@@ -190,7 +190,7 @@ class Timeline:
     # --- looking ---
 
     def column(self, name: str) -> NDArray[Any]:
-        """A field of TRACED_PLACES (px, px/tick) or TRACED_NUMBERS after each simulated tick: (simulated_until,)."""
+        """A field of TRACED_FLOATS (px, px/tick) or TRACED_INTS after each simulated tick: (simulated_until,)."""
         return self._columns[name][: self.simulated_until]
 
     def object_column(self, id_: int, name: str) -> NDArray[Any]:
@@ -240,7 +240,7 @@ class Timeline:
     def save_state(self, tick: int) -> SaveState:
         """The nearest moment that is kept at or before the one after this many ticks, for ``Simulation.restore``."""
         at, state = self._states.nearest(min(tick, self.simulated_until, MAX_TICKS))
-        return SaveState(self.level, self.body, self.memory, fitted_inputs(self.inputs[:at], at), state)
+        return SaveState(self.level, self.body, self.memory, fit_inputs(self.inputs[:at], at), state)
 
 
 WATCHABLE = {**NAMES, "status": 1, "exit_distance": 0}

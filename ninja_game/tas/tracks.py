@@ -11,7 +11,7 @@ import numpy as np
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.replay.input_text import not_a_marker
 from ninja_game.formats.replay.notations import Marker, is_marker_name
-from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, MAX_TICKS, check_inputs, pressed
+from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, MAX_TICKS, check_inputs, with_press_bit
 from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.tas.contributions import NONE, Contributions
 
@@ -50,7 +50,7 @@ class InputTrack:
         held = before[-1] & JUMP_HELD if before else 0
         made = bytearray()
         for key in keys:
-            made.append(pressed(key, held))
+            made.append(with_press_bit(key, held))
             held = key & JUMP_HELD
         after = bytearray(self.inputs[last:])
         if after:
@@ -64,7 +64,7 @@ class InputTrack:
     def _joined(self, tick: int, held: int) -> int:
         """A tick behind an edit: it triggers as the keys say, unless it was odd before."""
         keys, held_before = self.inputs[tick], self.inputs[tick - 1] & JUMP_HELD if tick else 0
-        return pressed(keys, held) if keys == pressed(keys, held_before) else keys
+        return with_press_bit(keys, held) if keys == with_press_bit(keys, held_before) else keys
 
     def _markers_after(self, first: int, last: int, count: int) -> tuple[Marker, ...]:
         """The markers when ``count`` ticks stand for the ticks ``first`` … ``last`` - 1."""

@@ -9,7 +9,7 @@ from itertools import islice
 from pathlib import Path
 from time import localtime, strftime
 
-from ninja_game.files.locking import forget
+from ninja_game.files.locking import remove_abandoned
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import REPLAY_SUFFIX, REPLAYS, free_path, is_bundled, short_path
 from ninja_game.formats.links import replay_link
@@ -180,7 +180,7 @@ class RunCommands(DocumentCommands):
             self.app.notify("All runs that were edited are saved")
 
     def _offer(self, found: RecoveredRun) -> None:
-        recover, discard = partial(self._recover, found), partial(forget, found.file)
+        recover, discard = partial(self._recover, found), partial(remove_abandoned, found.file)
         self.ask_about_recovered(_name_of(found), recover, discard, about=f"{_when(found)}; every edit can be undone")
 
 

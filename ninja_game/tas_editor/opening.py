@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.backend.kernel_cache import before_compiling
-from ninja_game.backend.memories import begins_plain, compiled_available, is_compiled
+from ninja_game.backend.memories import compiled_available, is_compiled, prefers_plain
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, Screen
@@ -48,9 +48,9 @@ def open_tas_editor(app: App, recording: Recording, others: Sequence[Recording],
 
 
 def is_prepared() -> bool:
-    from ninja_game.sim.memory.kernels import trace_world
+    from ninja_game.backend.kernels import trace_world
 
-    return not compiled_available() or is_compiled(trace_world) or begins_plain()
+    return not compiled_available() or is_compiled(trace_world) or prefers_plain()
 
 
 def prepare(run: Recording) -> None:

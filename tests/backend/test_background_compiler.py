@@ -11,7 +11,9 @@ from typing import Any, ClassVar
 import pytest
 
 from ninja_game.backend import background_compiler, memories
-from ninja_game.backend.kernel_cache import are_kept, code_folder
+from ninja_game.backend.compiled import compiled_copy
+from ninja_game.backend.kernel_cache import are_cached, code_folder
+from ninja_game.backend.kernels import run_world
 from ninja_game.backend.memories import (
     _OBJECTS,
     CHECKED,
@@ -19,9 +21,9 @@ from ninja_game.backend.memories import (
     RUNS,
     _keys,
     compiled_available,
-    go_on,
     open_worlds,
     proven_memory,
+    switch_to_compiled,
 )
 from ninja_game.budget import PLAIN_WORK, tick_cost
 from ninja_game.errors import FileError
@@ -31,8 +33,6 @@ from ninja_game.runs.trace import trace_level
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.digest import differences
 from ninja_game.sim.level import TILES, Level, ObjectSpec
-from ninja_game.sim.memory.compiled import compiled_copy
-from ninja_game.sim.memory.kernels import run_world
 from ninja_game.simulation import Simulation
 from ninja_game.tas.timeline import Timeline
 from tests.support.own_pack import PACK
@@ -49,9 +49,9 @@ class Compiler:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.asked, self.ready_after = 0, 10**9
-        monkeypatch.setattr(memories, "begins_plain", lambda memory, *_, **__: memory == "auto")
-        monkeypatch.setattr(memories, "_are_there", self.are_there)
-        monkeypatch.setattr(background_compiler, "is_at_work", lambda: True)
+        monkeypatch.setattr(memories, "prefers_plain", lambda memory, *_, **__: memory == "auto")
+        monkeypatch.setattr(memories, "_kernels_ready", self.are_there)
+        monkeypatch.setattr(background_compiler, "is_compiling", lambda: True)
         for module in ("backend.memories", "runs.run", "runs.trace"):
             monkeypatch.setattr(f"ninja_game.{module}.PLAIN_WORK", 1)
 
@@ -105,11 +105,11 @@ def test_a_verdict_is_the_same_wherever_the_run_goes_over(compiler: Compiler) ->
         compiler.asked, compiler.ready_after = 0, ticks
         assert verify_recording(run) == expected
     compiler.ready_after = 10**9
-    assert go_on(open_worlds("plain", run.level, box=False), CHECKED_LATER, 10**6).name == "plain"
+    assert switch_to_compiled(open_worlds("plain", run.level, box=False), CHECKED_LATER, 10**6).name == "plain"
     compiler.ready_after = 0
-    judged = go_on(open_worlds("plain", run.level, box=False), CHECKED_LATER, 10**6)
+    judged = switch_to_compiled(open_worlds("plain", run.level, box=False), CHECKED_LATER, 10**6)
     assert judged.kernel(run_world) is memories.compiled(run_world, checked=True)
-    assert go_on(open_worlds("plain", run.level, box=False), "plain", 10**6).name == "plain"
+    assert switch_to_compiled(open_worlds("plain", run.level, box=False), "plain", 10**6).name == "plain"
 
 
 def test_a_few_short_runs_are_not_worth_loading_numba(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -117,7 +117,7 @@ def test_a_few_short_runs_are_not_worth_loading_numba(monkeypatch: pytest.Monkey
     work = tick_cost(run.level) * run.ticks
     monkeypatch.setattr(memories, "_KERNELS", {})
     monkeypatch.setattr(memories, "_WORK", [PLAIN_WORK - 3 * work])
-    monkeypatch.setattr(memories, "_are_there", lambda *, checked: True)
+    monkeypatch.setattr(memories, "_kernels_ready", lambda *, checked: True)
     monkeypatch.setenv(background_compiler.VARIABLE, "1")
     assert proven_memory("auto", work) == CHECKED_LATER
     short, long = (open_worlds("auto", run.level, box=False, at_once=True, ticks=n * run.ticks) for n in (2, 4))
@@ -129,14 +129,14 @@ def test_a_few_short_runs_are_not_worth_loading_numba(monkeypatch: pytest.Monkey
 def test_little_work_stays_on_the_plain_memory(compiler: Compiler) -> None:
     compiler.ready_after = 0
     worlds = open_worlds("auto", ALL_KINDS, box=False, at_once=True)
-    assert go_on(worlds, "auto", 0) is worlds
-    assert go_on(worlds, "auto", 1).name == "compiled"
+    assert switch_to_compiled(worlds, "auto", 0) is worlds
+    assert switch_to_compiled(worlds, "auto", 1).name == "compiled"
     assert Simulation(ALL_KINDS, memory="auto").memory == "plain"
 
 
 def test_where_nobody_compiles_whoever_has_much_work_does(compiler: Compiler, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(background_compiler, "is_at_work", lambda: False)
-    assert go_on(open_worlds("plain", ALL_KINDS, box=False), "auto", 10**6).name == "compiled"
+    monkeypatch.setattr(background_compiler, "is_compiling", lambda: False)
+    assert switch_to_compiled(open_worlds("plain", ALL_KINDS, box=False), "auto", 10**6).name == "compiled"
 
 
 def test_a_run_under_edit_goes_over_too(compiler: Compiler) -> None:
@@ -190,14 +190,14 @@ def test_the_first_run_on_a_machine_starts_one_process_that_compiles(
     assert options["env"]["PYTHONSAFEPATH"] == "1", "nothing of the current folder is imported"
     assert options["env"][background_compiler.VARIABLE] == "0", "it starts no other one"
     assert (options["cwd"], options["start_new_session"]) == (tmp_path / "cache", True)
-    assert background_compiler.is_at_work()
+    assert background_compiler.is_compiling()
 
 
 @pytest.mark.parametrize("memory", ["plain", "compiled"])
 def test_who_names_a_memory_gets_it_and_starts_nothing(
     memory: str, started: list[tuple[list[str], dict[str, Any]]]
 ) -> None:
-    assert not memories.begins_plain(memory)
+    assert not memories.prefers_plain(memory)
     assert not started
 
 
@@ -205,10 +205,10 @@ def test_switched_off_it_is_not_started(
     started: list[tuple[list[str], dict[str, Any]]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(background_compiler.VARIABLE, "0")
-    assert not memories.begins_plain("auto")
+    assert not memories.prefers_plain("auto")
     background_compiler.start()
     assert not started
-    assert not background_compiler.is_at_work()
+    assert not background_compiler.is_compiling()
 
 
 def test_where_no_cache_can_be_nothing_is_started(
@@ -217,18 +217,18 @@ def test_where_no_cache_can_be_nothing_is_started(
     (tmp_path / "cache").touch()
     background_compiler.start()
     assert not started
-    assert not background_compiler.is_at_work()
+    assert not background_compiler.is_compiling()
 
     def refuse() -> Path:
         raise FileError("no folder")
 
     monkeypatch.setattr(background_compiler, "code_folder", refuse)
-    assert not background_compiler.is_at_work()
+    assert not background_compiler.is_compiling()
 
 
 HOLDING = """
-from ninja_game.backend.background_compiler import hold_work
-handle = hold_work()
+from ninja_game.backend.background_compiler import lock_compilation
+handle = lock_compilation()
 print("held" if handle is not None else "busy", flush=True)
 input()
 """
@@ -277,13 +277,13 @@ print(memories.compiled(doubled)(np.array([3])))
 
 @pytest.mark.slow
 def test_a_kernel_that_another_process_compiles_is_waited_for(tmp_path: Path) -> None:
-    from ninja_game.files.locking import hold
+    from ninja_game.files.locking import try_lock
 
     with program(tmp_path, SMALL) as alone:
         assert alone.communicate()[0] == "missing\ncompiled\n6\n"
     (code,) = tmp_path.iterdir()
     made = code.rename(tmp_path / "aside")
-    handle = hold(code.with_suffix(".lock"))
+    handle = try_lock(code.with_suffix(".lock"))
     assert handle is not None
     with program(tmp_path, SMALL) as waiting:
         assert first_line(waiting) == "missing\n"
@@ -301,8 +301,8 @@ def test_the_command_leaves_nothing_to_compile_for_others(tmp_path: Path) -> Non
         out, errors = compiling.communicate()
         assert compiling.returncode == 0, errors
         assert out.startswith("All is compiled")
-    assert are_kept([run_world], False)
-    assert are_kept([run_world], True)
+    assert are_cached([run_world], False)
+    assert are_cached([run_world], True)
     run = str(PACK / "certificates" / "00-4-locksmith.exit.replay.txt")
     search = ("search", run, "--from", "0", "--to", "9", "--maximise", "x", "--seconds", "0.1", "--jobs", "1")
     check = ("check", str(PACK / "00-4-locksmith.txt"), "--seconds", "1", "--gold", "both")

@@ -12,11 +12,11 @@ from types import FunctionType
 import pytest
 
 from ninja_game.backend import memories
-from ninja_game.backend.kernel_cache import KEPT_FILES, code_folder, forget_old_code
+from ninja_game.backend.kernel_cache import MAX_KERNELS, code_folder, evict_old_kernels
+from ninja_game.backend.kernels import step_world
 from ninja_game.backend.memories import MemoryUnavailableError, choose_memory
 from ninja_game.errors import ArgumentError, FileError
 from ninja_game.files.user_folder import cache_folder
-from ninja_game.sim.memory.kernels import step_world
 from ninja_game.sim.ninja import tick
 from tests.support.slow import the_rest_is_slow
 from tests.support.warm_start import WarmStart
@@ -27,7 +27,7 @@ needs_numba = pytest.mark.skipif(not memories.compiled_available(), reason="Numb
 PROGRAM = """
 {first}
 from ninja_game.backend import kernel_cache, memories
-from ninja_game.sim.memory.compiled import load_worlds
+from ninja_game.backend.compiled import load_worlds
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.schema import World
 import numpy as np
@@ -169,7 +169,7 @@ def test_where_numba_compiles_nothing_auto_is_plain_and_says_why(
         f"from ninja_game.backend.numba_import import import_numba\nnumba = import_numba()\n{change}\n"
         "from ninja_game import Batch, Level, ObjectSpec, Simulation\n"
         "from ninja_game.backend.memories import choose_memory, compiled_if_possible, proven_memory\n"
-        "from ninja_game.sim.memory.kernels import step_world\n"
+        "from ninja_game.backend.kernels import step_world\n"
         "level = Level(objects=(ObjectSpec(5, (100.0, 100.0)),))\n"
         "print(Simulation(level, memory='auto').memory, Batch(level, 2).memory, choose_memory('auto'),\n"
         "      proven_memory('auto').first, compiled_if_possible(step_world) is step_world)\n"
@@ -200,7 +200,7 @@ def test_checked_kernels_refuse_an_index_out_of_range_and_are_kept_apart(tmp_pat
 
 @needs_numba
 def test_the_digest_follows_every_rule_and_constant_that_a_kernel_reaches(monkeypatch: pytest.MonkeyPatch) -> None:
-    from ninja_game.sim.memory.code_digest import code_digest
+    from ninja_game.backend.code_digest import code_digest
 
     before = code_digest(step_world, "")
     assert code_digest(step_world, "") == before
@@ -213,9 +213,9 @@ def test_the_digest_follows_every_rule_and_constant_that_a_kernel_reaches(monkey
 def test_machine_code_is_another_if_a_named_tuple_has_its_fields_in_another_order(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    from ninja_game.backend.code_digest import code_digest
     from ninja_game.search.best_first import expand
     from ninja_game.search.nodes import Resolution
-    from ninja_game.sim.memory.code_digest import code_digest
 
     before = code_digest(expand, "")
     monkeypatch.setattr(Resolution, "_fields", Resolution._fields[::-1])
@@ -224,16 +224,16 @@ def test_machine_code_is_another_if_a_named_tuple_has_its_fields_in_another_orde
 
 def test_only_the_newest_files_are_kept(tmp_path: Path) -> None:
     kernel = f"run_world-{'0' * 32}-{{:016}}.code"
-    for age in range(KEPT_FILES + 3):
+    for age in range(MAX_KERNELS + 3):
         (tmp_path / kernel.format(age)).touch()
         os.utime(tmp_path / kernel.format(age), (1_000_000 - age, 1_000_000 - age))
     (tmp_path / "notes.code").touch()
     os.utime(tmp_path / "notes.code", (0, 0))
     (tmp_path / kernel.format(999)).symlink_to(tmp_path / "nothing")
-    forget_old_code(tmp_path)
-    kept = {kernel.format(age) for age in (*range(KEPT_FILES), 999)}
+    evict_old_kernels(tmp_path)
+    kept = {kernel.format(age) for age in (*range(MAX_KERNELS), 999)}
     assert {path.name for path in tmp_path.iterdir()} == kept | {"notes.code"}
-    forget_old_code(tmp_path / "nothing")
+    evict_old_kernels(tmp_path / "nothing")
 
 
 @needs_numba
@@ -242,7 +242,7 @@ def test_threads_may_ask_for_kernels_at_once_whoever_imported_numba(first: str) 
     program = (
         f"{first}from concurrent.futures import ThreadPoolExecutor as Pool\n"
         "from ninja_game.backend.memories import compiled\n"
-        "from ninja_game.sim.memory.kernels import run_world\n"
+        "from ninja_game.backend.kernels import run_world\n"
         "with Pool(8) as pool: twins = list(pool.map(lambda _: compiled(run_world), range(8)))\n"
         "print(len({id(twin) for twin in twins}))\n"
     )
@@ -261,7 +261,7 @@ def test_without_numba_auto_is_plain_and_compiled_says_what_to_install(monkeypat
 
 @needs_numba
 def test_machine_code_is_another_if_a_literal_of_a_rule_is_edited() -> None:
-    from ninja_game.sim.memory.code_digest import code_digest
+    from ninja_game.backend.code_digest import code_digest
 
     def rule(x: float) -> float:
         return x * 2.5

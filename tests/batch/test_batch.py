@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from ninja_game import Level, Simulation, parse_level
+from ninja_game.backend.kernels import run_worlds
+from ninja_game.backend.layout import OBJECT
 from ninja_game.backend.memories import MemoryUnavailableError, compiled, compiled_available
 from ninja_game.batch.batch import OBJECT_FIELDS, Batch
 from ninja_game.batch.thread_pool import ThreadPool
 from ninja_game.errors import ArgumentError, LevelError
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import DRONE, EXIT, MINE
-from ninja_game.sim.memory.kernels import run_worlds
-from ninja_game.sim.memory.layout import OBJECT
 from ninja_game.sim.states import OUTCOME_NAMES
 from tests.support.memories import BOTH
 

@@ -16,7 +16,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import write_demo
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay, parse_replay, write_episode
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay import film
@@ -200,7 +200,9 @@ def test_runs_with_one_title_have_their_files_above_them(tmp_path: Path) -> None
     first, *others = load_replays(file)
     assert [each.title for each in (first, *others)] == ["Walk - two.txt", "Walk - two.txt 1", "Other - two.txt 2"]
     assert film._called([first, *others]) == ["two.txt", "two.txt 1", "two.txt 2"]
-    first, *others = (replace(each, replay=replace(each.replay, made=Made(played=True))) for each in (first, *others))
+    first, *others = (
+        replace(each, replay=replace(each.replay, made=Provenance(played=True))) for each in (first, *others)
+    )
     shown = film.Film(first, beside=tuple(others))
     titles = [film._Panel(shown, each, []).title for each in (first, *others)]
     assert titles == ["Walk - me, two.txt", "Walk - me, two.txt 1", "Other - me"]

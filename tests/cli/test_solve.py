@@ -21,7 +21,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.runs.run import run_level
 from ninja_game.runtime import cores
-from ninja_game.search.certificate import named_run, save_replay, verified_run
+from ninja_game.search.certificate import named_replay, save_replay, verified_run
 from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, running, write_records
 
 if not compiled_available():
@@ -186,7 +186,7 @@ def test_runs_that_are_kept_are_not_searched_again(tmp_path: Path) -> None:
 
 def test_a_run_that_is_kept_is_shortened_where_that_is_asked_for(tmp_path: Path) -> None:
     level, runs = level_file(tmp_path, WALK), tmp_path / "runs"
-    slow = named_run(verified_run(parse_level_string(WALK), bytes([0] * 20 + [2] * 60)), "check")
+    slow = named_replay(verified_run(parse_level_string(WALK), bytes([0] * 20 + [2] * 60)), "check")
     runs.mkdir()
     save_replay(runs / "level.exit.replay.txt", slow)
     said = command("check", level, "--replays", runs).stdout

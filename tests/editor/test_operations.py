@@ -27,7 +27,7 @@ from ninja_game.editor.stamp import (
     removed,
 )
 from ninja_game.editor.tools import remade
-from ninja_game.formats.ascii.object_lines import Listed, read_object_line
+from ninja_game.formats.ascii.object_lines import ListedObject, read_object_line
 from ninja_game.sim.collision import tiles as shapes
 from ninja_game.sim.kinds import DOOR, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
@@ -46,8 +46,8 @@ LINES = (
 
 def spec(line: str) -> ObjectSpec:
     listed = read_object_line(line)[0]
-    assert isinstance(listed, Listed)
-    return listed.record
+    assert isinstance(listed, ListedObject)
+    return listed.spec
 
 
 SPECS = [spec(line) for line in LINES]

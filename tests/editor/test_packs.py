@@ -16,9 +16,9 @@ from ninja_game.editor.packs import Obstacles, make_ready, obstacle_of
 from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, PackFiles
-from ninja_game.levels.findings import found
+from ninja_game.levels.findings import level_finding
 from ninja_game.runs.packs import lint
-from ninja_game.search.certificate import kept_run
+from ninja_game.search.certificate import read_certificate
 from ninja_game.search.task import Progress
 from tests.support.own_pack import PACK
 
@@ -97,7 +97,7 @@ def test_a_pack_is_made_described_and_copied(pack: Path, tmp_path: Path) -> None
     linked = Pack(packs.copy_pack(Pack(Path(PackFiles(pack).link())), tmp_path, "test pack"))
     assert list(lint(linked)) == []
     for kept in (linked, Pack(pack)):
-        assert kept_run(kept.levels[FIRST], kept.files.path / RUN)
+        assert read_certificate(kept.levels[FIRST], kept.files.path / RUN)
         assert "level-data:" in kept.files.text(RUN), "whole, where it is a file"
     assert packs.same_pack(linked, Pack(pack))
     with pytest.raises(NinjaGameError):
@@ -177,7 +177,7 @@ def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(
     pack: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     levels = Pack(pack).levels
-    why = found("gold-left", (2,), most=1, never="never gold")
+    why = level_finding("gold-left", (2,), most=1, never="never gold")
     obstacles: Obstacles = {(named.level, "gold"): why for file, named in levels.items() if file != FIRST}
     packs.accept(pack, FIRST, "no-gold-run", "a joke")
     searched: list[str] = []
@@ -235,7 +235,9 @@ def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, monke
     gold = RUN.replace("exit", "gold")
     shutil.copy(pack / RUN, pack / gold)
     level = Pack(pack).levels[FIRST].level
-    obstacles: Obstacles = {(level, kind): found("gold-left", (2,), most=1, never=kind) for kind in ("exit", "gold")}
+    obstacles: Obstacles = {
+        (level, kind): level_finding("gold-left", (2,), most=1, never=kind) for kind in ("exit", "gold")
+    }
     [broken] = [each for each in lint(Pack(pack)) if each.code == "certificate"]
     why = obstacle_of(Pack(pack), broken, obstacles)
     assert why

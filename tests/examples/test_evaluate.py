@@ -44,7 +44,7 @@ def test_tables_say_the_same_in_every_form() -> None:
     assert text[2].split() == ["b", "0/10", "4", "6", "-", "0.0", "-0.40"]
     assert text[3].startswith("me: 9 of 20 episodes passed (45.0%), 1 of 2 levels in 90 %")
     found = json.loads(as_json(made))
-    assert (found["agent"], found["seed"], found["often_passed"]) == ("me", 1, 1)
+    assert (found["agent"], found["seed"], found["count_passed"]) == ("me", 1, 1)
     assert [row["ticks"] for row in found["results"]] == [310.0, None]
     read = list(csv.DictReader(io.StringIO(as_csv(made))))
     assert [(row["level"], row["passed"], row["ticks"], row["rate"]) for row in read] == [

@@ -18,8 +18,8 @@ import pytest
 
 from ninja_game.errors import FileError
 from ninja_game.files import user_folder as folders, writing
-from ninja_game.files.locking import forget, hold, left_behind, locked
-from ninja_game.files.reading import LeftOut, files_below, read_bytes, read_text, read_utf8, text_files
+from ninja_game.files.locking import locked, read_abandoned, remove_abandoned, try_lock
+from ninja_game.files.reading import Skipped, files_below, read_bytes, read_text, read_utf8, text_files
 from ninja_game.files.user_folder import data_folder, user_folder
 from ninja_game.files.writing import open_atomically, remove_leftovers, write_atomically
 
@@ -192,7 +192,7 @@ def test_walk_survives_loops_pipes_and_links_and_names_what_it_left_out(tmp_path
     assert [str(each.relative_to(tmp_path)) for each in found if isinstance(each, Path)] == [
         "a.txt", "sub/b.txt", "sub.txt",
     ]  # fmt: skip
-    left_out = {each.path.name: each.why for each in found if isinstance(each, LeftOut)}
+    left_out = {each.path.name: each.why for each in found if isinstance(each, Skipped)}
     assert left_out.keys() == {"pipe.txt", "loop", "self.txt", "gone.txt"}
     assert left_out["pipe.txt"] == "a pipe, not a file"
     assert text_files(tmp_path) == [each for each in found if isinstance(each, Path)]
@@ -249,7 +249,7 @@ def test_lock_is_for_one_and_a_missing_one_stops_nobody(tmp_path: Path, monkeypa
     start = time.monotonic()
     with locked(tmp_path / "file", 600):
         assert time.monotonic() - start < 300
-    handle = hold(tmp_path / "held")
+    handle = try_lock(tmp_path / "held")
     assert handle is not None, "what is edited is kept on such a disk too"
     os.close(handle)
 
@@ -262,16 +262,16 @@ def test_what_dead_programs_left_is_found_newest_first_whatever_lies_beside_it(t
     (tmp_path / "folder.json").mkdir()
 
     def found() -> list[str]:
-        return list(left_behind(tmp_path, "*.json", Path.read_text, ()))
+        return list(read_abandoned(tmp_path, "*.json", Path.read_text, ()))
 
     assert found() == ["b", "a", "c"]
-    handle = hold(tmp_path / "a.lock")
+    handle = try_lock(tmp_path / "a.lock")
     assert handle is not None
     assert found() == ["b", "c"]
-    assert not forget(tmp_path / "a.json"), "another program goes on with it"
+    assert not remove_abandoned(tmp_path / "a.json"), "another program goes on with it"
     os.close(handle)
     assert found() == ["b", "a", "c"]
-    assert forget(tmp_path / "a.json")
+    assert remove_abandoned(tmp_path / "a.json")
     assert found() == ["b", "c"]
     assert not (tmp_path / "a.lock").exists()
 
@@ -290,12 +290,12 @@ def test_home_of_an_unknown_user_is_an_error_of_ours(monkeypatch: pytest.MonkeyP
 
 
 def test_what_is_missing_is_installed_as_the_place_has_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert "tools/dev.py run" in folders.how_to_install("fast")
+    assert "tools/dev.py run" in folders.install_hint("fast")
     monkeypatch.setattr(folders, "PACKAGE", tmp_path / "site-packages" / "ninja_game")
     install = f"install it: {sys.executable} -m pip install "
-    assert folders.how_to_install("learn").startswith(f"{install}'gymnasium>=")
+    assert folders.install_hint("learn").startswith(f"{install}'gymnasium>=")
     for extra in ("fast", "cluster", "plots", "film", "learn", "minari", "train"):
-        told = folders.how_to_install(extra).removeprefix(install)
+        told = folders.install_hint(extra).removeprefix(install)
         assert told
         assert "ninja-game" not in told, "nobody knows whether it can be had there"
 
@@ -303,4 +303,4 @@ def test_what_is_missing_is_installed_as_the_place_has_it(tmp_path: Path, monkey
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr("importlib.metadata.requires", refuse)
-    assert folders.how_to_install("fast").startswith("this copy of the program cannot be added to")
+    assert folders.install_hint("fast").startswith("this copy of the program cannot be added to")

@@ -16,7 +16,7 @@ from ninja_game.formats.ascii.legend import (
     TILE_FAMILIES,
     TILE_OF_CHAR,
     legend_text,
-    visible_parts,
+    visible_glyphs,
 )
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.sim.collision.tiles import (
@@ -82,14 +82,14 @@ def test_a_drawn_object_is_seen_where_it_is_drawn(symbol: object) -> None:
     assert record.kind == drawn.kind
     assert len(record.values) == VALUE_COUNTS[drawn.kind]
     assert record.values[:2] == (180.0 + drawn.dx, 564.0 + drawn.dy)
-    assert [tuple(part) for part in visible_parts(record)] == [(drawn.char, 7, 23)]
+    assert [tuple(part) for part in visible_glyphs(record)] == [(drawn.char, 7, 23)]
 
 
 def test_pads_are_drawn_as_the_key_of_the_numeric_keypad_in_their_direction() -> None:
     for word, (a, b) in PAD_NORMALS.items():
         digit = int(PAD_DIGITS[word]) - 1
         assert (digit % 3 - 1, 1 - digit // 3) == ((a > 0) - (a < 0), (b > 0) - (b < 0))
-        assert visible_parts(ObjectSpec(LAUNCH_PAD, (180.0, 564.0, 0.5, b)))[0].char == "5"
+        assert visible_glyphs(ObjectSpec(LAUNCH_PAD, (180.0, 564.0, 0.5, b)))[0].char == "5"
 
 
 def test_a_floor_pad_lies_on_the_floor_and_a_guard_stands_on_it() -> None:

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import example, given, settings, strategies as st
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.ascii.legend import SYMBOLS, TILE_CHARS, visible_parts
+from ninja_game.formats.ascii.legend import SYMBOLS, TILE_CHARS, visible_glyphs
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
-from ninja_game.formats.ascii.writer import same_record, write_ascii_level
+from ninja_game.formats.ascii.writer import same_spec, write_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.kinds import GOLD, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import TILES, Level, ObjectSpec
@@ -23,7 +23,7 @@ ODD_NUMBERS = (math.nan, math.inf, -math.inf, -0.0, 0.0, 1e300, 5e-324, 0.1, 0.7
 
 
 def same_level(a: Level, b: Level) -> bool:
-    return a.tiles == b.tiles and len(a.objects) == len(b.objects) and all(map(same_record, a.objects, b.objects))
+    return a.tiles == b.tiles and len(a.objects) == len(b.objects) and all(map(same_spec, a.objects, b.objects))
 
 
 def assert_round_trip(level: Level) -> str:
@@ -184,13 +184,13 @@ def test_reference_levels_come_back_to_the_bit() -> None:
 
 def test_visible_parts_are_in_the_picture() -> None:
     record = ObjectSpec(GOLD, (36.0, 36.0))
-    assert [tuple(part) for part in visible_parts(record)] == [("o", 1, 1)]
-    assert visible_parts(ObjectSpec(GOLD, (37.0, 36.0))) == []
+    assert [tuple(part) for part in visible_glyphs(record)] == [("o", 1, 1)]
+    assert visible_glyphs(ObjectSpec(GOLD, (37.0, 36.0))) == []
 
 
 def test_a_record_is_the_same_to_the_last_bit_and_any_nan_is_one() -> None:
     values = (1.0, math.nan), (1.0, math.nan), (1.0, 2.0), (1.0, -0.0), (1.0, 0.0)
     gold = [ObjectSpec(GOLD, each) for each in values]
-    assert same_record(gold[0], gold[1])
-    assert not any(same_record(gold[0], each) for each in gold[2:])
-    assert not same_record(gold[3], gold[4])
+    assert same_spec(gold[0], gold[1])
+    assert not any(same_spec(gold[0], each) for each in gold[2:])
+    assert not same_spec(gold[3], gold[4])

@@ -11,13 +11,13 @@ from hypothesis import given
 
 from ninja_game.errors import DemoError
 from ninja_game.formats.n14.demo import parse_demo, write_demo
-from ninja_game.sim.inputs import JUMP_HELD, MAX_DEMO_TICKS, Demo, pressed, with_press_bits
+from ninja_game.sim.inputs import JUMP_HELD, MAX_DEMO_TICKS, Demo, with_press_bit, with_press_bits
 from tests.support.strategies import demos
 
 
 def test_jump_is_pressed_where_its_key_goes_down_and_nowhere_else() -> None:
     inputs = bytes(random.Random(3).choices(range(16), k=5000))
-    expected = [pressed(keys, before & JUMP_HELD) for before, keys in pairwise(b"\0" + inputs)]
+    expected = [with_press_bit(keys, before & JUMP_HELD) for before, keys in pairwise(b"\0" + inputs)]
     assert list(with_press_bits(inputs)) == list(with_press_bits(list(inputs))) == expected
     assert with_press_bits([]) == b""
 

@@ -15,8 +15,8 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.input_text import MOST_INCLUDES, read_inputs
-from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.notations import Marker, in_our_notation, write_inputs
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.conversion import input_texts
 from ninja_game.sim.inputs import with_press_bits
@@ -177,7 +177,7 @@ def test_loose_replays_read_back_equal(inputs: bytes, box: bool) -> None:
     final_tick = max(0, len(inputs) - 1)
     for last in (final_tick, final_tick + 5):
         replay = Replay(
-            inputs, last, "", level=LEVEL, body="box" if box else "circle", name="x", made=Made(edits=int(box))
+            inputs, last, "", level=LEVEL, body="box" if box else "circle", name="x", made=Provenance(edits=int(box))
         )
         assert parse_replay(write_replay(replay)) == replay
 

@@ -18,7 +18,7 @@ from hypothesis import given, strategies as st
 
 from ninja_game.cli.convert import link_of
 from ninja_game.errors import FormatError, LinkError, NinjaGameError
-from ninja_game.files.reading import PLACE, has_folder
+from ninja_game.files import reading
 from ninja_game.files.user_folder import bundled_levels, bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.links import (
@@ -298,8 +298,8 @@ def test_a_file_that_is_called_as_links_are_gives_them_no_folder(
     monkeypatch.chdir(tmp_path)
     (tmp_path / "link").write_text("anything")
     (tmp_path / "run.tas").write_text("30,R\n")
-    assert has_folder("run.tas")
-    assert not has_folder(PLACE)
+    assert reading.has_folder("run.tas")
+    assert not reading.has_folder(reading.LINK)
 
 
 @pytest.mark.parametrize("name", ["z#replay=1.AAAA.txt", "a #level=1.AAAA.txt", "#replay=1.AAAA.txt"])

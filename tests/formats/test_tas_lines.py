@@ -11,7 +11,7 @@ from hypothesis import given, strategies as st
 from ninja_game import ReplayError, parse_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.formats.named_level import form_of
+from ninja_game.formats.named_level import format_of
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.replay.notations import Marker, in_our_notation, is_tas_text, write_celeste, write_libtas
@@ -89,7 +89,7 @@ def test_celeste_lines_that_begin_with_a_label_are_no_record_of_n() -> None:
         (recording,) = parse_replays(text, level=level)
         assert len(recording.replay.inputs) >= 30
     for demo in ("##3:801#", "##902:35791394|\n35791394#"):
-        assert form_of(demo) == "file"
+        assert format_of(demo) == "file"
 
 
 CELESTE = """\ufeffconsole load 1

@@ -19,7 +19,7 @@ from ninja_game.learn.levels.bench import BASES, COUNTS, GRADES, LARGEST, _base,
 from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.levels.source import LevelSource
 from ninja_game.sim.kinds import GOLD
-from ninja_game.sim.loader import record_table
+from ninja_game.sim.loader import object_table
 from tools.bench_levels import passes
 
 FAST = "compiled" if compiled_available() else "plain"
@@ -63,14 +63,14 @@ def test_other_levels_have_another_digest() -> None:
 
 
 def test_a_variation_takes_away_gold_and_killers_and_adds_nothing() -> None:
-    slots = [record_table(_base(k, mirrored=False).level).slots for k in range(0, BASES, 5)]
-    most = record_table(_base(LARGEST, mirrored=False).level).slots
+    slots = [object_table(_base(k, mirrored=False).level).slots for k in range(0, BASES, 5)]
+    most = object_table(_base(LARGEST, mirrored=False).level).slots
     assert max(slots) <= most
     golds = [bench_level("train", n).level.gold for n in range(0, 30, 3)]
     assert len(set(golds)) > 3
     for number in range(100):
         level = bench_level("train", number).level
-        assert record_table(level).slots <= most
+        assert object_table(level).slots <= most
         assert [spec.kind for spec in level.objects].count(GOLD) == level.gold
 
 

@@ -21,7 +21,7 @@ from ninja_game.learn.observations.pixels import SHADES, SOLID_SHADE, Pixels
 from ninja_game.learn.observations.surroundings import LocalTiles, Rays
 from ninja_game.learn.observations.vectors import DIRECTIONS, FIELDS, Guide, StateVector, TimeLeft
 from ninja_game.learn.worlds import EnvWorlds
-from ninja_game.sim.collision.rays import cast
+from ninja_game.sim.collision.rays import cast_ray
 from ninja_game.sim.kinds import DOOR, GOLD
 from ninja_game.sim.level import ObjectSpec
 from tests.support.learning import FLOOR, LEVELS, playable_levels, random_actions, same
@@ -143,7 +143,7 @@ def test_rays_are_those_of_the_world(level: Level, actions: list[int], way: floa
     worlds._observe(np.array([0]))
     for angle, shown in zip(np.arange(32) * np.pi / 16, np.asarray(worlds.observations)[0], strict=True):
         dx, dy = (round(f(float(angle)), 12) for f in (cos, sin))
-        stopped, x, y = cast(maps[0], w, w.ninja.x, w.ninja.y, dx, dy)
+        stopped, x, y = cast_ray(maps[0], w, w.ninja.x, w.ninja.y, dx, dy)
         length = (x - w.ninja.x) * dx + (y - w.ninja.y) * dy if stopped else 900.0
         assert shown == np.float32(min(max(length, 0.0), 900.0))
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.player import schema
 from ninja_game.player.player_data import keep_replay
@@ -290,7 +290,7 @@ def test_practice_replay_carries_its_mark(tmp_path: Path) -> None:
 
 def test_records_keep_how_a_run_was_made_and_who_took_part(tmp_path: Path) -> None:
     data = player_data(tmp_path)
-    made = Made(edits=34, searches=("improve", "search"), begun_by="Ann")
+    made = Provenance(edits=34, searches=("improve", "search"), begun_by="Ann")
     keep_replay(data, replace(played(short_level()).replay(), author="Ann", made=made, co_authors=("Bob", "Cy")))
     (saved,) = data.records.replays()
     replay = data.records.replay(saved.id)

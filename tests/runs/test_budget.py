@@ -15,6 +15,7 @@ from click.testing import CliRunner, Result
 from ninja_game import run_level
 from ninja_game.backend import memories
 from ninja_game.backend.memories import open_worlds
+from ninja_game.backend.worlds import Worlds
 from ninja_game.budget import PAGE_BUDGET, PAGE_TICK_COST, RUN_BUDGET, TURN_WORK, affordable_ticks, tick_cost
 from ninja_game.cli.main import cli
 from ninja_game.errors import BudgetError, LevelError
@@ -29,11 +30,10 @@ from ninja_game.runs.compare import aligned, run_splits
 from ninja_game.runs.run import record_replay
 from ninja_game.runs.trace import Difference, first_difference, trace_level, trace_recording
 from ninja_game.runs.verify import verify_recording
-from ninja_game.search.certificate import named_run, save_replay, verified_run
+from ninja_game.search.certificate import named_replay, save_replay, verified_run
 from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo
 from ninja_game.sim.kinds import NO_KIND
 from ninja_game.sim.level import Level, ObjectSpec
-from ninja_game.sim.memory.interface import Worlds
 from ninja_game.simulation import Simulation
 from ninja_game.web.services import PageServices
 from tests.support.heavy import heavy_level
@@ -186,7 +186,7 @@ def test_the_run_of_a_search_is_verified_and_written_by_running_it_once(
     tmp_path: Path, ticks_run: Callable[[], int]
 ) -> None:
     run = verified_run(parse_level(WALK), bytes([2] * 60))
-    save_replay(tmp_path / "run.txt", named_run(run, "solve", name="Walk"))
+    save_replay(tmp_path / "run.txt", named_replay(run, "solve", name="Walk"))
     assert ticks_run() == WALK_END + 1
 
 

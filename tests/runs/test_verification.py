@@ -21,7 +21,7 @@ import pytest
 from ninja_game import parse_level
 from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import FileError, FormatError
-from ninja_game.files.reading import Beside, files_below
+from ninja_game.files.reading import IncludedFile, files_below
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.runs import archive as archives
@@ -42,7 +42,7 @@ from ninja_game.runs.recording_reader import Unreadable, records_of
 from ninja_game.runs.verify import Verdict, with_demands
 from ninja_game.runs.workers import JOB_SECONDS, WORKER_BYTES, ClusterError, Local, WorkerLostError, in_order, workers
 from ninja_game.sim.level import Level
-from ninja_game.sim.loader import record_table
+from ninja_game.sim.loader import object_table
 from tests.support.samples import (
     NO_NINJA,
     SPIKED,
@@ -411,7 +411,7 @@ def test_a_text_that_reads_what_was_not_put_inside_is_refused(tmp_path: Path) ->
     (tmp_path / "a.tas").write_text("Read,part\n")
     (tmp_path / "part.tas").write_text("  60,R\n")
     (chunk,) = chunks_in([tmp_path / "a.tas"])
-    (result,) = verify_chunk(replace(chunk, beside={"another.tas": Beside("x", "1")}), "plain", parse_level(WALK))
+    (result,) = verify_chunk(replace(chunk, beside={"another.tas": IncludedFile("x", "1")}), "plain", parse_level(WALK))
     assert isinstance(result, Unreadable)
     assert "was not read before" in result.message
 
@@ -451,10 +451,10 @@ def test_a_run_that_leaves_its_world_is_refused_by_name_and_stops_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def broken(level: Level) -> Any:
-        table = record_table(level)
+        table = object_table(level)
         return table._replace(counts=[]) if any(values[1] == 301.0 for values in table.values) else table
 
-    monkeypatch.setattr("ninja_game.sim.memory.compiled.record_table", broken)
+    monkeypatch.setattr("ninja_game.backend.compiled.object_table", broken)
     away = WALK + "!0^115,301"
     runs = ("Walk", WALK, running(WALK_END)), ("Away", away, running(WALK_END)), ("Walk", WALK, running(WALK_END))
     path = write_records(tmp_path / "a.txt", *runs)

@@ -25,7 +25,15 @@ from ninja_game.search.formula.language import FormulaError, parse_number, parse
 from ninja_game.search.formula.leg import LegSearch
 from ninja_game.search.formula.methods import count_ways, search_span
 from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
-from ninja_game.search.formula.task import NEAR, Found, SpanTask, SpanWorlds, score_text, target_of, ways_of
+from ninja_game.search.formula.task import (
+    SAME_WAY_PX,
+    SpanResult,
+    SpanTask,
+    SpanWorlds,
+    distinct_ways,
+    score_text,
+    target_of,
+)
 from ninja_game.search.searching import Search
 from ninja_game.sim.digest import state_digest
 from ninja_game.sim.inputs import with_press_bits
@@ -173,11 +181,11 @@ def test_an_unknown_object_is_named() -> None:
 # --- Spans ---
 
 
-def searched(task: SpanTask, *, rounds: int = 30, **options: object) -> tuple[Found, ...]:
+def searched(task: SpanTask, *, rounds: int = 30, **options: object) -> tuple[SpanResult, ...]:
     """A search of so many reports, on the plain memory where none is asked for."""
     reports: list[int] = []
 
-    def report(ticks: int, _: tuple[Found, ...]) -> bool:
+    def report(ticks: int, _: tuple[SpanResult, ...]) -> bool:
         reports.append(ticks)
         return len(reports) < rounds
 
@@ -278,23 +286,23 @@ def test_results_are_different_ways_and_sorted() -> None:
     assert list(found) == sorted(found)
     assert len(found) > 1
     for one, other in combinations(found, 2):
-        assert np.abs(one.path - other.path).max() > NEAR
+        assert np.abs(one.path - other.path).max() > SAME_WAY_PX
     assert len(searched(SpanTask(LEVEL, WAITING, 0, 30, goal="x > 110"))) == 1, "the way is straight"
 
 
 def test_of_one_way_and_of_what_is_beaten_the_best_stands() -> None:
-    def result(score: float, ticks: int, lift: float, gold: int = 0) -> Found:
+    def result(score: float, ticks: int, lift: float, gold: int = 0) -> SpanResult:
         path = np.column_stack([np.arange(ticks) * 4.0, np.full(ticks, lift)])
-        return Found(score, ticks, np.zeros(ticks, np.uint8), gold=gold, path=path)
+        return SpanResult(score, ticks, np.zeros(ticks, np.uint8), gold=gold, path=path)
 
     best, alike, later, higher = result(30, 30, 0), result(31, 31, 9), result(36, 36, 0), result(37, 37, 30)
     much_later, richer = result(45, 45, 0), result(40, 31, 0, gold=1)
-    assert ways_of([much_later, higher, alike, richer, later, best], measured=False) == [
+    assert distinct_ways([much_later, higher, alike, richer, later, best], measured=False) == [
         best, higher, richer, much_later
     ]  # fmt: skip
-    assert ways_of([much_later, higher, alike, best], measured=True) == [best]
+    assert distinct_ways([much_later, higher, alike, best], measured=True) == [best]
     sooner = result(50, 20, 60)
-    assert ways_of([sooner, best], measured=True) == [best, sooner], "it is there before"
+    assert distinct_ways([sooner, best], measured=True) == [best, sooner], "it is there before"
 
 
 @pytest.mark.parametrize(
@@ -424,7 +432,7 @@ def test_the_nearest_miss_is_told_ever_nearer_and_ends_where_it_says() -> None:
     """Nothing comes to the gold in 30 ticks; to the right of the ninja a mine kills what would be nearest to it."""
     level = parse_level("0" * 713 + "|5^100,566!0^400,566!12^150,566")
     task = SpanTask(level, bytes(40), 5, 35, goal="taken(1)")
-    misses: list[Found] = []
+    misses: list[SpanResult] = []
     assert not searched(task, rounds=8, missed=misses.append)
     ends = [each.missed_by for each in misses]
     assert None not in ends
@@ -442,13 +450,13 @@ def test_the_nearest_miss_is_told_ever_nearer_and_ends_where_it_says() -> None:
 
 def test_where_only_the_exit_is_missed_it_says_so() -> None:
     task = SpanTask(LEVEL, bytes(60), 0, 30, goal="x > 110", rest=True)
-    misses: list[Found] = []
+    misses: list[SpanResult] = []
     assert not searched(task, rounds=2, method="local", missed=misses.append)
     assert score_text(task, misses[-1]).endswith("but not the exit")
 
 
 def test_nothing_is_near_to_a_fact_that_is_not_so() -> None:
-    misses: list[Found] = []
+    misses: list[SpanResult] = []
     assert not searched(SpanTask(LEVEL, bytes(40), 0, 5, goal="dead"), rounds=3, missed=misses.append)
     assert not misses
 

@@ -23,7 +23,7 @@ from ninja_game.search.best_first import OTHER_ENDS
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.gold_beam import GoldBeam
 from ninja_game.search.heuristics import Heuristics
-from ninja_game.search.legs import MORE_THAN_ANY, Checkpoint, Frontier, Leg
+from ninja_game.search.legs import UNBOUNDED, Checkpoint, Frontier, Leg
 from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.route import Route
 from ninja_game.search.searching import Search
@@ -147,7 +147,7 @@ def test_a_leg_to_a_certain_switch_does_not_end_at_another_on_the_way() -> None:
 
     def ends(wanted: int) -> list[int]:
         field = partial(heuristics.field_to, (500.0, 566.0))
-        leg = Leg([root], MORE_THAN_ANY, 0, MORE_THAN_ANY, 4, 0, field, wanted)
+        leg = Leg([root], UNBOUNDED, 0, UNBOUNDED, 4, 0, field, wanted)
         search.begin_leg(leg, Resolution(), seed=1, bound=0)
         search.run_leg(300_000, lambda _: False, part=1_000)
         return [end.mask & far for end in search.ends()]

@@ -20,9 +20,9 @@ if not compiled_available():
 
 from ninja_game.search.certificate import (
     UnverifiedRunError,
-    named_run,
+    named_replay,
     rows_of,
-    smoothed,
+    smooth_run,
     verified_run,
     without_idle_keys,
 )
@@ -192,7 +192,7 @@ def test_a_level_without_a_ninja_is_refused() -> None:
 
 
 def test_the_replay_says_what_was_played() -> None:
-    replay = named_run(verified_run(WALK, bytes([2] * 40)), "solve", name="Walk")
+    replay = named_replay(verified_run(WALK, bytes([2] * 40)), "solve", name="Walk")
     assert str(replay.made) == "searched (solve)"
     assert (replay.final_tick, replay.outcome, replay.gold) == (WALK_TICKS, "exit", 1)
     assert len(replay.inputs) == WALK_TICKS + 1
@@ -215,6 +215,6 @@ def test_keys_that_do_nothing_are_those_of_the_run_that_was_begun_with() -> None
 def test_smoothing_leaves_out_keys_that_do_nothing() -> None:
     fidgety = bytes(1 if tick % 7 == 3 else 2 for tick in range(60))
     run = verified_run(WALK, fidgety)
-    smooth = verified_run(WALK, smoothed(WALK, run.inputs))
+    smooth = verified_run(WALK, smooth_run(WALK, run.inputs))
     assert smooth.end_tick <= run.end_tick
     assert rows_of(smooth.inputs) == [(2, smooth.end_tick + 1)]

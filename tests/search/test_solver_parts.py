@@ -14,6 +14,7 @@ from ninja_game.sim.level import Level
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
+from ninja_game.backend.plain import PlainWorlds
 from ninja_game.search.heuristics import POINTS, UNREACHED, Heuristics, open_mask, open_masks, point_at
 from ninja_game.search.legs import short_tour
 from ninja_game.search.local_search import (
@@ -44,7 +45,6 @@ from ninja_game.search.nodes import (
 from ninja_game.search.searching import Search
 from ninja_game.search.states import key_of, switch_state_of
 from ninja_game.sim.inputs import KEY_RIGHT, with_press_bits
-from ninja_game.sim.memory.plain import PlainWorlds
 from tests.support.heavy import heavy_level
 from tests.support.own_fields import own_fields_only
 

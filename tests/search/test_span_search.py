@@ -20,7 +20,7 @@ from ninja_game.search import solve as solve_module
 from ninja_game.search.formula import background
 from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.language import FormulaError
-from ninja_game.search.formula.task import Found, SpanTask
+from ninja_game.search.formula.task import SpanResult, SpanTask
 from ninja_game.search.task import Task
 from tests.support.waiting import LONGEST
 
@@ -34,7 +34,7 @@ def task(**changes: object) -> SpanTask:
     return SpanTask(LEVEL, WAITING, **given)
 
 
-def until_found(search: SpanSearch) -> Found:
+def until_found(search: SpanSearch) -> SpanResult:
     deadline = time.monotonic() + LONGEST
     while not search.found:
         assert time.monotonic() < deadline
@@ -90,9 +90,9 @@ def test_what_cannot_be_searched_is_said() -> None:
 def test_it_is_over_at_once_where_it_is_cancelled_while_kernels_are_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
     compiled, asked = Event(), Event()
 
-    def slow(_: SpanTask, report: Callable[[int, tuple[Found, ...]], bool], **__: object) -> None:
+    def slow(_: SpanTask, report: Callable[[int, tuple[SpanResult, ...]], bool], **__: object) -> None:
         assert compiled.wait(60.0)
-        assert not report(1, (Found(1.0, 1, np.zeros(1, np.uint8)),))
+        assert not report(1, (SpanResult(1.0, 1, np.zeros(1, np.uint8)),))
         asked.set()
 
     monkeypatch.setattr(background, "search_span", slow)
@@ -155,7 +155,7 @@ def test_what_a_run_gains_by_its_own_route_stays_beside_faster_runs(monkeypatch:
 
 def test_results_that_are_no_longer_shown_are_forgotten() -> None:
     search = SpanSearch(task())
-    one, two = (Found(1.0, 60, np.full(60, keys, np.uint8), bytes([keys]) * 60) for keys in (2, 3))
+    one, two = (SpanResult(1.0, 60, np.full(60, keys, np.uint8), bytes([keys]) * 60) for keys in (2, 3))
     assert search._without_junk((one, two), 60.0) != ()
     search._without_junk((two,), 60.0)
     assert list(search._tidy) == [two.inputs]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.backend.plain import PlainWorlds
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.plain import PlainWorlds
 
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)

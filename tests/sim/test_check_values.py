@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from ninja_game.backend.plain import load_plain
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
-from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.simulation import Simulation
 

@@ -10,13 +10,13 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from ninja_game import parse_level, run_level
+from ninja_game.backend.compiled import CompiledWorlds
+from ninja_game.backend.compiler import Compiler
 from ninja_game.backend.memories import compiled_available
 from ninja_game.backend.numba_import import import_numba
 from ninja_game.errors import LevelError
 from ninja_game.sim.kinds import GOLD, NINJA
 from ninja_game.sim.level import TILES, Level, ObjectSpec
-from ninja_game.sim.memory.compiled import CompiledWorlds
-from ninja_game.sim.memory.compiler import Compiler
 from ninja_game.simulation import Simulation
 from tests.support.memories import BOTH
 

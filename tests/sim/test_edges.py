@@ -6,11 +6,11 @@ import math
 
 import pytest
 
+from ninja_game.backend.plain import load_plain
 from ninja_game.sim.collision.tiles import COLUMN, EXISTS, NEIGHBOUR_OFFSET, ODD_HALF_ID, ROW, SHAPE, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at, cell_index
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import Level, ObjectSpec
-from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.rules import INTERESTING, OFF, SOLID, STRIDE
 
 FACES = {  # up, down, left, right, as world.md lists them

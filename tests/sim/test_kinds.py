@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 
+from ninja_game.backend.plain import PlainWorlds
 from ninja_game.budget import OBJECT_COSTS
 from ninja_game.editor.brush import OBJECT_TYPES
 from ninja_game.formats.ascii.legend import SYMBOLS
@@ -29,7 +30,6 @@ from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.kinds import INERT, KINDS, NINJA, NO_KIND, Kind
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.memory.object_fields import Header, Object
-from ninja_game.sim.memory.plain import PlainWorlds
 from ninja_game.sim.objects import dispatch
 from ninja_game.sim.rules import RADIUS
 from ninja_game.sim.traces import is_traced, status_of

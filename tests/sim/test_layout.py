@@ -6,22 +6,13 @@ from itertools import combinations
 
 import pytest
 
+from ninja_game.backend.compiled import CompiledWorlds
+from ninja_game.backend.compiler import Compiler
+from ninja_game.backend.layout import OBJECT, STATE_START, TILE_MAP, WORLD, bytes_of, dtype_of, new_worlds, used_bytes
 from ninja_game.backend.memories import compiled_available
 from ninja_game.backend.numba_import import import_numba, make_pipeline
 from ninja_game.sim.events import emit
-from ninja_game.sim.memory.compiled import CompiledWorlds
-from ninja_game.sim.memory.compiler import Compiler
 from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED, entry_point, f8, fields_of, struct_base
-from ninja_game.sim.memory.layout import (
-    OBJECT,
-    STATE_START,
-    TILE_MAP,
-    WORLD,
-    bytes_of,
-    dtype_of,
-    new_worlds,
-    used_bytes,
-)
 from ninja_game.sim.memory.object_fields import Header, Object
 from ninja_game.sim.memory.schema import CAPACITY
 from tests.support.crowded import crowded_inputs, crowded_level

@@ -8,7 +8,7 @@ from itertools import repeat
 from ninja_game import parse_level, record_replay, write_replay
 from ninja_game.formats.n14.demo import write_demo
 from ninja_game.formats.replay.headers import Waypoint
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -32,7 +32,7 @@ def record(frames: bytes = WALKING, level: str = WALK, name: str = "Walk", demo:
     return f"${name}#me#test#{level}#{demo or write_demo(Demo(frames, float(len(frames))))}#\n"
 
 
-PRACTISED = Made(played=True, assists=("practice",))
+PRACTISED = Provenance(played=True, assists=("practice",))
 
 
 def replay(frames: bytes = WALKING + b"\2", level: str = WALK, *, body: Body = "circle", **lies: object) -> str:

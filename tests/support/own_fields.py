@@ -16,11 +16,10 @@ from unittest.mock import patch
 
 import numpy as np
 
-from ninja_game.backend import memories
+from ninja_game.backend import layout, memories, plain
+from ninja_game.backend.layout import OBJECT, WORLD
 from ninja_game.sim.kinds import KIND_OF, KINDS
-from ninja_game.sim.memory import layout, plain
 from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.layout import OBJECT, WORLD
 from ninja_game.sim.memory.object_fields import Object
 
 FIELDS = [field.name for field in fields_of(Object)]

@@ -12,7 +12,7 @@ from unittest.mock import Mock, patch
 import numpy as np
 import pygame
 
-from ninja_game.search.formula.task import Found, SpanTask
+from ninja_game.search.formula.task import SpanResult, SpanTask
 from ninja_game.tas_editor.level import paths
 from ninja_game.tas_editor.level.part import LevelPart
 from ninja_game.tas_editor.opening import OpeningScreen
@@ -122,14 +122,14 @@ class FixedSearch:
         self.ticks_run, self.seconds = 2_500_000, 7.0
         self.own = self._found(task, 28, 1.5)
         self.found = self._found(task, 21, 2.25), self._found(task, 25, -1.5)
-        self.miss: Found | None = None
+        self.miss: SpanResult | None = None
 
     @staticmethod
-    def _found(task: SpanTask, ticks: int, speed: float) -> Found:
+    def _found(task: SpanTask, ticks: int, speed: float) -> SpanResult:
         keys = np.full(ticks, 2, np.uint8)
         inputs = task.inputs[: task.first] + keys.tobytes() + task.inputs[task.first + ticks :]
         path = np.full((ticks, 2), 99 * speed)
-        return Found(float(ticks), ticks, keys, inputs, 1, (310.0 + ticks, 400.0, speed, 0.0), path=path)
+        return SpanResult(float(ticks), ticks, keys, inputs, 1, (310.0 + ticks, 400.0, speed, 0.0), path=path)
 
     def start(self) -> None:
         """It has run already."""

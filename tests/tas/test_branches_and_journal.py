@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from ninja_game.errors import DAMAGED, FileError
-from ninja_game.files.locking import forget
+from ninja_game.files.locking import remove_abandoned
 from ninja_game.formats.load import load_replays
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.tas.files import open_run, save_run
@@ -194,7 +194,7 @@ def test_nobody_discards_what_another_window_goes_on_with(session: Session, tmp_
     (found,) = recovered(tmp_path)
     other = Session(found.opened, tmp_path, memory="plain")
     other.recover(found)
-    assert not forget(found.file)
+    assert not remove_abandoned(found.file)
     other.change(other.track.replaced(3, 4, [1]))
     other.journal.close(keep=True)
     assert [each.tracks[-1] for each in recovered(tmp_path)] == [other.track]

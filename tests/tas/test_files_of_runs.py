@@ -17,11 +17,11 @@ from ninja_game.formats import load
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.verify import Verdict
-from ninja_game.sim.inputs import fitted_inputs
+from ninja_game.sim.inputs import fit_inputs
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, save_run, track_of
 from ninja_game.tas.journal import FOLDER, recovered
@@ -80,7 +80,7 @@ def test_what_is_saved_opens_again_as_it_was(track: InputTrack, body: str) -> No
     assert replay is not None
     assert replay.level_author == "somebody"
     # Ticks without a key behind the end may go, and those up to an end soon behind the keys come; nothing else.
-    assert again.track.inputs == fitted_inputs(track.inputs, len(again.track))
+    assert again.track.inputs == fit_inputs(track.inputs, len(again.track))
     assert not any(track.inputs[len(again.track) :])
     assert again.track.markers == track.markers
     assert again.file.path == path
@@ -94,7 +94,7 @@ def test_an_exit_behind_the_last_key_is_saved(tmp_path: Path) -> None:
     again = saved_run(opened, short, path)
     assert again.recording.replay.outcome == "exit"
     assert again.recording.ticks > len(short)
-    assert again.track.inputs == fitted_inputs(short.inputs, again.recording.ticks)
+    assert again.track.inputs == fit_inputs(short.inputs, again.recording.ticks)
 
 
 def test_inputs_that_name_a_level_are_their_own_file(tmp_path: Path) -> None:
@@ -314,7 +314,7 @@ def test_names_come_from_load_replays(tmp_path: Path) -> None:
 
 def by_ann(path: Path, **about: Any) -> Session:
     """A session of Bob's with a run that Ann played."""
-    path.write_text(replay_of_walk(author="Ann", made=Made(played=True), **about), "utf-8")
+    path.write_text(replay_of_walk(author="Ann", made=Provenance(played=True), **about), "utf-8")
     return Session(open_run(path), path.parent, player="Bob", memory="plain")
 
 
@@ -322,7 +322,7 @@ def test_a_saved_run_says_how_often_it_was_edited_and_by_whom(tmp_path: Path) ->
     path = tmp_path / "walk.replay.txt"
     session = by_ann(path)
     session.change(session.track.named(3, "corner"))
-    assert session.about.replay.made == Made(played=True), "a name for a tick is no edit"
+    assert session.about.replay.made == Provenance(played=True), "a name for a tick is no edit"
     session.begin()
     for tick in (3, 4):
         session.change(session.track.replaced(tick, tick + 1, [0]))
@@ -330,11 +330,11 @@ def test_a_saved_run_says_how_often_it_was_edited_and_by_whom(tmp_path: Path) ->
     session.change(session.track.replaced(5, 6, [0]))
     session.save(path)
     replay = parse_replay(path.read_text("utf-8"))
-    assert replay.made == Made(played=True, edits=2, begun_by="Ann")
+    assert replay.made == Provenance(played=True, edits=2, begun_by="Ann")
     assert (replay.author, replay.co_authors) == ("Ann", ("Bob",))
     session.undo()
     session.undo()
-    assert session.about.replay.made == Made(played=True), "the keys are Ann's again"
+    assert session.about.replay.made == Provenance(played=True), "the keys are Ann's again"
     session.close()
 
 
@@ -342,11 +342,11 @@ def test_keys_that_are_taken_bring_their_authors_and_searches_along(tmp_path: Pa
     path = tmp_path / "walk.replay.txt"
     session = by_ann(path)
     found = Contributions.of(
-        Recording(LEVEL, parse_replay(replay_of_walk(author="Cy", made=Made(searches=("solve",)))))
+        Recording(LEVEL, parse_replay(replay_of_walk(author="Cy", made=Provenance(searches=("solve",)))))
     )
     session.change(session.track.replaced(5, 6, [0]), taken=found)
     session.change(session.track.replaced(6, 7, [0]), taken=Contributions(commands=("search",)))
-    expected = Made(played=True, edits=2, searches=("solve", "search"), begun_by="Ann"), ("Bob", "Cy")
+    expected = Provenance(played=True, edits=2, searches=("solve", "search"), begun_by="Ann"), ("Bob", "Cy")
     assert (session.about.replay.made, session.about.replay.co_authors) == expected
     session.close(keep=True)
     (lost,) = recovered(tmp_path)
@@ -371,7 +371,7 @@ def test_what_is_undone_is_credited_no_longer(tmp_path: Path) -> None:
     session.keep_branch("theirs")
     session.undo()
     session.change(session.track.replaced(9, 10, [0]))
-    own = Made(played=True, edits=1, begun_by="Ann"), ("Bob",)
+    own = Provenance(played=True, edits=1, begun_by="Ann"), ("Bob",)
     assert (session.about.replay.made, session.about.replay.co_authors) == own
     session.checkout_branch(1)
     assert session.about.replay.co_authors == theirs
@@ -393,12 +393,12 @@ def test_what_commands_searched_from_nobodys_run_has_no_author() -> None:
     def names(**about: object) -> tuple[str, ...]:
         return Contributions.of(Recording(LEVEL, parse_replay(replay_of_walk(**about)), file="s1.replay.txt")).names
 
-    searched = Made(searches=("search",))
+    searched = Provenance(searches=("search",))
     assert names(made=searched) == ()
     assert names(made=searched, author="Ann") == ("Ann",)
     assert names(made=searched._replace(begun_by="Ann")) == ("Ann",)
     assert names(made=searched, co_authors=("Bob",)) == ("Bob",)
-    for made in (Made(), searched._replace(edits=1), searched._replace(played=True)):
+    for made in (Provenance(), searched._replace(edits=1), searched._replace(played=True)):
         assert names(made=made) == ("unknown (s1.replay.txt)",)
 
 
@@ -415,7 +415,7 @@ def test_the_name_in_a_record_of_n_is_no_players(tmp_path: Path) -> None:
     assert (saved.author, saved.co_authors, saved.level_author) == ("Bob", ("unknown (demos.txt)",), "me")
     assert saved.made.begun_by == "unknown (demos.txt)"
     session.close()
-    ours = replace(other, replay=replace(other.replay, made=Made(edits=1)))
+    ours = replace(other, replay=replace(other.replay, made=Provenance(edits=1)))
     assert Contributions.of(ours).names == ("me",)
 
 

@@ -16,7 +16,7 @@ from ninja_game.runs import save_states
 from ninja_game.runs.save_states import SaveStates
 from ninja_game.runs.trace import trace_level
 from ninja_game.search.formula.names import FLAGS, NAMES, view_of
-from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs, with_press_bits
+from ninja_game.sim.inputs import MAX_TICKS, fit_inputs, with_press_bits
 from ninja_game.simulation import Simulation
 from ninja_game.tas.timeline import AFTERMATH, Timeline, exit_distance, parse_watch
 from ninja_game.tas.tracks import InputTrack
@@ -34,7 +34,7 @@ RUNS = {
 
 def check(timeline: Timeline) -> None:
     """Compare every row with a straight run."""
-    straight = trace_level(timeline.level, fitted_inputs(timeline.inputs, len(timeline)), memory="plain", events=True)
+    straight = trace_level(timeline.level, fit_inputs(timeline.inputs, len(timeline)), memory="plain", events=True)
     valid = timeline.simulated_until
     for name in ("x", "y", "prev_x", "prev_y", "gold"):
         assert timeline.column(name).tobytes() == straight.ninja[name][:valid].tobytes(), name
@@ -105,7 +105,7 @@ def test_states_of_a_timeline_begin_simulations() -> None:
         world = Simulation(recording.level, memory="plain")
         world.restore(state)
         straight = Simulation(recording.level, memory="plain")
-        for keys in fitted_inputs(timeline.inputs, state.tick):
+        for keys in fit_inputs(timeline.inputs, state.tick):
             straight.step_keys(keys)
         assert world.digest() == straight.digest()
 
@@ -151,7 +151,7 @@ def test_watched_values_are_those_of_a_search(name: str, memory: str) -> None:
         formulas += [f"{what}({id_})" for what in FLAGS if kind in FLAGS[what]]
     watched = {text: parse_watch(text).values(timeline) for text in formulas}
     batch = Batch(recording.level, 1, memory="plain")
-    for tick, keys in enumerate(fitted_inputs(inputs, len(timeline))):
+    for tick, keys in enumerate(fit_inputs(inputs, len(timeline))):
         batch.run([[keys]])
         view = view_of(batch)
         for text in formulas:

@@ -21,7 +21,7 @@ from ninja_game.files.user_folder import bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.run import record_replay
 from ninja_game.web.board import collect
@@ -110,7 +110,7 @@ def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_pa
 
 def test_who_has_only_assisted_runs_is_among_the_players_too(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"))
-    put(runs, "b.txt", replay(author="Bot", made=Made(edits=7)))
+    put(runs, "b.txt", replay(author="Bot", made=Provenance(edits=7)))
     pages = board_of(runs, levels, tmp_path / "site")
     index, played, assisted = ((pages / f"{name}.html").read_text("utf-8") for name in ("index", "players", "assisted"))
     for ladder, player in (("played", "Ann"), ("assisted", "Bot")):
@@ -124,7 +124,7 @@ def test_runs_of_both_ladders_stand_side_by_side(runs: Path, levels: Path, tmp_p
     level = board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html"
     page = level.read_text("utf-8")
     assert (page.count('class="way"'), 'id="splits"' in page) == (2, False), "a path for one run: line and legend"
-    put(runs, "bot.txt", replay(author="Bot", made=Made(edits=7)))
+    put(runs, "bot.txt", replay(author="Bot", made=Provenance(edits=7)))
     board_of(runs, levels, tmp_path / "site")
     page = level.read_text("utf-8")
     splits = page.partition('<section id="splits">')[2]
@@ -138,7 +138,7 @@ def test_a_batch_is_one_row_of_the_first_page(
     runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"))
-    put(runs, "b.txt", replay(author="Bot", made=Made(edits=7)))
+    put(runs, "b.txt", replay(author="Bot", made=Provenance(edits=7)))
     for most, rows, told in ((2, 2, False), (1, 1, True)):
         monkeypatch.setattr("ninja_game.web.board.pages.MOST_OF_A_MOMENT", most)
         index = (board_of(runs, levels, tmp_path / f"{most}") / "index.html").read_text("utf-8")
@@ -152,7 +152,7 @@ def test_a_batch_is_one_row_of_the_first_page(
 
 def test_levels_have_the_best_of_each_ladder(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"))
-    put(runs, "b.txt", replay(author="Bot", made=Made(edits=7)))
+    put(runs, "b.txt", replay(author="Bot", made=Provenance(edits=7)))
     site = board_of(runs, levels, tmp_path / "site")
     page = (site / "levels.html").read_text("utf-8")
     assert re.findall('<th scope="col">([^<]+)', page)[-4:] == [
@@ -193,7 +193,7 @@ def test_what_decides_between_runs_with_one_number_is_said(runs: Path, levels: P
     level = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     assert re.findall("<td>(same[^<]*|equal[^<]*)<", level) == ["same value, slower", "equal, later in"]
     (folder,) = {run.folder for run in ranking.judged.runs}
-    assert folder.drawn == folder.known == {}, "nothing of a run is kept when its pages are written"
+    assert not [*folder.drawn, *folder.known], "nothing of a run is kept when its pages are written"
 
 
 def test_splits_lead_to_numbers_in_the_picture(runs: Path, levels: Path, tmp_path: Path) -> None:
@@ -670,7 +670,7 @@ def test_no_number_and_no_date_is_broken(width: int, chromium: Any, runs: Path, 
 
 def test_what_does_not_count_is_said_in_plain_words(runs: Path, levels: Path) -> None:
     put(runs, "other.txt", replay(level=f"{WALK}!0^400,100", level_name="My <b>cave</b>"))
-    put(runs, "slow.txt", replay(made=Made(played=True, assists=("slow motion",))))
+    put(runs, "slow.txt", replay(made=Provenance(played=True, assists=("slow motion",))))
     found = with_demands(runs, levels).rejected
     assert [each.kind for each in found] == ["refused", "practice"]
     assert found[0].why.startswith("'My <b>cave</b>' is not one of the levels that count; its level_digest begins")

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.play.replay.paths import paths_picture
 from ninja_game.ui.theme import PALETTES, RUN_COLOURS
 from tests.support.board import HOSTILE, put, slow_walk, taken_in_earlier
@@ -40,14 +40,14 @@ def answer(folder: Path, pack: Path, *words: str) -> list[dict[str, object]]:
 
 
 def test_a_level_with_assisted_runs_alone_says_so(runs: Path, levels: Path) -> None:
-    put(runs, "bot.txt", replay(author="Bot", made=Made(edits=3)))
+    put(runs, "bot.txt", replay(author="Bot", made=Provenance(edits=3)))
     code, text = ask(runs, levels, "rank", "Walk")
     assert (code, "on Walk yet; assisted: 1, with --assisted" in text) == (2, True), text
 
 
 def test_players_of_both_ladders_are_compared(folder: Path, levels: Path) -> None:
-    put(folder, "tool.txt", replay(bytes(3) + WALKING + b"\2", author="Ann", made=Made(edits=3)))
-    put(folder, "bot.txt", replay(bytes(4) + WALKING + b"\2", author="Bot", made=Made(edits=3)))
+    put(folder, "tool.txt", replay(bytes(3) + WALKING + b"\2", author="Ann", made=Provenance(edits=3)))
+    put(folder, "bot.txt", replay(bytes(4) + WALKING + b"\2", author="Bot", made=Provenance(edits=3)))
     code, text = ask(folder, levels, "splits", "Walk", "Ann", "Bot", "Ann, assisted")
     head = next(line for line in text.splitlines() if line.startswith("split"))
     assert (code, text.splitlines()[0][:11], head.endswith("Bot, assisted  Ann, assisted")) == (0, "Ann, played", True)
@@ -155,7 +155,7 @@ def test_a_board_remembers_its_levels(folder: Path, levels: Path) -> None:
 
 
 def test_who_has_no_run_is_told_near_names_once(folder: Path, levels: Path) -> None:
-    put(folder, "tool.txt", replay(bytes(3) + WALKING + b"\2", author="Ann", made=Made(edits=3)))
+    put(folder, "tool.txt", replay(bytes(3) + WALKING + b"\2", author="Ann", made=Provenance(edits=3)))
     assert ask(folder, levels, "best", "Walk", "Anne")[1].endswith("'Anne' has no run there; players: Ann\n")
     code, text = ask(folder, levels, "best", "Walk", "Zoe")
     assert (code, text.count("Ann"), text.count("Bea")) == (2, 1, 1)

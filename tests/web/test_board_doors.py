@@ -23,7 +23,7 @@ from ninja_game.cli.main import cli
 from ninja_game.files.user_folder import bundled_replays, data_folder
 from ninja_game.formats.lines import MOST_NAME
 from ninja_game.formats.load import load_replays
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay, run_level
 from ninja_game.web.board.copies import ALIGNED, SHIFTED, Course, Courses, _near_to_another, course_of, edit_distance
@@ -268,8 +268,8 @@ def test_a_run_that_cannot_be_written_stops_no_page(
     put(runs, "ann.txt", slow_walk(author="Ann"))
     put(runs, "bea.txt", record().replace("#test#", f"#{odd}#"))
     if odd == "odd":
-        unwritten = Made(edits=3, begun_by="B" * 1500)
-        monkeypatch.setattr("ninja_game.formats.recording.without_made", lambda comment: (comment, unwritten, ()))
+        unwritten = Provenance(edits=3, begun_by="B" * 1500)
+        monkeypatch.setattr("ninja_game.formats.recording.without_provenance", lambda comment: (comment, unwritten, ()))
     code, text = board(runs, levels, "--site", str(tmp_path / "site"))
     assert (code, "unreadable: bea.txt: not how a run is made" in text) == (0, odd == "odd"), text
     assert (tmp_path / "site" / "board" / "index.html").exists()

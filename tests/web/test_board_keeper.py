@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from tests.support.board import DIGEST, HOSTILE, board, put, slow_walk, taken_in_earlier
 from tests.support.forgeries import replay
 
@@ -26,7 +26,7 @@ def ledger(runs: Path, levels: Path, tmp_path: Path) -> Path:
     """The ledger of a board of two played runs, the first one by Ann, and an assisted one."""
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
-    put(runs, "tool.txt", replay(bytes(3) + bytes([2] * 30), author="Tool", made=Made(edits=3)))
+    put(runs, "tool.txt", replay(bytes(3) + bytes([2] * 30), author="Tool", made=Provenance(edits=3)))
     taken_in_earlier(runs, levels, data := tmp_path / "board.json")
     return data
 
@@ -158,7 +158,7 @@ def test_a_batch_is_one_entry_of_the_feed(
     runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"))
-    put(runs, "b.txt", replay(author="Bot", made=Made(edits=7)))
+    put(runs, "b.txt", replay(author="Bot", made=Provenance(edits=7)))
     for most, entries in ((2, 2), (1, 1)):
         monkeypatch.setattr("ninja_game.web.board.pages.MOST_OF_A_MOMENT", most)
         board(runs, levels, "--json", str(tmp_path / "board.json"), "--site", str(tmp_path / "site"))

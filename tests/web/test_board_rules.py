@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.web.board.judge import judge
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.rules import FASTEST, MOST_CATEGORIES, NAMES, USUAL, Category, read_categories
@@ -21,7 +21,7 @@ from tests.support.board import DIGEST, Tags, board, put, slow_walk
 from tests.support.forgeries import GOLD_LATER, WALKING, replay
 from tests.support.samples import WALK_END
 
-SEARCHED = Made(edits=3, searches=("improve",), begun_by="Ann")
+SEARCHED = Provenance(edits=3, searches=("improve",), begun_by="Ann")
 RULES = Path("docs/board-template/board.toml")
 
 
@@ -36,7 +36,7 @@ def category(name: str = "A", **more: object) -> str:
 
 def test_an_assisted_run_is_on_a_ladder_of_its_own(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "ann.txt", slow_walk(author="Ann"))
-    put(runs, "bea.txt", replay(bytes(9) + WALKING + b"\2", author="Bea", made=Made(played=True)))
+    put(runs, "bea.txt", replay(bytes(9) + WALKING + b"\2", author="Bea", made=Provenance(played=True)))
     put(runs, "tas.txt", replay(author="Ann", made=SEARCHED, co_authors=("<b>Eve</b>",)))
     shown = published_levels(levels)
     ranking = Ranking(judge(runs, shown, jobs=1), shown)

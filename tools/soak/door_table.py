@@ -24,7 +24,7 @@ from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import file_stem, shown_text
 from ninja_game.files.user_folder import RECORDS
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.ascii.writer import same_record, write_ascii_level
+from ninja_game.formats.ascii.writer import same_spec, write_ascii_level
 from ninja_game.formats.links import is_link, read_link, recordings_of as watched_recordings, watched, write_link
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
@@ -139,7 +139,7 @@ def _level_string(text: str) -> None:
         level_warnings(level)
     again = parse_ascii_level(write_ascii_level(level)).level
     _same("a level", again.tiles, level.tiles)
-    if len(again.objects) != len(level.objects) or not all(map(same_record, again.objects, level.objects)):
+    if len(again.objects) != len(level.objects) or not all(map(same_spec, again.objects, level.objects)):
         raise AssertionError("objects change when they are written as an ASCII level")
     exact = parse_level_string(write_level_string(level, exact=True))
     _same("an exact string", (level_digest(exact), len(exact.objects)), (level_digest(level), len(level.objects)))

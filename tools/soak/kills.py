@@ -30,7 +30,7 @@ from typing import Any, NamedTuple, NoReturn
 from ninja_game.editor.files import recovered
 from ninja_game.errors import NinjaGameError
 from ninja_game.files import writing
-from ninja_game.files.locking import hold
+from ninja_game.files.locking import try_lock
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.named_level import NamedLevel
@@ -290,7 +290,7 @@ def await_locks(folder: Path) -> None:
     """Wait until the system has freed the locks of a process that has died: on some systems that takes a moment."""
     end = time.monotonic() + PATIENCE
     for file in (folder / journal.FOLDER).glob("*.jsonl"):
-        while (handle := hold(file.with_suffix(".lock"))) is None and time.monotonic() < end:
+        while (handle := try_lock(file.with_suffix(".lock"))) is None and time.monotonic() < end:
             time.sleep(0.01)
         if handle is not None:
             os.close(handle)

@@ -122,7 +122,7 @@ _FACING = {
 _PADS = {symbol.values: symbol.char for symbol in SYMBOLS if symbol.kind == kinds.LAUNCH_PAD and symbol.values}
 
 
-class Part(NamedTuple):
+class Glyph(NamedTuple):
     """A character that an object puts into the picture, and its cell (column 1…31, row 1…23)."""
 
     char: str
@@ -130,10 +130,10 @@ class Part(NamedTuple):
     row: int
 
 
-def symbol_chars(record: ObjectSpec) -> tuple[tuple[str, float, float], ...]:
+def symbol_chars(spec: ObjectSpec) -> tuple[tuple[str, float, float], ...]:
     """The characters that could draw an object, each with the px point it stands for; none for what has no picture."""
-    kind, values = record.kind, record.values
-    if not well_formed(record):
+    kind, values = spec.kind, spec.values
+    if not well_formed(spec):
         return ()
     x, y = values[:2]
     if kind == kinds.EXIT:
@@ -151,14 +151,14 @@ def symbol_chars(record: ObjectSpec) -> tuple[tuple[str, float, float], ...]:
     return ((char, x, y),) if char else ()
 
 
-def visible_parts(record: ObjectSpec) -> list[Part]:
+def visible_glyphs(spec: ObjectSpec) -> list[Glyph]:
     """What an object looks like in the picture: only the parts that sit just where a character would put them."""
     parts = []
-    for char, x, y in symbol_chars(record):
+    for char, x, y in symbol_chars(spec):
         symbol = SYMBOL_OF_CHAR[char]
         column, row = (x - symbol.dx - HALF) / CELL, (y - symbol.dy - HALF) / CELL
         if column.is_integer() and row.is_integer() and 1 <= column <= COLUMNS and 1 <= row <= ROWS:
-            parts.append(Part(char, int(column), int(row)))
+            parts.append(Glyph(char, int(column), int(row)))
     return parts
 
 

@@ -97,7 +97,7 @@ def door_middle(values: Sequence[float]) -> tuple[float, float]:
     return (x, y + HALF) if values[2] else (x + HALF, y)
 
 
-def record_values(keyword: str, place: Token, given: Mapping[str, Token]) -> tuple[float, ...]:
+def object_values(keyword: str, place: Token, given: Mapping[str, Token]) -> tuple[float, ...]:
     """The values of the record that a line stands for; ``given``: property or keyword to its word.
 
     Raises LevelError with the column of the word that cannot be read.
@@ -158,16 +158,16 @@ _SYNONYMS = {
 """Other words for sides and directions."""
 
 
-class Listed(NamedTuple):
+class ListedObject(NamedTuple):
     """An object that a line of the list creates, and where its place stands: the column, and the line if known."""
 
-    record: ObjectSpec
+    spec: ObjectSpec
     column: int
     line: int = 0
 
 
 class OddTile(NamedTuple):
-    """A cell whose tile id no character draws, and where its place stands, as of ``Listed``."""
+    """A cell whose tile id no character draws, and where its place stands, as of ``ListedObject``."""
 
     cell: tuple[int, int]
     id: int
@@ -194,7 +194,7 @@ def suggestion(found: str, known: Iterable[str]) -> str:
     return f"known are {', '.join(known)}"
 
 
-def read_object_line(text: str) -> list[Listed] | list[OddTile]:
+def read_object_line(text: str) -> list[ListedObject] | list[OddTile]:
     """The objects (or odd tiles) of one line of the list, in order; empty for a blank or comment line.
 
     Raises LevelError with the column, without file and line.
@@ -212,7 +212,8 @@ def read_object_line(text: str) -> list[Listed] | list[OddTile]:
         column = tokens[-1].column + len(tokens[-1].text)
         raise LevelError(f"'{keyword}' without a place", column=column, expected=f"{keyword} 5,7 (column,row)")
     return [
-        Listed(ObjectSpec(FORMS[keyword].kind, record_values(keyword, place, given)), place.column) for place in places
+        ListedObject(ObjectSpec(FORMS[keyword].kind, object_values(keyword, place, given)), place.column)
+        for place in places
     ]
 
 
@@ -296,7 +297,7 @@ def _read_tiles(tokens: Sequence[Token]) -> list[OddTile]:
     return [OddTile(at_token(token, read_cell), int(number.text), token.column) for token in tokens[1:-2]]
 
 
-def _read_raw(tokens: Sequence[Token]) -> Listed:
+def _read_raw(tokens: Sequence[Token]) -> ListedObject:
     """``raw TYPE V,V,… "text"``; each part may be missing, a missing type is -1."""
     rest = list(tokens[1:])
     kind, text = -1, ""
@@ -311,7 +312,7 @@ def _read_raw(tokens: Sequence[Token]) -> Listed:
     if rest or len(tokens) == 1:
         column = rest[0].column if rest else tokens[0].column
         raise LevelError("not a raw record", column=column, expected=shape)
-    return Listed(ObjectSpec(kind, values, text), tokens[0].column)
+    return ListedObject(ObjectSpec(kind, values, text), tokens[0].column)
 
 
 def _read_string(text: str) -> str:

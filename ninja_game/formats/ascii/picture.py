@@ -11,8 +11,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.legend import ODD_TILE, SYMBOL_OF_CHAR, TILE_CHARS, TILE_OF_CHAR, Symbol, visible_parts
-from ninja_game.formats.ascii.object_lines import Listed, OddTile
+from ninja_game.formats.ascii.legend import ODD_TILE, SYMBOL_OF_CHAR, TILE_CHARS, TILE_OF_CHAR, Symbol, visible_glyphs
+from ninja_game.formats.ascii.object_lines import ListedObject, OddTile
 from ninja_game.formats.ascii.places import Cell, middle_of, shown
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
@@ -196,7 +196,7 @@ _NEEDED_LINES = {
 
 
 def merge_picture_and_list(
-    picture: Picture, objects: Sequence[Listed], tiles: Sequence[OddTile], problems: Problems
+    picture: Picture, objects: Sequence[ListedObject], tiles: Sequence[OddTile], problems: Problems
 ) -> Level:
     """The level: drawn objects that no line mentions (ninjas first, then in reading order), then the list in order.
 
@@ -218,18 +218,18 @@ def merge_picture_and_list(
                          hint=f"add a line below the picture, such as: {example}")  # fmt: skip
         else:
             drawn.append((cell, symbol))
-    records = _drawn_records(picture, drawn, problems) + [placed.record for placed in objects]
-    return Level(tuple(_tiles(picture, tiles, problems)), tuple(records))
+    specs = _drawn_specs(picture, drawn, problems) + [placed.spec for placed in objects]
+    return Level(tuple(_tiles(picture, tiles, problems)), tuple(specs))
 
 
 def _mentioned(
-    picture: Picture, objects: Iterable[Listed], problems: Problems
-) -> tuple[set[Cell], dict[Cell, tuple[Listed, Symbol]]]:
+    picture: Picture, objects: Iterable[ListedObject], problems: Problems
+) -> tuple[set[Cell], dict[Cell, tuple[ListedObject, Symbol]]]:
     """Cells whose drawn object a line speaks of; cells where a line has another form of the same kind."""
     mentioned: set[Cell] = set()
-    conflicts: dict[Cell, tuple[Listed, Symbol]] = {}
+    conflicts: dict[Cell, tuple[ListedObject, Symbol]] = {}
     for placed in objects:
-        for part in visible_parts(placed.record):
+        for part in visible_glyphs(placed.spec):
             cell, wanted = (part.column, part.row), SYMBOL_OF_CHAR[part.char]
             char = picture.char(cell)
             if char == part.char:
@@ -254,7 +254,7 @@ def point_of(cell: Cell, symbol: Symbol) -> tuple[float, float]:
     return x + symbol.dx, y + symbol.dy
 
 
-def _drawn_records(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], problems: Problems) -> list[ObjectSpec]:
+def _drawn_specs(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], problems: Problems) -> list[ObjectSpec]:
     """Records of the objects that the picture alone creates."""
     exits = [cell for cell, symbol in drawn if symbol.char == "X"]
     switches = [cell for cell, symbol in drawn if symbol.char == "x"]
@@ -276,8 +276,8 @@ def _drawn_records(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], probl
                 switch = point_of(switches[0], SYMBOL_OF_CHAR["x"])
                 others.append(ObjectSpec(EXIT, (*point_of(cell, symbol), *switch)))
         else:
-            record = ObjectSpec(symbol.kind, (*point_of(cell, symbol), *(symbol.values or ())))
-            (ninjas if symbol.kind == NINJA else others).append(record)
+            spec = ObjectSpec(symbol.kind, (*point_of(cell, symbol), *(symbol.values or ())))
+            (ninjas if symbol.kind == NINJA else others).append(spec)
     return ninjas + others
 
 

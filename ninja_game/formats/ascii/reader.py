@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.object_lines import Listed, OddTile, read_object_line, suggestion
+from ninja_game.formats.ascii.object_lines import ListedObject, OddTile, read_object_line, suggestion
 from ninja_game.formats.ascii.picture import ROW_END, ROW_START, Problems, merge_picture_and_list, read_picture
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION
 from ninja_game.formats.lines import MOST_NAME, UNCOMMENTED, Line, numbered_lines, read_quoted
-from ninja_game.formats.sayings import read_sayings
+from ninja_game.formats.messages import parse_messages
 from ninja_game.sim.level import Level
 
 
@@ -112,14 +112,14 @@ def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
                 problems.add(what, number, found=shown(fields[key]), expected=f"at most {MOST_NAME:,}")
             elif key == "says":
                 try:
-                    read_sayings(fields[key])
+                    parse_messages(fields[key])
                 except LevelError as error:
                     problems.add_error(error, number)
     return fields
 
 
-def _read_list(lines: Sequence[Line], problems: Problems) -> tuple[list[Listed], list[OddTile]]:
-    objects: list[Listed] = []
+def _read_list(lines: Sequence[Line], problems: Problems) -> tuple[list[ListedObject], list[OddTile]]:
+    objects: list[ListedObject] = []
     tiles: list[OddTile] = []
     for number, line in lines:
         if problems.full:

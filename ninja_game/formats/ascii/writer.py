@@ -14,9 +14,9 @@ from ninja_game.formats.ascii.legend import (
     PAD_NORMALS,
     SYMBOL_OF_CHAR,
     TILE_CHARS,
-    Part,
+    Glyph,
     legend_text,
-    visible_parts,
+    visible_glyphs,
 )
 from ninja_game.formats.ascii.object_lines import (
     DOORS,
@@ -24,7 +24,7 @@ from ninja_game.formats.ascii.object_lines import (
     MOVEMENTS,
     SIDES,
     WEAPONS,
-    Listed,
+    ListedObject,
     door_middle,
     natural_offset,
     read_object_line,
@@ -62,7 +62,7 @@ def write_ascii_level(
     Objects keep their ids: as many as the picture puts in the right order are only drawn, the others are listed too.
     ``legend`` adds the meaning of all characters as comment lines.
     """
-    parts = [visible_parts(record) for record in level.objects]
+    parts = [visible_glyphs(spec) for spec in level.objects]
     drawn = drawn_only(level, parts)
     rows = picture_rows(level, parts)
     fields = zip(HEADER_KEYS, (name, author, comment, teaches, says), strict=True)
@@ -86,7 +86,7 @@ def _tile_char(number: int) -> str:
     return TILE_CHARS[number] if 0 <= number < len(TILE_CHARS) else ODD_TILE
 
 
-def picture_rows(level: Level, parts: Sequence[Sequence[Part]]) -> list[str]:
+def picture_rows(level: Level, parts: Sequence[Sequence[Glyph]]) -> list[str]:
     """Rows of characters; where several objects share a cell the first one shows."""
     cells = {
         (column, row): _tile_char(level.tile(column, row))
@@ -110,23 +110,23 @@ def tile_lines(level: Level) -> list[str]:
     return [f"tile {' '.join(cells)} id {number}" for number, cells in places.items()]
 
 
-def drawn_only(level: Level, parts: Sequence[Sequence[Part]]) -> int:
+def drawn_only(level: Level, parts: Sequence[Sequence[Glyph]]) -> int:
     """How many of the first records the picture alone creates, in this very order."""
     claims = Counter((column, row, SYMBOL_OF_CHAR[char].kind) for group in parts for char, column, row in group)
     taken: set[Cell] = set()
     last = (-1, 0, 0)
     pairs = 0
-    for count, (record, group) in enumerate(zip(level.objects, parts, strict=True)):
-        if not group or not same_record(record, _as_drawn(record.kind, group)):
+    for count, (spec, group) in enumerate(zip(level.objects, parts, strict=True)):
+        if not group or not same_spec(spec, _as_drawn(spec.kind, group)):
             return count
         cells = {(column, row) for _, column, row in group}
-        place = (int(record.kind != NINJA), group[0].row, group[0].column)
-        pairs += record.kind == EXIT
+        place = (int(spec.kind != NINJA), group[0].row, group[0].column)
+        pairs += spec.kind == EXIT
         if (
             place <= last
             or pairs > 1
             or cells & taken
-            or any(level.tile(*cell) != 0 or claims[(*cell, record.kind)] > 1 for cell in cells)
+            or any(level.tile(*cell) != 0 or claims[(*cell, spec.kind)] > 1 for cell in cells)
         ):
             return count
         taken |= cells
@@ -134,7 +134,7 @@ def drawn_only(level: Level, parts: Sequence[Sequence[Part]]) -> int:
     return len(level.objects)
 
 
-def _as_drawn(kind: int, group: Sequence[Part]) -> ObjectSpec:
+def _as_drawn(kind: int, group: Sequence[Glyph]) -> ObjectSpec:
     """What the picture makes of an object's characters if no line mentions it; no valid record if it needs a line."""
     values: tuple[float, ...] = ()
     for char, column, row in group:
@@ -148,19 +148,19 @@ def _as_drawn(kind: int, group: Sequence[Part]) -> ObjectSpec:
 _LINE_WIDTH = 100
 
 
-def same_record(a: ObjectSpec, b: ObjectSpec) -> bool:
+def same_spec(a: ObjectSpec, b: ObjectSpec) -> bool:
     """Whether two records are the same in kind, text and every bit of their values."""
     return (a.kind, a.text, len(a.values)) == (b.kind, b.text, len(b.values)) and all(
         map(same_bits, a.values, b.values)
     )
 
 
-def write_object_lines(records: Sequence[ObjectSpec]) -> list[str]:
+def write_object_lines(specs: Sequence[ObjectSpec]) -> list[str]:
     """Lines of the list that create just these records, in order; neighbours of one kind share a line."""
     lines: list[str] = []
     head = tail = ""
-    for record in records:
-        keyword, place, words = _readable(record)
+    for spec in specs:
+        keyword, place, words = _readable(spec)
         single = keyword not in FORMS or FORMS[keyword].single
         if not single and (keyword, words) == (head, tail) and len(lines[-1]) + len(place) < _LINE_WIDTH:
             stem = lines[-1].removesuffix(words) if words else lines[-1]
@@ -171,26 +171,26 @@ def write_object_lines(records: Sequence[ObjectSpec]) -> list[str]:
     return lines
 
 
-def _readable(record: ObjectSpec) -> tuple[str, str, str]:
+def _readable(spec: ObjectSpec) -> tuple[str, str, str]:
     """Keyword, place and further words of a record's line; ``raw`` if no form gives it back to the last bit."""
-    keyword, place, words = best_form(record)
+    keyword, place, words = best_form(spec)
     if keyword:
         listed = read_object_line(f"{keyword} {place} {words}")
-        if len(listed) == 1 and isinstance(listed[0], Listed) and same_record(listed[0].record, record):
+        if len(listed) == 1 and isinstance(listed[0], ListedObject) and same_spec(listed[0].spec, spec):
             return keyword, place, words
-    text = json.dumps(record.text) if record.text or record.kind == -1 else ""
-    kind = "" if record.kind == -1 and not record.values else str(record.kind)
-    return "raw", kind, f"{','.join(map(number_text, record.values))} {text}".strip()
+    text = json.dumps(spec.text) if spec.text or spec.kind == -1 else ""
+    kind = "" if spec.kind == -1 and not spec.values else str(spec.kind)
+    return "raw", kind, f"{','.join(map(number_text, spec.values))} {text}".strip()
 
 
 def _word(vocabulary: Mapping[str, float], value: float) -> str:
     return next((word for word, number in vocabulary.items() if number == value), "")
 
 
-def best_form(record: ObjectSpec) -> tuple[str, str, str]:
+def best_form(spec: ObjectSpec) -> tuple[str, str, str]:
     """The form that fits a record's kind; keyword '' if none does. Not yet sure to give it back exactly."""
-    kind, values = record.kind, record.values
-    if not well_formed(record) or record.text:
+    kind, values = spec.kind, spec.values
+    if not well_formed(spec) or spec.text:
         return "", "", ""
     x, y = values[:2]
     keyword = next(keyword for keyword, form in FORMS.items() if form.kind == kind)

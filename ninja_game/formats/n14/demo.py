@@ -11,7 +11,7 @@ import re
 
 from ninja_game.errors import DemoError
 from ninja_game.formats.numbers import format_number, parse_number
-from ninja_game.sim.inputs import MAX_TICKS, Demo, check_inputs, fitted_demo, with_press_bits
+from ninja_game.sim.inputs import MAX_TICKS, Demo, check_inputs, fit_demo, with_press_bits
 
 TICKS_PER_WORD = 7
 _PLAIN_WORD = re.compile(r"0|[1-9][0-9]{0,14}")
@@ -40,7 +40,7 @@ def parse_demo(text: str, *, length: float | None = None) -> Demo:
         raise DemoError("a demo that is too long", found=found, expected=f"at most {MAX_TICKS // TICKS_PER_WORD}")
     # Seven ticks a word, the first in the lowest bits.
     digits = "".join([f"{_word(word):07x}"[::-1] for word in words.split("|")])
-    return fitted_demo(digits.encode("ascii").translate(_KEYS_OF_HEX), parse_number(length_text))
+    return fit_demo(digits.encode("ascii").translate(_KEYS_OF_HEX), parse_number(length_text))
 
 
 def _word(text: str) -> int:
@@ -93,7 +93,7 @@ def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
     digits = _DIGIT_RUN.sub(_expanded, _digits_of_chars(text).removesuffix(_PADDING))
     _check_length(len(digits))
     inputs = with_press_bits(digits.encode("ascii").translate(_KEYS_OF_DIGIT))
-    return fitted_demo(inputs, float(len(digits)) if length is None else length)
+    return fit_demo(inputs, float(len(digits)) if length is None else length)
 
 
 def _digits_of_chars(text: str) -> str:

@@ -41,7 +41,7 @@ def parse_level_string(text: str, *, file: str = "", line: int = 0) -> Level:
         text = fields[3]
     tiles, _, rest = text.partition("|")
     objects = rest.partition("|")[0]
-    return Level(_parse_tiles(tiles), tuple(map(_parse_record, objects.split("!"))) if objects else ())
+    return Level(_parse_tiles(tiles), tuple(map(_parse_object, objects.split("!"))) if objects else ())
 
 
 def tidy_level_string(text: str) -> str:
@@ -62,7 +62,7 @@ def _parse_tiles(text: str) -> tuple[int, ...]:
     return tuple(ord(char) - 48 for char in text) + (MISSING_TILE,) * (TILES - len(text))
 
 
-def _parse_record(text: str) -> ObjectSpec:
+def _parse_object(text: str) -> ObjectSpec:
     """One object record: the part before the first ``^`` is the type, the part up to the second the values."""
     kind_text, caret, rest = text.partition("^")
     kind = _KIND_OF_TEXT.get(kind_text, -1)
@@ -86,7 +86,7 @@ def write_level_string(level: Level, *, exact: bool = False) -> str:
     ignored record.
     """
     number = format_exact if exact else format_number
-    text = _write_tiles(level.tiles) + "|" + "!".join(_write_record(record, number) for record in level.objects)
+    text = _write_tiles(level.tiles) + "|" + "!".join(_write_object(spec, number) for spec in level.objects)
     if text.startswith("$"):
         raise LevelError("a level string cannot start with '$'", found="tile id -12 in the first cell")
     return text
@@ -102,14 +102,14 @@ def _write_tiles(tiles: tuple[int, ...]) -> str:
     return "".join(chr(tile + 48) for tile in tiles)
 
 
-def _write_record(record: ObjectSpec, number: Callable[[float], str]) -> str:
+def _write_object(spec: ObjectSpec, number: Callable[[float], str]) -> str:
     """``type^value,value,…``; just the type without values; an ignored record's own text."""
-    if record.kind < 0:
-        if "!" in record.text or "|" in record.text:
-            raise LevelError("an ignored record cannot hold '!' or '|'", found=repr(record.text))
-        return record.text
-    values = ",".join(map(number, record.values))
-    return f"{record.kind}^{values}" if record.values else str(record.kind)
+    if spec.kind < 0:
+        if "!" in spec.text or "|" in spec.text:
+            raise LevelError("an ignored record cannot hold '!' or '|'", found=repr(spec.text))
+        return spec.text
+    values = ",".join(map(number, spec.values))
+    return f"{spec.kind}^{values}" if spec.values else str(spec.kind)
 
 
 def level_digest(level: Level) -> str:
@@ -118,8 +118,8 @@ def level_digest(level: Level) -> str:
     Records that create nothing do not count, since they create nothing; the sign of a zero does not count either.
     """
     records = "!".join(
-        f"{record.kind}^" + ",".join(repr(value or 0.0) for value in record.values)
-        for record in level.objects
-        if makes_object(record)
+        f"{spec.kind}^" + ",".join(repr(value or 0.0) for value in spec.values)
+        for spec in level.objects
+        if makes_object(spec)
     )
     return hashlib.sha256(f"{','.join(map(str, level.tiles))}|{records}".encode()).hexdigest()

@@ -13,7 +13,7 @@ from pathlib import Path, PurePosixPath
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from ninja_game.errors import FileError, NinjaGameError, PackError
-from ninja_game.files.reading import MAX_BYTES, PLACE, decoded, files_in, read_bytes
+from ninja_game.files.reading import LINK, MAX_BYTES, decoded, files_in, read_bytes
 from ninja_game.files.shown_text import name_key
 from ninja_game.files.untrusted import open_zip, unpacked
 from ninja_game.files.user_folder import REPLAY_SUFFIX
@@ -61,7 +61,7 @@ class PackFiles:
         self._texts: dict[str, str] = {}
         self.problems: list[str] = []
         if is_link(path):
-            self.path = Path(PLACE)
+            self.path = Path(LINK)
             self._texts = pack_texts(path)
             self.names = tuple(sorted(self._texts))
         elif path.is_dir():

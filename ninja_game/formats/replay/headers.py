@@ -13,7 +13,7 @@ from ninja_game.errors import LevelError, ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.lines import MOST_NAME, Line, read_quoted
 from ninja_game.formats.numbers import NAN, parse_number
-from ninja_game.formats.replay.made import Made, names_of_text, parse_made
+from ninja_game.formats.replay.provenance import Provenance, names_of_text, parse_provenance
 from ninja_game.sim.level import Level
 
 W = TypeVar("W", bound=str)
@@ -120,9 +120,9 @@ class Headers:
                 return word
         raise self.error(key, f"an unknown {key}", " or ".join(choices))
 
-    def made(self) -> Made:
+    def made(self) -> Provenance:
         try:
-            return parse_made(self.text("made"))
+            return parse_provenance(self.text("made"))
         except ValueError:
             expected = "such as played (practice), edited 34, searched (improve, search)"
             hint = "leave the line out if you do not know"

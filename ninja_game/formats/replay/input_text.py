@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from ninja_game.errors import ReplayError
-from ninja_game.files.reading import MAX_BYTES, has_folder, read_beside
+from ninja_game.files.reading import MAX_BYTES, has_folder, read_included
 from ninja_game.formats.lines import Line, numbered_lines
 from ninja_game.formats.replay.notations import (
     KEY_NAMES,
@@ -18,7 +18,7 @@ from ninja_game.formats.replay.notations import (
     is_marker_name,
     is_tas_text,
 )
-from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, pressed
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, with_press_bit
 
 MOST_INCLUDES = 100  # files that a text may take in, the same one every time
 
@@ -183,7 +183,7 @@ def _as_inputs(items: Iterable[Run | str]) -> Inputs:
         if mark == "!":
             down |= JUMP_PRESSED
         held_before = keys[-1] & JUMP_HELD if keys else 0
-        keys.append(down if mark else pressed(down, held_before))
+        keys.append(down if mark else with_press_bit(down, held_before))
         keys.extend(bytes([down]) * (count - 1))
     return Inputs(bytes(keys), tuple(markers.values()))
 
@@ -203,7 +203,7 @@ def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
     return ReplayError("not an input run", file, line, column, repr(text[:30]), "keys and a count, such as R*30", hint)
 
 
-def included_beside(file: str) -> Include | None:
+def include_reader(file: str) -> Include | None:
     """Reads files in the folder of ``file`` or below it, as inputs name them; None where there is no such folder."""
     if not has_folder(file):
         return None
@@ -211,7 +211,7 @@ def included_beside(file: str) -> Include | None:
     texts: dict[str, str] = {}
 
     def include(name: str) -> tuple[str, str]:
-        found = read_beside(file, name)
+        found = read_included(file, name)
         if not found.path:
             expected = "a file in the replay's folder or below it"
             raise ReplayError("a file elsewhere", found=repr(name[:40]), expected=expected)

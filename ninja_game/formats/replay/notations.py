@@ -182,11 +182,9 @@ def write_libtas(inputs: bytes) -> str:
     """Inputs as libTAS notes them, one line per tick. Raises ReplayError for a jump that no keyboard can make."""
     _check_keyboard(inputs)
     numbers = {letter: keysym for keysym, letter in reversed(KEYSYMS.items())}
-    return "".join(f"|K{':'.join(numbers[letter] for letter in _letters(keys))}|\n" for keys in inputs)
-
-
-def _letters(keys: int) -> str:
-    return KEY_NAMES[keys & KEYS_DOWN].strip(".")
+    return "".join(
+        f"|K{':'.join(numbers[letter] for letter in KEY_NAMES[keys & KEYS_DOWN].strip('.'))}|\n" for keys in inputs
+    )
 
 
 def _check_keyboard(inputs: bytes) -> None:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, Self
 
+from ninja_game.backend.worlds import BODIES, Body
 from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.lines import Line, header_text, numbered_lines
@@ -19,12 +20,11 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import format_number
 from ninja_game.formats.pack.index import LEVELS_PER_EPISODE
 from ninja_game.formats.replay.headers import COUNT_LIMIT, LEVELS_KEPT, Headers, Waypoint, read_level, read_waypoints
-from ninja_game.formats.replay.input_text import included_beside, read_inputs
-from ninja_game.formats.replay.made import UNKNOWN, Made, can_be_written
+from ninja_game.formats.replay.input_text import include_reader, read_inputs
 from ninja_game.formats.replay.notations import Marker, is_marker_name, write_inputs
-from ninja_game.sim.inputs import MAX_TICKS, Demo, fitted_inputs
+from ninja_game.formats.replay.provenance import UNKNOWN, Provenance, can_be_written
+from ninja_game.sim.inputs import MAX_TICKS, Demo, fit_inputs
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import BODIES, Body
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICKS_PER_SECOND
 
 MAGIC = "ninja-game replay"
@@ -69,7 +69,7 @@ class Replay:
     level_name: str = ""
     level_author: str = ""
     waypoints: tuple[Waypoint, ...] = ()
-    made: Made = UNKNOWN
+    made: Provenance = UNKNOWN
     markers: tuple[Marker, ...] = ()
     demo_length: float | None = None
     co_authors: tuple[str, ...] = ()
@@ -120,7 +120,7 @@ class Replay:
         """The input of each of the first ``ticks`` ticks."""
         if self.demo_length is not None:
             return Demo(self.inputs, self.demo_length).playback(ticks)
-        return fitted_inputs(self.inputs, ticks)
+        return fit_inputs(self.inputs, ticks)
 
 
 class InputsAfterError(ReplayError):
@@ -153,7 +153,7 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
     own, level_name, level_author = read_level(headers.section("level-data"), file)
     if headers.lines.keys().isdisjoint(("level-digest", "level")):
         own = own or level
-    inputs = read_inputs(headers.section("inputs"), file=file, include=included_beside(file))
+    inputs = read_inputs(headers.section("inputs"), file=file, include=include_reader(file))
     length = headers.number("demo-length")
     last = len(inputs.keys) - 1 if length is None else Demo(inputs.keys, length).end
     replay = Replay(

@@ -29,7 +29,7 @@ from ninja_game.files.reading import read_bytes
 from ninja_game.files.user_folder import data_folder
 from ninja_game.generator.packed import FROZEN, MOST_BYTES, frozen_level
 from ninja_game.learn.levels.source import LevelSource, draws
-from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, pressed
+from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, with_press_bit
 from ninja_game.sim.kinds import EXIT, GOLD, KIND_OF, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.states import SKIDDING
@@ -112,7 +112,7 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
         held, delay = int(drawn[6] * 8), int(drawn[7] * DELAY)
         more, longer = (bytes([keys[k] & KEYS_DOWN]) for k in (held, -1))
         keys = keys[:held] + more * delay + keys[held:] + longer * DELAY
-        keys = bytes([pressed(keys[0], 0)]) + keys[1:]
+        keys = bytes([with_press_bit(keys[0], 0)]) + keys[1:]
     return BenchLevel(f"bench-{split}-{number}", grade, Level(base.level.tiles, tuple(objects)), keys)
 
 
@@ -133,6 +133,10 @@ def _table() -> bytes:
     return read_bytes(data_folder("assets") / TABLE, sum(COUNTS.values()))
 
 
+_SIDES = KEY_LEFT | KEY_RIGHT
+_SIDES_SWAPPED = bytes(keys ^ _SIDES if keys & _SIDES not in (0, _SIDES) else keys for keys in range(256))
+
+
 @lru_cache(maxsize=2 * BASES)
 def _base(number: int, mirrored: bool) -> _Base:
     """A level that comes with the game, or its mirror image, with the run that passes it."""
@@ -151,13 +155,7 @@ def _base(number: int, mirrored: bool) -> _Base:
     tiles = tuple(mirror.tile(tile) for tile in columns.ravel().tolist())
     level = Level(tiles, tuple(carried(spec, mirror) for spec in base.level.objects))
     places = base.places * (-1.0, 1.0) + (mirror.dx, 0.0)
-    return _Base(level, base.inputs.translate(bytes(map(_swapped, range(256)))), places, base.starts)
-
-
-def _swapped(keys: int) -> int:
-    """Left for right."""
-    sides = KEY_LEFT | KEY_RIGHT
-    return keys ^ sides if keys & sides in (KEY_LEFT, KEY_RIGHT) else keys
+    return _Base(level, base.inputs.translate(_SIDES_SWAPPED), places, base.starts)
 
 
 class _Levels(Sequence[Level]):

@@ -61,12 +61,12 @@ class LevelSource:
     def report(self, numbers: NDArray[np.intp], passed: NDArray[np.bool_]) -> None:
         """Take note of episodes that have ended: the numbers of their levels (k,), whether they were passed (k,)."""
 
-    def numbers(self, which: LevelChoice, count: int = 1) -> NDArray[np.intp]:
+    def numbers(self, choice: LevelChoice, count: int = 1) -> NDArray[np.intp]:
         """The numbers (count,) of levels chosen by name or number, one for all or one for each.
 
         Raises ArgumentError for others.
         """
-        chosen = list(which) if isinstance(which, Sequence | np.ndarray) and not isinstance(which, str) else [which]
+        chosen = list(choice) if isinstance(choice, Sequence | np.ndarray) and not isinstance(choice, str) else [choice]
         found = [self.names.index(each) if isinstance(each, str) and each in self.names else each for each in chosen]
         for each in found:
             if not isinstance(each, int | np.integer) or not 0 <= each < len(self.levels):

@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Array, Part, Setting, clamp
+from ninja_game.learn.observations.part import Array, Part, PartContext, clamp
 from ninja_game.learn.observations.surroundings import FINE, solidity
 from ninja_game.learn.observations.vectors import MAX_SPEED
 from ninja_game.sim import kinds
@@ -144,29 +144,29 @@ class NearObjects(Part):
         divisors = divisors if self.normalised else np.ones(len(OBJECT_COLUMNS))
         return (lowest / divisors).astype(np.float32), (highest / divisors).astype(np.float32), divisors
 
-    def tables(self, setting: Setting) -> tuple[Any, ...]:
+    def tables(self, context: PartContext) -> tuple[Any, ...]:
         """How many; factors and limits; each level's objects, their columns; room for the nearest of each world."""
         low, high, divisors = self._range()
         columns = {kind.number: place for place, kind in enumerate(OBSERVED) if kind.name in self.kinds}
-        room = [[0] * (setting.count * self.count)] * 2
+        room = [[0] * (context.count * self.count)] * 2
         return (
             observe_objects,
             self.count,
-            *(setting.table(values, np.float64) for values in (1.0 / divisors, low, high)),
-            *setting.rows(lambda number: [(o.slot, columns[o.kind]) for o in setting.objects(number, *columns)], 2),
-            *(setting.table(values, np.float64) for values in room),
+            *(context.table(values, np.float64) for values in (1.0 / divisors, low, high)),
+            *context.rows(lambda number: [(o.slot, columns[o.kind]) for o in context.objects(number, *columns)], 2),
+            *(context.table(values, np.float64) for values in room),
         )
 
 
 @entry_point
 def observe_objects(
-    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     count: int, factors: Any, lows: Any, highs: Any, bounds: Any, slots: Any, columns: Any,
     nearest: Any, distances: Any,
 ) -> None:  # fmt: skip
     """Find the nearest objects of some worlds, by insertion, and write them."""
     for k in range(first, last):
-        index = which[k]
+        index = indices[k]
         level = level_of[index]
         w = worlds[index]
         n = w.ninja
@@ -227,11 +227,11 @@ class LevelPlanes(Part):
         shape = (len(PLANES), ROWS, COLUMNS)
         return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, HIGHEST, shape, np.uint8)
 
-    def tables(self, setting: Setting) -> tuple[Any, ...]:
+    def tables(self, context: PartContext) -> tuple[Any, ...]:
         """The solid plane of each level; each level's objects and their planes; the values."""
 
         def shades(number: int) -> Array:
-            points = solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE)
+            points = solidity(context, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE)
             solid = points.reshape(GRID_ROWS, FINE, GRID_COLUMNS, FINE).mean((1, 3))[1:-1, 1:-1]
             return np.asarray(np.rint(solid * HIGHEST) * factor)
 
@@ -240,8 +240,8 @@ class LevelPlanes(Part):
         planes = {kind.number: 1 + place for place, kind in enumerate(OBSERVED)}
         return (
             observe_planes,
-            setting.values(shades, values),
-            *setting.rows(lambda number: [(o.slot, planes[o.kind]) for o in setting.objects(number, *planes)], 2),
+            context.values(shades, values),
+            *context.rows(lambda number: [(o.slot, planes[o.kind]) for o in context.objects(number, *planes)], 2),
             HIGHEST * factor,
             CLOSED_EXIT * factor,
         )
@@ -249,11 +249,11 @@ class LevelPlanes(Part):
 
 @entry_point
 def observe_planes(
-    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     solid: Any, bounds: Any, slots: Any, planes: Any, highest: Any, closed: Any,
 ) -> None:  # fmt: skip
     for k in range(first, last):
-        index = which[k]
+        index = indices[k]
         level = level_of[index]
         w = worlds[index]
         for j in range(TILES):

@@ -15,7 +15,7 @@ from gymnasium.spaces import Box, Dict, Space
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.objects import LevelPlanes, NearObjects
-from ninja_game.learn.observations.part import Array, Part, Setting
+from ninja_game.learn.observations.part import Array, Part, PartContext
 from ninja_game.learn.observations.pixels import Image, Pixels
 from ninja_game.learn.observations.surroundings import LocalTiles, Rays
 from ninja_game.learn.observations.vectors import Guide, StateVector, TimeLeft
@@ -75,13 +75,13 @@ class Observation:
             return {name: _zeros(box, count) for name, box in self.space.items()}
         return _zeros(self.space, count)
 
-    def writers(self, memory: Observed, setting: Setting) -> list[Writer]:
+    def writers(self, memory: Observed, context: PartContext) -> list[Writer]:
         """What writes the parts into ``memory``: of each the kernel and the last of its arguments."""
         writers, offset = [], 0
         for part in self.parts:
             array = memory[part.name] if isinstance(memory, dict) else memory
-            kernel, *tables = part.tables(setting)
-            writers.append((setting.worlds.kernel(kernel), (array.reshape(len(array), -1), offset, *tables)))
+            kernel, *tables = part.tables(context)
+            writers.append((context.worlds.kernel(kernel), (array.reshape(len(array), -1), offset, *tables)))
             offset += part.length if self.flat else 0
         return writers
 

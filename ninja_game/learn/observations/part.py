@@ -1,7 +1,7 @@
-"""What every part of an observation is, a name, a space, and a kernel that writes one world's values into a row.
+"""What every part of an observation is: a name, a space, and a kernel that writes one world's values into a row.
 
-And what it may know when it makes its tables: what worlds hold of their levels, also of levels that are put in the
-place of others, so that worlds play more than they hold.
+``PartContext`` is what a part reads when it makes its tables: the worlds and their levels. Where there are more levels
+than worlds can hold, a level is put in the place of another, and the tables are rewritten for it.
 """
 
 from __future__ import annotations
@@ -15,41 +15,41 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
+from ninja_game.backend.plain import PlainWorlds, load_plain
+from ninja_game.backend.worlds import Worlds
 from ninja_game.batch.batch import Indices
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.interface import Worlds
-from ninja_game.sim.memory.plain import PlainWorlds, load_plain
 from ninja_game.sim.memory.schema import World
 
 Array = NDArray[Any]
 
 
 @dataclass(frozen=True)
-class Setting:
-    """What a part may know of the worlds when it makes its tables.
+class PartContext:
+    """The worlds and levels for which a part makes its tables.
 
     ``worlds``: they themselves, not loaded yet; ``fresh``: each level as it begins.
     ``changed`` (worlds): whether gold, mines or exits may be others than last observed. ``time_limit``: ticks
     of an episode. ``compiled``: whether kernels run compiled. ``goal``: their ``GoalDistance``, if a part asks for one.
-    ``room``: of how many objects another level may be that is put in the place of one; 0: none ever is.
+    ``max_objects``: of how many objects another level may be that is put in the place of one; 0: none ever is.
     """
 
     worlds: Worlds
-    fresh: list[NewLevel]
+    fresh: list[InitialLevel]
     changed: NDArray[np.bool_]
     time_limit: int
     compiled: bool
     goal: Any = None
-    room: int = 0
+    max_objects: int = 0
     writers: list[Callable[[int], None]] = field(default_factory=list, repr=False)
 
     @property
     def count(self) -> int:
         return len(self.changed)
 
-    def objects(self, number: int, *kinds: int) -> list[NewObject]:
+    def objects(self, number: int, *kinds: int) -> list[InitialObject]:
         """The objects of a level of these kinds, in the order of their slots."""
         return [o for o in self.fresh[number].objects[1:] if o.kind in kinds]
 
@@ -74,7 +74,7 @@ class Setting:
 
         First the bounds: level i has the rows from 2 i to 2 i + 1 of these; then a float64 column for each number.
         """
-        sizes = [self.room or len(make(number)) for number in range(len(self.fresh))]
+        sizes = [self.max_objects or len(make(number)) for number in range(len(self.fresh))]
         starts = np.cumsum([0, *sizes])
         bounds = self.table(np.repeat(starts[:-1], 2), np.int64)
         columns = [self.table(np.zeros(starts[-1]), np.float64) for _ in range(width)]
@@ -90,8 +90,8 @@ class Setting:
         self.writers.append(write)
         return [bounds, *columns]
 
-    def renew(self, number: int) -> None:
-        """Another level has come in the place of one: write again what the tables have of it."""
+    def rewrite(self, number: int) -> None:
+        """Rewrite the tables for the level with this number, which has been replaced."""
         for write in self.writers:
             write(number)
 
@@ -108,7 +108,7 @@ class Part(ABC):
     """Its key in a Dict of several parts."""
 
     needs_goal: ClassVar[bool] = False
-    """Whether it reads ``Setting.goal``."""
+    """Whether it reads ``PartContext.goal``."""
 
     normalised: bool = field(default=True, kw_only=True)
 
@@ -118,11 +118,11 @@ class Part(ABC):
         """Shape, dtype and range of its values."""
 
     @abstractmethod
-    def tables(self, setting: Setting) -> tuple[Any, ...]:
+    def tables(self, context: PartContext) -> tuple[Any, ...]:
         """The entry point that writes it, then the last of its arguments: what never changes during an episode.
 
-        ``kernel(maps, level_of, worlds, which, first, last, out, offset, *tables)`` writes the values of the worlds
-        ``which[first:last]`` into their rows of ``out``, from column ``offset`` on.
+        ``kernel(maps, level_of, worlds, indices, first, last, out, offset, *tables)`` writes the values of the worlds
+        ``indices[first:last]`` into their rows of ``out``, from column ``offset`` on.
         """
 
     @property
@@ -149,7 +149,7 @@ def copy_values(target: Any, source: Any, count: int) -> None:
         target[k] = source[k]
 
 
-class NewObject(NamedTuple):
+class InitialObject(NamedTuple):
     """An object of a new world; ``partner``: of an exit the slot of its switch."""
 
     slot: int
@@ -159,33 +159,33 @@ class NewObject(NamedTuple):
     partner: int
 
 
-class NewLevel(NamedTuple):
+class InitialLevel(NamedTuple):
     """A level as it begins: its grid of tiles; its objects by slot, of which 0 is nobody; where the ninja is, px."""
 
     tiles: Sequence[int]
-    objects: Sequence[NewObject]
+    objects: Sequence[InitialObject]
     start: tuple[float, float]
 
 
-def new_levels(worlds: Worlds, places: Iterable[int]) -> list[NewLevel]:
+def initial_levels(worlds: Worlds, places: Iterable[int]) -> list[InitialLevel]:
     """Levels of worlds by their numbers."""
     if isinstance(worlds, PlainWorlds):
-        return [_new_level(worlds.maps[place].tiles, worlds.fresh[place]) for place in places]
+        return [_initial_level(worlds.maps[place].tiles, worlds.fresh[place]) for place in places]
     fresh = worlds.fresh
     every = [fresh["objects"][name] for name in ("kind", "x", "y", "partner")]
     tiles, used, ninja = worlds.maps["tiles"], fresh["slots_used"], fresh["ninja"]
     found = []
     for place in places:
         columns = [column[place, : used[place]].tolist() for column in every]
-        objects = list(map(NewObject, range(len(columns[0])), *columns))
-        found.append(NewLevel(tiles[place].tolist(), objects, (float(ninja["x"][place]), float(ninja["y"][place]))))
+        objects = list(map(InitialObject, range(len(columns[0])), *columns))
+        found.append(InitialLevel(tiles[place].tolist(), objects, (float(ninja["x"][place]), float(ninja["y"][place]))))
     return found
 
 
-def _new_level(tiles: Sequence[int], w: World) -> NewLevel:
+def _initial_level(tiles: Sequence[int], w: World) -> InitialLevel:
     slots = enumerate(w.objects[: w.slots_used])
-    objects = [NewObject(k, o.kind, o.x, o.y, o.partner if o.kind == EXIT else 0) for k, o in slots]
-    return NewLevel(tiles, objects, (w.ninja.x, w.ninja.y))
+    objects = [InitialObject(k, o.kind, o.x, o.y, o.partner if o.kind == EXIT else 0) for k, o in slots]
+    return InitialLevel(tiles, objects, (w.ninja.x, w.ninja.y))
 
 
 def put_levels(worlds: Worlds, places: Indices, levels: Sequence[Level]) -> None:
@@ -198,8 +198,8 @@ def put_levels(worlds: Worlds, places: Indices, levels: Sequence[Level]) -> None
             worlds.maps[place], worlds.fresh[place] = load_plain(level, worlds.box)
             worlds.worlds[place] = load_plain(level, worlds.box)[1]
         return
-    from ninja_game.sim.memory.compiled import load_worlds
-    from ninja_game.sim.memory.layout import bytes_of
+    from ninja_game.backend.compiled import load_worlds
+    from ninja_game.backend.layout import bytes_of
 
     worlds.maps[places], fresh = load_worlds(worlds.kernel, levels, box=worlds.box)
     states, every = bytes_of(fresh), bytes_of(worlds.worlds)

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.objects import OBSERVED, activity_of, contact_place_of, is_there
-from ninja_game.learn.observations.part import Part, Setting, clamp, copy_values
-from ninja_game.learn.observations.surroundings import of_tiles, solidity
+from ninja_game.learn.observations.part import Part, PartContext, clamp, copy_values
+from ninja_game.learn.observations.surroundings import cached_by_tiles, solidity
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, UNIT_X, UNIT_Y
 from ninja_game.sim.memory.declare import entry_point, fast
@@ -61,7 +61,7 @@ class View(NamedTuple):
     ninja_shade: float
 
 
-class Things(NamedTuple):
+class ObjectTables(NamedTuple):
     """The objects of all levels, a table each: those of level i are from ``bounds[2 i]`` to ``bounds[2 i + 1]``.
 
     ``sizes``: radius or half side, px; ``boxes``: whether a box; ``moves``: whether it moves; ``xs``, ``ys``: at first.
@@ -97,14 +97,14 @@ def pixels_of(area: Any, frame: Frame) -> tuple[int, int, int, int]:
     That is where the middle of a pixel is less than half a pixel away, of its longer side: else it is not covered.
     """
     left, right, top, bottom = area
-    room = 0.5 * max(frame.pixel_x, frame.pixel_y) + ROUNDING
-    room_x = min(room, frame.pixel_x)
-    room_y = min(room, frame.pixel_y)
+    reach = 0.5 * max(frame.pixel_x, frame.pixel_y) + ROUNDING
+    reach_x = min(reach, frame.pixel_x)
+    reach_y = min(reach, frame.pixel_y)
     return (
-        int(clamp((left - room_x) / frame.pixel_x + 0.5, float(frame.first), frame.last + 1.0)),
-        int(clamp((right + room_x) / frame.pixel_x + 0.5, float(frame.first), frame.last + 1.0)) - 1,
-        int(clamp((top - room_y) / frame.pixel_y + 0.5, float(frame.low), frame.high + 1.0)),
-        int(clamp((bottom + room_y) / frame.pixel_y + 0.5, float(frame.low), frame.high + 1.0)) - 1,
+        int(clamp((left - reach_x) / frame.pixel_x + 0.5, float(frame.first), frame.last + 1.0)),
+        int(clamp((right + reach_x) / frame.pixel_x + 0.5, float(frame.first), frame.last + 1.0)) - 1,
+        int(clamp((top - reach_y) / frame.pixel_y + 0.5, float(frame.low), frame.high + 1.0)),
+        int(clamp((bottom + reach_y) / frame.pixel_y + 0.5, float(frame.low), frame.high + 1.0)) - 1,
     )
 
 
@@ -183,7 +183,7 @@ SHADES = {
 }  # fmt: skip
 """0 is empty, 255 the ninja; 205 to 230 kill. A closed exit has half its shade."""
 STILL = {kinds.GOLD, kinds.MINE, kinds.EXIT, kinds.SWITCH, kinds.LAUNCH_PAD, kinds.ONE_WAY}
-"""Kinds that stay where they are, and look another way only after an event (``Setting.changed``)."""
+"""Kinds that stay where they are, and look another way only after an event (``PartContext.changed``)."""
 PLAIN_SIZE = 6.0  # radius, px, at which what cannot be touched is drawn
 
 
@@ -214,7 +214,7 @@ class Pixels(Part):
         shape = (self.height, self.width)
         return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, 255, shape, np.uint8)
 
-    def tables(self, setting: Setting) -> tuple[Any, ...]:
+    def tables(self, context: PartContext) -> tuple[Any, ...]:
         """Pictures of the tiles with a margin, and their size; the view; the objects, how large and how bright."""
         pixel_x = (self.view or WORLD_WIDTH) / self.width
         pixel_y = pixel_x if self.view else WORLD_HEIGHT / self.height
@@ -223,36 +223,36 @@ class Pixels(Part):
         factor = 1.0 / 255.0 if self.normalised else 1.0
 
         def picture(number: int) -> NDArray[np.float64]:
-            tiles = of_tiles(tile_picture, setting, number, across, down, pixel_x, pixel_y)
+            tiles = cached_by_tiles(tile_picture, context, number, across, down, pixel_x, pixel_y)
             return np.rint(np.pad(tiles, margins, constant_values=SAMPLES**2) * (SOLID_SHADE / SAMPLES**2)) * factor
 
         def objects(number: int) -> list[tuple[float, ...]]:
-            found = setting.objects(number, *SHADES)
+            found = context.objects(number, *SHADES)
             return [(o.slot, *sizes[o.kind], SHADES[o.kind] * factor, o.kind not in STILL, o.x, o.y) for o in found]
 
         def movers(number: int) -> list[tuple[float, ...]]:
-            return [(place,) for place, o in enumerate(setting.objects(number, *SHADES)) if o.kind not in STILL]
+            return [(place,) for place, o in enumerate(context.objects(number, *SHADES)) if o.kind not in STILL]
 
         def later(number: int) -> NDArray[np.int16]:
             found = np.full((2 * GRID_ROWS, 2 * GRID_COLUMNS), -1, np.int16)
-            for place, o in enumerate(setting.objects(number, *SHADES)):
-                room = sizes[o.kind][0] + max(pixel_x, pixel_y) + 2.0 * ROUNDING
-                left, right, top, bottom = cells_of((o.x - room, o.x + room, o.y - room, o.y + room))
+            for place, o in enumerate(context.objects(number, *SHADES)):
+                reach = sizes[o.kind][0] + max(pixel_x, pixel_y) + 2.0 * ROUNDING
+                left, right, top, bottom = cells_of((o.x - reach, o.x + reach, o.y - reach, o.y + reach))
                 if o.kind in STILL:
                     found[top : bottom + 1, left : right + 1] = place
             return found
 
         sizes = {kind.number: (kind.disc or kind.box or PLAIN_SIZE, kind.box is not None) for kind in OBSERVED}
         sizes[kinds.DOOR] = HALF, False
-        layers = np.zeros((1, 1) if self.view else (setting.count, self.length), self.box.dtype)
+        layers = np.zeros((1, 1) if self.view else (context.count, self.length), self.box.dtype)
         wide, high, rounded = across + 2 * margins[1][0], down + 2 * margins[0][0], int(not self.normalised)
         frame = Frame(self.width, 0.0, 0.0, pixel_x, pixel_y, 0, self.width - 1, 0, self.height - 1, rounded)
         return (
             observe_pixels,
-            setting.values(picture, self.box.dtype),
+            context.values(picture, self.box.dtype),
             View(frame, wide, high, int(self.view is not None), NINJA_SHADE * factor),
-            Layers(setting.changed, layers, setting.values(later, np.int16), *setting.rows(movers, 1)),
-            Things(*setting.rows(objects, 7)),
+            Layers(context.changed, layers, context.values(later, np.int16), *context.rows(movers, 1)),
+            ObjectTables(*context.rows(objects, 7)),
         )
 
 
@@ -269,11 +269,11 @@ class Image(Pixels):
 
 
 def tile_picture(
-    setting: Setting, number: int, across: int, down: int, pixel_x: float, pixel_y: float
+    context: PartContext, number: int, across: int, down: int, pixel_x: float, pixel_y: float
 ) -> NDArray[np.uint8]:
     """How many of the points of each pixel (down, across) are solid; what is outside the world is."""
     wide, high = pixel_x / SAMPLES, pixel_y / SAMPLES
-    points = solidity(setting, number, across * SAMPLES, down * SAMPLES, (wide, high))
+    points = solidity(context, number, across * SAMPLES, down * SAMPLES, (wide, high))
     points[:, int(WORLD_WIDTH / wide) :] = 1
     points[int(WORLD_HEIGHT / high) :] = 1
     return np.asarray(points.reshape(down, SAMPLES, across, SAMPLES).sum((1, 3)), np.uint8)
@@ -281,8 +281,8 @@ def tile_picture(
 
 @entry_point
 def observe_pixels(
-    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
-    tiles: Any, view: View, layers: Layers, things: Things,
+    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
+    tiles: Any, view: View, layers: Layers, things: ObjectTables,
 ) -> None:  # fmt: skip
     """Draw the pictures of some worlds: the tiles, copied; the objects in the order of their slots; the ninja.
 
@@ -296,7 +296,7 @@ def observe_pixels(
     pixel_x = whole.pixel_x
     pixel_y = whole.pixel_y
     for k in range(first, last):
-        index = which[k]
+        index = indices[k]
         level = level_of[index]
         w = worlds[index]
         start = things.bounds[2 * level]
@@ -351,7 +351,7 @@ def observe_pixels(
 
 @fast
 def draw_objects(
-    w: World, picture: Any, frame: Frame, things: Things, first: int, last: int, area: Any, moving: bool
+    w: World, picture: Any, frame: Frame, things: ObjectTables, first: int, last: int, area: Any, moving: bool
 ) -> None:
     """Draw the objects that are there and may lie in an area, with or without those that are ``moving``."""
     left, right, top, bottom = area
@@ -380,10 +380,10 @@ def area_of(o: Object, size: float, gap: float) -> tuple[float, float, float, fl
     if o.kind == kinds.DRONE and o.weapon == WEAPON_LASER and o.routine == DRONE_FIRING:
         dx = o.end_x - x
         dy = o.end_y - y
-    room = size + gap
+    reach = size + gap
     return (
-        x + clamp(dx, -FAR, 0.0) - room, x + clamp(dx, 0.0, FAR) + room,
-        y + clamp(dy, -FAR, 0.0) - room, y + clamp(dy, 0.0, FAR) + room,
+        x + clamp(dx, -FAR, 0.0) - reach, x + clamp(dx, 0.0, FAR) + reach,
+        y + clamp(dy, -FAR, 0.0) - reach, y + clamp(dy, 0.0, FAR) + reach,
     )  # fmt: skip
 
 

@@ -13,7 +13,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Part, Setting, clamp, copy_values
+from ninja_game.learn.observations.part import Part, PartContext, clamp, copy_values
 from ninja_game.sim.collision.ray_shapes import ray_tile
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, FULL, SHAPE
@@ -44,12 +44,12 @@ FINE = 8
 
 
 def solidity(
-    setting: Setting, number: int, across: int, down: int, spacing: tuple[float, float] | None = None
+    context: PartContext, number: int, across: int, down: int, spacing: tuple[float, float] | None = None
 ) -> NDArray[np.uint8]:
     """A level in (down, across) points, each in the middle of its share of the world, or so many px apart; 1: solid."""
     points = np.zeros((down, across), np.uint8)
     wide, high = spacing or (WORLD_WIDTH / across, WORLD_HEIGHT / down)
-    setting.worlds.kernel(mark_solid)(setting.worlds.maps, number, wide, high, points)
+    context.worlds.kernel(mark_solid)(context.worlds.maps, number, wide, high, points)
     return points
 
 
@@ -62,22 +62,24 @@ def mark_solid(maps: Any, number: int, wide: float, high: float, points: Any) ->
                 points[row, column] = 1
 
 
-_OF_TILES: dict[Any, NDArray[Any]] = {}
-MOST_OF_TILES = 4096
+_BY_TILES: dict[Any, NDArray[Any]] = {}
+MAX_CACHED = 4096
 """What is kept of levels by their tiles, which many levels share."""
 
 
-def of_tiles(make: Callable[..., NDArray[Any]], setting: Setting, number: int, *about: float) -> NDArray[Any]:
+def cached_by_tiles(
+    make: Callable[..., NDArray[Any]], context: PartContext, number: int, *about: float
+) -> NDArray[Any]:
     """What ``make`` gives of a level's tiles, kept for the next level that has the same."""
-    key = make, tuple(setting.fresh[number].tiles), about
-    if key not in _OF_TILES:
-        if len(_OF_TILES) >= MOST_OF_TILES:
-            _OF_TILES.clear()
-        _OF_TILES[key] = make(setting, number, *about)
-    return _OF_TILES[key]
+    key = make, tuple(context.fresh[number].tiles), about
+    if key not in _BY_TILES:
+        if len(_BY_TILES) >= MAX_CACHED:
+            _BY_TILES.clear()
+        _BY_TILES[key] = make(context, number, *about)
+    return _BY_TILES[key]
 
 
-def surface_distances(setting: Setting, number: int, reach: float) -> NDArray[np.float64]:
+def surface_distances(context: PartContext, number: int, reach: float) -> NDArray[np.float64]:
     """How far the centre of every cell (25, 33) is from the nearest surface, px, at most ``reach``; within below 0.
 
     What is outside the world counts as solid. Of each row of points near a cell the nearest one, and of these the
@@ -85,8 +87,8 @@ def surface_distances(setting: Setting, number: int, reach: float) -> NDArray[np
     """
     spacing = WORLD_WIDTH / GRID_COLUMNS / FINE
     margin = int(reach / spacing)
-    solid = np.pad(solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE), margin, constant_values=1)
-    within = solidity(setting, number, GRID_COLUMNS, GRID_ROWS) == 1
+    solid = np.pad(solidity(context, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE), margin, constant_values=1)
+    within = solidity(context, number, GRID_COLUMNS, GRID_ROWS) == 1
     squares = ((np.arange(2 * margin) - margin + 0.5) * spacing) ** 2
     shares = sliding_window_view(solid, 2 * margin, axis=1)[:, FINE // 2 :: FINE][:, :GRID_COLUMNS]
     found = []
@@ -135,7 +137,7 @@ class LocalTiles(Part):
         reach = 1.0 if self.normalised else REACH
         return Box(-reach, reach, (self.size, self.size), np.float32)
 
-    def tables(self, setting: Setting) -> tuple[Any, ...]:
+    def tables(self, context: PartContext) -> tuple[Any, ...]:
         """A padded picture of each level: distances, or tile ids; the width and height of a picture, and the size."""
         margin = self.size // 2
         height, width = GRID_ROWS + 2 * margin, GRID_COLUMNS + 2 * margin
@@ -143,21 +145,24 @@ class LocalTiles(Part):
 
         def picture(number: int) -> NDArray[Any]:
             if self.form == "one-hot":
-                tiles = np.reshape(setting.fresh[number].tiles, (-1, STRIDE))
+                tiles = np.reshape(context.fresh[number].tiles, (-1, STRIDE))
                 return np.pad(tiles[1 : GRID_ROWS + 1, 1 : GRID_COLUMNS + 1], margin, constant_values=FULL_TILE)
-            return np.pad(of_tiles(surface_distances, setting, number, REACH), margin, constant_values=-REACH) / unit
+            return (
+                np.pad(cached_by_tiles(surface_distances, context, number, REACH), margin, constant_values=-REACH)
+                / unit
+            )
 
         kernel, kind = (observe_tiles, np.int64) if self.form == "one-hot" else (observe_distances, np.float32)
-        return kernel, setting.values(picture, kind), width, height, self.size
+        return kernel, context.values(picture, kind), width, height, self.size
 
 
 @entry_point
 def observe_distances(
-    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     pictures: Any, width: int, height: int, size: int,
 ) -> None:  # fmt: skip
     for k in range(first, last):
-        index = which[k]
+        index = indices[k]
         n = worlds[index].ninja
         start = level_of[index] * width * height + corner(n.x, n.y, width)
         for row in range(size):
@@ -167,12 +172,12 @@ def observe_distances(
 
 @entry_point
 def observe_tiles(
-    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     pictures: Any, width: int, height: int, size: int,
 ) -> None:  # fmt: skip
     """Mark the tile of each cell round the ninja."""
     for k in range(first, last):
-        index = which[k]
+        index = indices[k]
         n = worlds[index].ninja
         start = level_of[index] * width * height + corner(n.x, n.y, width)
         for j in range(offset, offset + size * size * TILE_KINDS):
@@ -218,7 +223,7 @@ class Rays(Part):
     def box(self) -> Box:
         return Box(0.0, 1.0 if self.normalised else self.reach, (self.count,), np.float32)
 
-    def tables(self, setting: Setting) -> tuple[Any, ...]:
+    def tables(self, context: PartContext) -> tuple[Any, ...]:
         """The directions, to 12 digits, so that every machine has the same; from one line of the grid to the next, px;
         the reach; the factor; the states of edges.
         """  # noqa: D205 - one sentence
@@ -228,12 +233,12 @@ class Rays(Part):
 
         def edges(number: int) -> NDArray[np.uint8]:
             states = np.zeros(EDGE_STATES, np.uint8)
-            setting.worlds.kernel(mark_edges)(setting.worlds.fresh, number, states)
+            context.worlds.kernel(mark_edges)(context.worlds.fresh, number, states)
             return states
 
         factor = 1.0 / self.reach if self.normalised else 1.0
-        directions = [setting.table(every, np.float64) for every in (*ways, *paces)]
-        return observe_rays, *directions, float(self.reach), factor, setting.values(edges, np.uint8)
+        directions = [context.table(every, np.float64) for every in (*ways, *paces)]
+        return observe_rays, *directions, float(self.reach), factor, context.values(edges, np.uint8)
 
 
 # States of edges besides those of the world.
@@ -256,12 +261,12 @@ def mark_edges(fresh: Any, number: int, states: Any) -> None:
 
 @entry_point
 def observe_rays(
-    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     dx: Any, dy: Any, pace_x: Any, pace_y: Any, reach: float, factor: float, edges: Any,
 ) -> None:  # fmt: skip
     """Follow the rays of some worlds as ``cast`` does, bit for bit, with less to look up at each line of the grid."""
     for k in range(first, last):
-        index = which[k]
+        index = indices[k]
         tiles = maps[level_of[index]].tiles
         base = level_of[index] * EDGE_STATES
         w = worlds[index]

@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.learn.goal_distance import point_within
-from ninja_game.learn.observations.part import NewLevel, Part, Setting, clamp
+from ninja_game.learn.observations.part import Part, PartContext, clamp
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
@@ -78,40 +78,40 @@ class StateVector(Part):
         divided = scale if self.normalised else np.ones(len(FIELDS))
         return Box((low / divided).astype(np.float32), (high / divided).astype(np.float32), dtype=np.float32)
 
-    def tables(self, setting: Setting) -> tuple[Any, ...]:
+    def tables(self, context: PartContext) -> tuple[Any, ...]:
         """Factors and limits of the values; slots and places of exits and gold; what is known of each world.
 
         That is which exits are open, in bits, and which gold was nearest. As long as nothing has changed, a world's
         objects, which lie far away in memory, need not be asked.
         """
+
+        def exits(number: int) -> list[tuple[float, ...]]:
+            switches = context.fresh[number].objects
+            found = context.objects(number, EXIT)
+            return [(o.slot, o.x, o.y, switches[o.partner].x, switches[o.partner].y) for o in found]
+
         box = self.box
         factors = [1.0 / scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()]
         return (
             observe_state,
-            *(setting.table(values, np.float64) for values in (factors, box.low, box.high)),
-            *setting.rows(lambda number: exit_rows(setting.fresh[number]), 5),
-            *setting.rows(lambda number: [(o.slot, o.x, o.y) for o in setting.objects(number, GOLD)], 3),
-            setting.changed,
-            *(setting.table([0] * setting.count, np.int64) for _ in range(2)),
+            *(context.table(values, np.float64) for values in (factors, box.low, box.high)),
+            *context.rows(exits, 5),
+            *context.rows(lambda number: [(o.slot, o.x, o.y) for o in context.objects(number, GOLD)], 3),
+            context.changed,
+            *(context.table([0] * context.count, np.int64) for _ in range(2)),
         )
-
-
-def exit_rows(level: NewLevel) -> list[tuple[float, ...]]:
-    """Slot and place of each exit, place of its switch."""
-    exits = [o for o in level.objects[1:] if o.kind == EXIT]
-    return [(o.slot, o.x, o.y, level.objects[o.partner].x, level.objects[o.partner].y) for o in exits]
 
 
 @entry_point
 def observe_state(
-    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     factors: Any, lows: Any, highs: Any,
     exit_bounds: Any, exits: Any, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any,
     gold_bounds: Any, gold: Any, gold_x: Any, gold_y: Any,
     changed: Any, opened: Any, nearest: Any,
 ) -> None:  # fmt: skip
     for k in range(first, last):
-        index = which[k]
+        index = indices[k]
         level = level_of[index]
         w = worlds[index]
         n = w.ninja
@@ -243,19 +243,19 @@ class TimeLeft(Part):
     def box(self) -> Box:
         return Box(0.0, 1.0 if self.normalised else LONGEST, (1,), np.float32)
 
-    def tables(self, setting: Setting) -> tuple[Any, ...]:
+    def tables(self, context: PartContext) -> tuple[Any, ...]:
         """The time limit, the factor, the highest value."""
-        factor = 1.0 / setting.time_limit if self.normalised else 1.0
-        return observe_time, setting.time_limit, factor, float(self.box.high[0])
+        factor = 1.0 / context.time_limit if self.normalised else 1.0
+        return observe_time, context.time_limit, factor, float(self.box.high[0])
 
 
 @entry_point
 def observe_time(
-    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     time_limit: int, factor: float, highest: float,
 ) -> None:  # fmt: skip
     for k in range(first, last):
-        index = which[k]
+        index = indices[k]
         out[index, offset] = clamp((time_limit - worlds[index].tick) * factor, 0.0, highest)
 
 
@@ -283,22 +283,22 @@ class Guide(Part):
         low = np.array([-1.0] * slopes + [0.0], np.float32)
         return Box(low, np.array([1.0] * slopes + [1.0 if self.normalised else FARTHEST], np.float32), dtype=np.float32)
 
-    def tables(self, setting: Setting) -> tuple[Any, ...]:
+    def tables(self, context: PartContext) -> tuple[Any, ...]:
         """The ways to the points, px; the fields and each world's; the last value's factor and highest."""
         ways = [(radius * x, radius * y, 1.0 / radius) for radius in RADII for x, y in DIRECTIONS]
-        columns = [setting.table(column, np.float64) for column in zip(*ways, strict=True)]
+        columns = [context.table(column, np.float64) for column in zip(*ways, strict=True)]
         factor, highest = 1.0 / FAR_TICKS if self.normalised else 1.0, float(self.box.high[-1])
-        return observe_guide, *columns, setting.goal.fields, setting.goal.rows, factor, highest
+        return observe_guide, *columns, context.goal.fields, context.goal.rows, factor, highest
 
 
 @entry_point
 def observe_guide(
-    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     dx: Any, dy: Any, share: Any, fields: Any, rows: Any, factor: float, highest: float,
 ) -> None:  # fmt: skip
     """Look round in the fields of some worlds; those whose field is not known yet are looked at again."""
     for k in range(first, last):
-        index = which[k]
+        index = indices[k]
         row = rows[index]
         x = worlds[index].ninja.x
         y = worlds[index].ninja.y

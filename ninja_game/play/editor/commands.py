@@ -17,8 +17,8 @@ from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.places import Cell, cell_of
 from ninja_game.formats.ascii.writer import headers_of
+from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.levels.episodes import GAME, YOURS, Entry, Mood
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
@@ -410,9 +410,9 @@ class TryContext(LevelContext):
         """None: nobody has a best on a level that is being made."""
         return []
 
-    def sayings(self) -> tuple[Saying, ...]:
+    def sayings(self) -> tuple[LevelMessage, ...]:
         """All of them, however often the level was passed."""
-        return read_sayings(self.entry.named.says)
+        return parse_messages(self.entry.named.says)
 
     def passed(self, attempt: Attempt) -> list[str]:
         self._tried(attempt, over=True)

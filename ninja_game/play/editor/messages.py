@@ -14,16 +14,16 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import BODY, SWITCH, object_type_name, points
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
-from ninja_game.formats.sayings import (
+from ninja_game.formats.messages import (
     BAR,
     KEYS,
+    MAX_MESSAGES,
     MOST_LETTERS,
-    MOST_SAYINGS,
     NEAR,
-    THINGS,
+    TARGETS,
+    arrow_targets,
     named_keys,
-    named_things,
-    read_sayings,
+    parse_messages,
     unknown_words,
 )
 from ninja_game.levels.episodes import Mood
@@ -68,16 +68,16 @@ _SAID_AT = {
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
-    f"Write {' or '.join(f'{{{thing}}}' for thing in THINGS)}: arrows in the level then point at both.",
+    f"Write {' or '.join(f'{{{thing}}}' for thing in TARGETS)}: arrows in the level then point at both.",
 )
 
 
-_WORDS = ", ".join(f"{{{name}}}" for name in KEYS + THINGS)
+_WORDS = ", ".join(f"{{{name}}}" for name in KEYS + TARGETS)
 
 
 @dataclass
 class Message:
-    """``when``: as of a Saying; ``detail``: of how many deaths, or at which cell, as it is typed."""
+    """``when``: as of a LevelMessage; ``detail``: of how many deaths, or at which cell, as it is typed."""
 
     when: str = "start"
     detail: str = ""
@@ -112,14 +112,14 @@ class Message:
 
 def _fits(source: str) -> bool:
     try:
-        return bool(read_sayings(source))
+        return bool(parse_messages(source))
     except LevelError:
         return False
 
 
 def messages_of(says: str) -> list[Message]:
     details = {"death": "{0.deaths}", "at": "{0.cell[0]},{0.cell[1]}"}
-    return [Message(each.when, details.get(each.when, "").format(each), each.text) for each in read_sayings(says)]
+    return [Message(each.when, details.get(each.when, "").format(each), each.text) for each in parse_messages(says)]
 
 
 class _Stage:
@@ -187,8 +187,8 @@ class MessagesScreen(MenuScreen):
     def build(self) -> Sequence[Widget]:
         self._row_widgets = [self._row(number) for number in range(len(self.messages))]
         rows = [widget for row in self._row_widgets for widget in row]
-        y = TOP + ROW * MOST_SAYINGS + 14
-        full = len(self.messages) >= MOST_SAYINGS
+        y = TOP + ROW * MAX_MESSAGES + 14
+        full = len(self.messages) >= MAX_MESSAGES
         words = "Remove one first" if full else "Add a message"
         add = Button((36, y, 160, 28), words, None if full else self._add)
         hint = "Play from just before the selected message; Esc comes back"
@@ -319,8 +319,8 @@ class MessagesScreen(MenuScreen):
             theme.text(surface, wrong or self._turn_of(message), 36, row + 95, size=8.5, colour=colour, width=WIDE - 56)
             if self.focus in self._row_widgets[number]:
                 self._selected = number
-        count = f"{len(self.messages)} of {MOST_SAYINGS}"
-        theme.text(surface, count, 208, TOP + ROW * MOST_SAYINGS + 21, size=11, colour=theme.palette.faint)
+        count = f"{len(self.messages)} of {MAX_MESSAGES}"
+        theme.text(surface, count, 208, TOP + ROW * MAX_MESSAGES + 21, size=11, colour=theme.palette.faint)
         selected = self.selected
         self._draw_level(surface, selected)
         name, when = _WHEN[selected.when] if selected else ("", "")
@@ -329,7 +329,7 @@ class MessagesScreen(MenuScreen):
         if selected and not selected.problem[1]:
             about += [finding.advice for finding in unseen_messages(selected.source, self._ground)]
         x, y, w, h = PICTURE
-        below = x, y + h + 10, w, TOP + ROW * MOST_SAYINGS - y - h - 10
+        below = x, y + h + 10, w, TOP + ROW * MAX_MESSAGES - y - h - 10
         theme.paragraph(surface, (*about, *_HELP), below, 11, 15, colour=theme.palette.faint)
 
     def _turn_of(self, message: Message) -> str:
@@ -359,7 +359,7 @@ class MessagesScreen(MenuScreen):
                 frame = eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR
                 stage.hud.theme.canvas.frame_rect(picture, palette.accent, *frame, 2)
         foot = draft.name, f"gold 0 / {draft.level.gold}"
-        labels = named_in(stage.world, named_things(texts)) if stage.world else ()
+        labels = named_in(stage.world, arrow_targets(texts)) if stage.world else ()
         stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=said, named=labels))
         surface.blit(picture, place)
         for number, each in enumerate(self.messages, 1):
@@ -369,7 +369,7 @@ class MessagesScreen(MenuScreen):
                 theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
 
     def _things(self, stage: _Stage, texts: Sequence[str]) -> Things:
-        tagged = bool(named_things(texts))
+        tagged = bool(arrow_targets(texts))
         if stage.world and tagged not in self._kept:
             self._kept[tagged] = things_at_start(self._draft.level, stage.world, texts, self._way)
         return self._kept.get(tagged, ())
@@ -377,6 +377,6 @@ class MessagesScreen(MenuScreen):
     def _eye(self, message: Message) -> Point | None:
         """Where the ninja is when a message is said, px; None at the start, or where that is not known."""
         if message.when == "at" and not message.problem[0]:
-            return read_sayings(f"{message.moment}: a text")[0].place
+            return parse_messages(f"{message.moment}: a text")[0].place
         name, part = _SAID_AT.get(message.when, ("", BODY))
         return next((points(spec).get(part) for spec in self._draft.objects if object_type_name(spec) == name), None)

@@ -33,7 +33,7 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import is_pack
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.episodes import GAME, YOURS, Entry
 from ninja_game.levels.findings import Finding
@@ -276,7 +276,7 @@ class EditorSession:
 
     def _keep(self, path: Path, search: Search, *, name: str = "") -> None:
         """Put the runs of a search beside a file that holds its level. ``name``: what is left by now, to be told of."""
-        from ninja_game.search.certificate import keep_run
+        from ninja_game.search.certificate import update_certificates
 
         which = f"{name}: " if name else ""
         try:
@@ -286,7 +286,7 @@ class EditorSession:
                 return
             for run in filter(None, (search.run, search.full)):
                 if named and self._keeps_runs(Path(named.file)):
-                    keep_run(named, run)
+                    update_certificates(named, run)
         except (NinjaGameError, OSError) as error:
             self.app.notify(f"{which}no certificate: {reason(error)}")
         else:
@@ -378,7 +378,7 @@ class EditorSession:
         if helped or level != self.draft.level:
             return False
         replay = attempt.replay(self.name, self.app.settings.name)
-        self.certifier.adopt(search_of(level, replace(replay, made=Made(played=True))))
+        self.certifier.adopt(search_of(level, replace(replay, made=Provenance(played=True))))
         return True
 
     def keep_certificate(self) -> None:
@@ -386,7 +386,7 @@ class EditorSession:
         if run is None or self.certifier.is_stale(self.draft.level):
             self.app.notify("Certify the level first (F7)")
             return
-        from ninja_game.search.certificate import named_run
+        from ninja_game.search.certificate import named_replay
 
-        replay = named_run(run, "solve", name=self.name, author="solver", level_author=self.draft.author)
+        replay = named_replay(run, "solve", name=self.name, author="solver", level_author=self.draft.author)
         self.app.notify(keep_replay(self.app.player, replay))

@@ -17,7 +17,7 @@ from ninja_game.editor.certify import Route, TestMap
 from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
 from ninja_game.formats.ascii.places import Cell, middle_of
-from ninja_game.formats.sayings import read_sayings
+from ninja_game.formats.messages import parse_messages
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
@@ -255,7 +255,7 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 def said_places(says: str) -> list[Point]:
     """The middles of the cells near which a level says something, px."""
-    return [each.place for each in read_sayings(says) if each.place]
+    return [each.place for each in parse_messages(says) if each.place]
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:

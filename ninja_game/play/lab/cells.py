@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import dist, floor
 
+from ninja_game.backend.plain import restore_plain, save_plain
 from ninja_game.play.lab.figure import CORNER, Control, Figure, Sheet, View, room_world, values_of, watch
-from ninja_game.sim.collision.rays import cast, ray_circle, ray_tiles, sees
+from ninja_game.sim.collision.rays import cast_ray, ray_circle, ray_tiles, sees
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import KIND_NAMES
-from ninja_game.sim.memory.plain import restore_plain, save_plain
 from ninja_game.sim.objects.dispatch import NINE_CELLS, touch_objects
 from ninja_game.sim.rules import CELL, GOLD_RADIUS, GRID_COLUMNS, GRID_ROWS, RADIUS, STRIDE
 from ninja_game.ui.canvas import Point
@@ -191,7 +191,7 @@ class RayCast(Figure):
     @property
     def visited(self) -> list[int]:
         """The cells of the ray, in the order in which the world's own function visits them."""
-        cells = values_of("cell", cast, self.tiles, self.world, self.from_x, self.from_y, *self.direction)
+        cells = values_of("cell", cast_ray, self.tiles, self.world, self.from_x, self.from_y, *self.direction)
         return [cell for cell in cells if EXISTS[cell]]
 
     def asked(self) -> tuple[list[int], bool, Point]:

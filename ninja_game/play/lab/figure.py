@@ -15,11 +15,11 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import pygame
 
 from ninja_game import sim
+from ninja_game.backend.plain import load_plain
 from ninja_game.files.user_folder import data_folder
 from ninja_game.play.rooms import room_level
 from ninja_game.player.settings import Settings
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, UNIT_X, UNIT_Y
-from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import CELL, HALF, INTERESTING, OFF
 from ninja_game.simulation import Simulation

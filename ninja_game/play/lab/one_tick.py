@@ -8,7 +8,7 @@ from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.lab.figure import Call, Control, Figure, Sheet, Stage
 from ninja_game.sim.collision.tiles import EXISTS
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bit
 from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.objects.dispatch import NINE_CELLS
 from ninja_game.view.overlays import touched_cells
@@ -49,7 +49,7 @@ class OneTick(Figure):
         """Run a tick of the world and show its first call."""
         tick = self.stage.simulation.tick
         jump_held = self.stage.world.ninja.jump_held
-        self.stage.step(PLAYED[tick % len(PLAYED)] if self.keys < 0 else pressed(self.keys, jump_held))
+        self.stage.step(PLAYED[tick % len(PLAYED)] if self.keys < 0 else with_press_bit(self.keys, jump_held))
         self.at = 0.0
 
     def controls(self) -> Sequence[Control]:

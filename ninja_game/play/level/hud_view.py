@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from math import hypot
 
 from ninja_game.files.shown_text import shown_text
+from ninja_game.formats.messages import named_keys
 from ninja_game.formats.run_time import rounded_text, seconds_text
-from ninja_game.formats.sayings import named_keys
 from ninja_game.play.level.hud import EndPanel, HudView, Said
 from ninja_game.play.level.places import MUST, Things
 from ninja_game.play.level.play import STAMP_TICKS, LevelPlay, Phase

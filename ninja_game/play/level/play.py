@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from enum import Enum
 from random import Random
 
-from ninja_game.formats.sayings import named_things
+from ninja_game.formats.messages import arrow_targets
 from ninja_game.play.app import App
 from ninja_game.play.level.places import MAY, Things, things_in
 from ninja_game.play.level.sayings import Sayings
@@ -69,7 +69,7 @@ def followed(shown: float, true: float) -> float:
 
 def things_at_start(level: Level, world: World, texts: Iterable[str], inputs: bytes) -> Things:
     """What a player looks for at the start of a level with these texts: what there is, and the author's way."""
-    places = list(things_in(world, tagged=bool(named_things(texts))))
+    places = list(things_in(world, tagged=bool(arrow_targets(texts))))
     if inputs:
         way = Simulation(level)
         for keys in inputs:

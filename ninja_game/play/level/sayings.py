@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import hypot
 
-from ninja_game.formats.sayings import NEAR, Saying, named_things
+from ninja_game.formats.messages import NEAR, LevelMessage, arrow_targets
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
@@ -61,15 +61,15 @@ class Sayings:
     Several of one moment are said one after the other; what happens meanwhile is said first, then what it interrupts
     goes on: the start's, and what nobody can have read. ``text``: what is to be read now, or "", ``place``: near which
     place, px, which ends it when the ninja is far from there. ``helps``: the game itself says what helps too: to try
-    again, to climb. ``named``: the things with a name and an arrow (``named_things``).
+    again, to climb. ``named``: the things with a name and an arrow (``arrow_targets``).
     """
 
-    def __init__(self, sayings: Sequence[Saying], *, helps: bool = False) -> None:
+    def __init__(self, sayings: Sequence[LevelMessage], *, helps: bool = False) -> None:
         self._sayings = sayings
-        self.named = named_things(each.text for each in sayings)
+        self.named = arrow_targets(each.text for each in sayings)
         self.helps = helps
         self._again = helps
-        self._said: set[Saying] = set()
+        self._said: set[LevelMessage] = set()
         self._deaths = self._slips = 0
         self._climb, self._foot = "", 0.0
         self._began = 0.0, 0.0
@@ -92,7 +92,7 @@ class Sayings:
         now = [(self.text, self._left, self.place)] if self.is_start or self._unread > 0 else []
         self._say(*texts, *(each for each in (*now, *self._next) if each[0] and each[0] not in over))
 
-    def _starts(self) -> list[Saying]:
+    def _starts(self) -> list[LevelMessage]:
         return [each for each in self._sayings if each.when == "start" and each not in self._said]
 
     @property
@@ -169,7 +169,7 @@ def shown_ticks(when: str, together: int) -> int:
     return START_TICKS if together == 1 and when in {"start", "switch"} else SHOWN_TICKS
 
 
-def _in_turn(sayings: Sequence[Saying]) -> list[_Text]:
+def _in_turn(sayings: Sequence[LevelMessage]) -> list[_Text]:
     return [(each.text, shown_ticks(each.when, len(sayings)), each.place) for each in sayings]
 
 

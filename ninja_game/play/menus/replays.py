@@ -10,7 +10,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.reading import LeftOut, files_below
+from ninja_game.files.reading import Skipped, files_below
 from ninja_game.files.shown_text import unreadable
 from ninja_game.files.user_folder import REPLAY_SUFFIX, bundled_replays
 from ninja_game.files.writing import write_atomically
@@ -124,7 +124,7 @@ class ReplaysScreen(MenuScreen):
     def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
         return rows
 
-    def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
+    def places(self) -> list[tuple[str, Iterable[Path | Skipped]]]:
         return [("Your folder", files_below(self.player.replay_folder)), ("Included", self.bundled())]
 
     def bundled(self) -> list[Path]:
@@ -138,7 +138,7 @@ class ReplaysScreen(MenuScreen):
         seen = set[tuple[object, ...]]()
         for when, files in self.places():
             for file in files:
-                if isinstance(file, LeftOut):
+                if isinstance(file, Skipped):
                     self.problems.append(file.path.name)
                     continue
                 try:

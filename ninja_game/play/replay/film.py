@@ -15,7 +15,7 @@ import pygame
 
 from ninja_game.errors import ArgumentError, MissingExtraError, NinjaGameError
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import export_path, how_to_install
+from ninja_game.files.user_folder import export_path, install_hint
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
@@ -305,7 +305,7 @@ def write_video(pictures: Iterator[pygame.Surface], path: Path, size: tuple[int,
         import av
         import numpy as np
     except ImportError:
-        raise MissingExtraError(f"a {path.suffix} needs PyAV; {how_to_install('film')}") from None
+        raise MissingExtraError(f"a {path.suffix} needs PyAV; {install_hint('film')}") from None
     if codec not in av.codecs_available:
         raise MissingExtraError(f"this PyAV has no encoder {codec}; write a .gif, or install a build with it")
     if size[0] % 2 or size[1] % 2:

@@ -18,8 +18,8 @@ from ninja_game.runs.run import run_level
 from ninja_game.runtime import cores, require_desktop, run_in_background
 from ninja_game.search.certificate import UnverifiedRunError, with_plain_triggers, without_idle_keys
 from ninja_game.search.formula.methods import METHODS, search_span, to_exit
-from ninja_game.search.formula.task import Found, SpanTask, without_junk
-from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs, with_press_bits
+from ninja_game.search.formula.task import SpanResult, SpanTask, tidied
+from ninja_game.sim.inputs import KEYS_DOWN, fit_inputs, with_press_bits
 
 if TYPE_CHECKING:
     from ninja_game.search.task import Task
@@ -47,10 +47,10 @@ class SpanSearch:
             raise ArgumentError(f"method is {method!r}; expected 'auto', {', '.join(map(repr, METHODS))}")
         task.check()
         self.task = task
-        self.found: tuple[Found, ...] = ()
-        self._tidy: dict[bytes, Found] = {}
-        self.own: Found | None = None
-        self.miss: Found | None = None
+        self.found: tuple[SpanResult, ...] = ()
+        self._tidy: dict[bytes, SpanResult] = {}
+        self.own: SpanResult | None = None
+        self.miss: SpanResult | None = None
         self.ticks_run = 0
         self.problem = ""
         self._options = {"method": method, "every": every, "memory": memory, "threads": jobs}
@@ -88,15 +88,15 @@ class SpanSearch:
         return (self._ended or monotonic()) - self._began if self._began else 0.0
 
     def _work(self) -> None:
-        missed = partial(setattr, self, "miss")
-        found = search_span(self.task, self._report, missed=missed, **self._options)  # type: ignore[arg-type]
+        report_miss = partial(setattr, self, "miss")
+        found = search_span(self.task, self._report, report_miss=report_miss, **self._options)  # type: ignore[arg-type]
         self.found = self._without_junk(found, np.inf)
         self._ended = monotonic()
 
     def _fail(self, why: str) -> None:
         self.problem, self._ended = why, monotonic()
 
-    def _report(self, ticks: int, found: tuple[Found, ...]) -> bool:
+    def _report(self, ticks: int, found: tuple[SpanResult, ...]) -> bool:
         if not self._began:
             if self._cancelled.is_set():
                 return False
@@ -110,20 +110,20 @@ class SpanSearch:
         late = self._limit and self.seconds >= self._limit
         return not (late or self._cancelled.is_set())
 
-    def _without_junk(self, found: tuple[Found, ...], seconds: float) -> tuple[Found, ...]:
+    def _without_junk(self, found: tuple[SpanResult, ...], seconds: float) -> tuple[SpanResult, ...]:
         """Results without keys that do nothing, as far as there is time for it: the others follow."""
         late, known = monotonic() + seconds, self._tidy
         self._tidy = {each.inputs: known[each.inputs] for each in found if each.inputs in known}
         for each in found:
             if each.inputs not in self._tidy and monotonic() < late:
-                self._tidy[each.inputs] = without_junk(self.task, each)
+                self._tidy[each.inputs] = tidied(self.task, each)
         return tuple(self._tidy.get(each.inputs, each) for each in found)
 
 
 TIDYING_SECONDS = 0.1
-"""Of one report to tidy what was found."""
+"""Seconds of each report in which results are tidied."""
 LONGEST_SECONDS = 1e6
-"""Seconds of a search that goes on until it is cancelled."""
+"""The time limit, s, of a search that ends only when it is cancelled."""
 MOST_JOBS = 4
 """Jobs of a search of a whole run, each of which may take a gigabyte."""
 WAY_SECONDS = 120.0
@@ -147,12 +147,12 @@ class RunSearch(SpanSearch):
         super().__init__(task)
         self._wanted = Task(
             task.level, task.body, gold, LONGEST_SECONDS, jobs=min(jobs or cores(), MOST_JOBS),
-            first=fitted_inputs(task.inputs, task.length), others=others,
+            first=fit_inputs(task.inputs, task.length), others=others,
         )  # fmt: skip
         self._reaches = False
         self._lock = Lock()
         self._ticks = {True: 0, False: 0}
-        self._unbeaten: dict[bool, tuple[Found, ...]] = {True: (), False: ()}
+        self._unbeaten: dict[bool, tuple[SpanResult, ...]] = {True: (), False: ()}
 
     def _work(self) -> None:
         """Shorten the run by its own route, and beside that by those of all runs."""
@@ -217,7 +217,7 @@ class RunSearch(SpanSearch):
         path = run_level(self.task.level, inputs, body=self.task.body).positions
         keys = np.frombuffer(inputs.ljust(self.task.length, b"\0"), np.uint8) & np.uint8(KEYS_DOWN)
         end = tuple(np.concatenate([path[-1], path[-1] - path[-2]]).tolist())
-        found = Found(float(run.ticks), run.ticks, keys, inputs, run.gold, end, own_route, path=path)
+        found = SpanResult(float(run.ticks), run.ticks, keys, inputs, run.gold, end, own_route, path=path)
         with self._lock:
             self._began = self._began or monotonic()
             if self._reaches and self.own is None:
@@ -228,9 +228,9 @@ class RunSearch(SpanSearch):
             self.found = tuple(sorted([*own, *others]))
 
 
-def _unbeaten(found: list[Found]) -> tuple[Found, ...]:
+def _unbeaten(found: list[SpanResult]) -> tuple[SpanResult, ...]:
     """Those that no other one beats in ticks and gold, the fastest first."""
-    best: list[Found] = []
+    best: list[SpanResult] = []
     for each in sorted(found):
         if not best or each.gold > best[-1].gold:
             best.append(each)

@@ -10,7 +10,7 @@ import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce
+from functools import partial, reduce
 from itertools import pairwise
 from typing import Any
 
@@ -134,9 +134,10 @@ class _Reader:
         try:
             match node:
                 case ast.BoolOp(op, parts):
-                    return reduce(_both if isinstance(op, ast.And) else _either, map(self.truth, parts))
+                    return reduce(_AND if isinstance(op, ast.And) else _OR, map(self.truth, parts))
                 case ast.UnaryOp(ast.Not(), part):
-                    return _negation(self.truth(part))
+                    fact = self.truth(part)
+                    return Formula(True, lambda view: 1.0 - fact.value(view), lambda view: -fact.margin(view))
                 case ast.UnaryOp(ast.USub(), part):
                     value = self.number(part)
                     return _number(lambda view: -value(view))
@@ -175,7 +176,7 @@ class _Reader:
         if not {*map(type, signs)} <= COMPARISONS.keys():
             raise self.error(node, "an unknown comparison", "< <= > >= == !=")
         pairs = zip(pairwise(map(self.number, parts)), signs, strict=True)
-        return reduce(_both, (_comparison(a, b, *COMPARISONS[type(sign)]) for (a, b), sign in pairs))
+        return reduce(_AND, (_comparison(a, b, *COMPARISONS[type(sign)]) for (a, b), sign in pairs))
 
     def named(self, node: ast.expr, name: str, parts: Sequence[ast.expr]) -> Formula:
         count, function = FUNCTIONS.get(name, (self.names.get(name), None))
@@ -211,21 +212,12 @@ def _comparison(
     )
 
 
-def _negation(part: Formula) -> Formula:
-    return Formula(True, lambda view: 1.0 - part.value(view), lambda view: -part.margin(view))
-
-
-def _both(left: Formula, right: Formula) -> Formula:
-    return _joined(np.minimum, left, right)
-
-
-def _either(left: Formula, right: Formula) -> Formula:
-    return _joined(np.maximum, left, right)
-
-
 def _joined(join: Callable[..., Any], left: Formula, right: Formula) -> Formula:
     return Formula(
         True,
         lambda view: join(left.value(view), right.value(view)),
         lambda view: join(left.margin(view), right.margin(view)),
     )
+
+
+_AND, _OR = partial(_joined, np.minimum), partial(_joined, np.maximum)

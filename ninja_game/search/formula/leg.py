@@ -10,7 +10,7 @@ from ninja_game.backend.memories import compiled
 from ninja_game.search.formula.task import Keys, SpanTask
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.known_run import known_run, play_known
-from ninja_game.search.legs import MORE_THAN_ANY, FieldOf, Leg, Spend
+from ninja_game.search.legs import UNBOUNDED, FieldOf, Leg, Spend
 from ninja_game.search.nodes import open_start
 from ninja_game.search.route import LEG_NODES, ROUTE_ENDS, ROUTE_EXTRA, ROUTE_LEGS
 from ninja_game.search.searching import Search
@@ -39,7 +39,7 @@ class LegSearch:
             thing = start.worlds["objects"][0][target]
             place = start.worlds["objects"][0][int(thing["partner"])] if thing["kind"] == EXIT else thing
             field = partial(heuristics.field_to, (float(place["x"]), float(place["y"])))
-        until = MORE_THAN_ANY if target else 0
+        until = UNBOUNDED if target else 0
         self._leg = Leg([root], until, root.mask, until, ROUTE_ENDS, 0, field, target=target)
         self._seed, self._begun, self._most = seed * 10_000, 0, MOST_TICKS
         self._search.begin_leg(self._leg, ROUTE_LEGS[0][0], seed=0, bound=1)

@@ -12,7 +12,17 @@ from ninja_game.backend.memories import compiled
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.leg import LegSearch
-from ninja_game.search.formula.task import Found, Keys, Missed, Report, SpanTask, SpanWorlds, Trials, target_of, ways_of
+from ninja_game.search.formula.task import (
+    Keys,
+    ReportMiss,
+    ReportResults,
+    SpanResult,
+    SpanTask,
+    SpanWorlds,
+    Trials,
+    distinct_ways,
+    target_of,
+)
 from ninja_game.search.local_search import mutate
 from ninja_game.search.nodes import RandomState, random_below, zeroed
 from ninja_game.sim.level import Level
@@ -53,14 +63,14 @@ def _kernel_rng(seed: int) -> list[RandomState]:
 
 
 class Results:
-    """The best keys so far, and whom to tell of the ``ways`` among them; while there are none, of the nearest miss."""
+    """The best keys so far, and the distinct ``ways`` among them for ``report``; until there are any, the miss."""
 
-    def __init__(self, worlds: SpanWorlds, report: Report, missed: Missed) -> None:
+    def __init__(self, worlds: SpanWorlds, report: ReportResults, report_miss: ReportMiss) -> None:
         self.worlds = worlds
-        self.best: tuple[Found, ...] = ()
-        self.ways: tuple[Found, ...] = ()
+        self.best: tuple[SpanResult, ...] = ()
+        self.ways: tuple[SpanResult, ...] = ()
         self.going = True
-        self._report, self._missed = report, missed
+        self._report, self._report_miss = report, report_miss
 
     def try_all(self, keys: Keys) -> Trials:
         """Try keys, (ticks, worlds), and keep what is good; ``going`` is then whether to go on."""
@@ -73,7 +83,7 @@ class Results:
             if any(np.array_equal(found.keys[: found.ticks], old.keys[: old.ticks]) for old in self.best):
                 continue
             self.best = tuple(sorted([*self.best, found])[:KEPT])
-            self.ways = tuple(ways_of([*self.ways, found], measured=self.worlds.measure is not None)[:KEPT])
+            self.ways = tuple(distinct_ways([*self.ways, found], measured=self.worlds.measure is not None)[:KEPT])
         self.report()
         return trials
 
@@ -82,28 +92,28 @@ class Results:
         self.try_all(np.stack((keys * (WORLDS // len(keys) + 1))[:WORLDS], axis=1))
 
     def spend(self, ticks: int) -> bool:
-        """Count ticks that were run elsewhere; whether it is over."""
+        """Count ticks that were run elsewhere; true if the search is to end."""
         self.worlds.ticks_run += ticks
         self.report()
         return not self.going
 
     def report(self) -> None:
         if self.worlds.miss is not None and not self.best:
-            self._missed(self.worlds.miss)
+            self._report_miss(self.worlds.miss)
         self.going = self._report(self.worlds.ticks_run, self.ways)
 
 
 def search_span(
-    task: SpanTask, report: Report, *, method: str = "auto", every: int = 1, seed: int = 1, memory: str = "auto",
-    threads: int | None = None, missed: Missed = lambda _: None,
-) -> tuple[Found, ...]:  # fmt: skip
+    task: SpanTask, report: ReportResults, *, method: str = "auto", every: int = 1, seed: int = 1, memory: str = "auto",
+    threads: int | None = None, report_miss: ReportMiss = lambda _: None,
+) -> tuple[SpanResult, ...]:  # fmt: skip
     """The best keys of each way that was found, best first, at most KEPT; none where nothing reached the goal.
 
     ``method``: one of METHODS, or "auto": a beam, then small changes of what it found, again and again; between them,
     while nothing is found, the solver's way to what the goal is about (LegSearch), on the compiled memory. ``every``:
     for "exhaustive", how many ticks each choice of keys holds. ``report`` is called first when all is compiled. The
-    search goes on until it gives False; "exhaustive" ends when all is tried. ``missed``: told with each report of what
-    comes nearest to the goal, while nothing reaches it. The same seed does the same work in the same order. Raises
+    search goes on until it gives False; "exhaustive" ends when all is tried. ``report_miss`` gets, with each report,
+    what comes nearest to the goal, while nothing reaches it. The same seed does the same work in the same order. Raises
     ArgumentError for a span with too many ways through it, and what SpanTask does.
     """
     if method == "exhaustive":
@@ -113,7 +123,7 @@ def search_span(
     mutated(np.zeros((1, 1), np.uint8), 1, _kernel_rng(1))
     target = target_of(task) if method == "auto" and worlds.batch.memory == "compiled" else None
     legs = None if target is None else LegSearch(task, target, seed)
-    results = Results(worlds, report, missed)
+    results = Results(worlds, report, report_miss)
     rng = np.random.default_rng(seed)
     results.try_all(np.tile(task.base[:, np.newaxis], (1, WORLDS)))
     if method == "exhaustive":
@@ -146,7 +156,7 @@ def to_exit(
         first = max(0, len(inputs) - cut)
         began: list[float] = []
 
-        def report(ticks: int, found: tuple[Found, ...], began: list[float] = began) -> bool:
+        def report(ticks: int, found: tuple[SpanResult, ...], began: list[float] = began) -> bool:
             began.append(time.monotonic())
             return goes_on(ticks) and not found and began[-1] - began[0] < seconds / len(CUTS)
 

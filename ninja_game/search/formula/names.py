@@ -13,7 +13,7 @@ from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.language import FAR, Values
-from ninja_game.search.heuristics import FARTHEST, Field, Heuristics, open_masks, points_at
+from ninja_game.search.heuristics import FARTHEST, DistanceField, Heuristics, open_masks, points_at
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, LAUNCHER, MINE, TURRET
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import LAUNCHER_FLIGHT, OUTCOME_DEAD, OUTCOME_EXIT
@@ -57,7 +57,11 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
         return found
 
     def flag(what: str) -> Callable[..., Any]:
-        return lambda number: (_flags(batch, number, what) != 0).astype(float)
+        def value(number: Any) -> Any:
+            found = _object(batch, number)
+            return (found[flag_field(what, int(found["kind"][0]), float(number))] != 0).astype(float)
+
+        return value
 
     values: dict[str, Callable[[], Any]] = {
         "x": lambda: place[:, 0], "y": lambda: place[:, 1],
@@ -155,18 +159,12 @@ def flag_field(what: str, kind: int, id_: float) -> str:
     return FLAGS[what][kind]
 
 
-def _flags(batch: Batch, number: Any, what: str) -> Any:
-    """A field that is 0 or 1, of an object of all worlds."""
-    found = _object(batch, number)
-    return found[flag_field(what, int(found["kind"][0]), float(number))]
-
-
 _SPEED = 4.0
 """px that a tick of a field counts, so that distances in formulas and these are of one size: a step of 6 px is 1.5."""
 UNREACHABLE = -1.0 - _SPEED * FARTHEST
 """The margin where no way leads to what makes a fact so."""
 
-Target = Callable[[int, float, float], Field]
+Target = Callable[[int, float, float], DistanceField]
 """The field of a target in a switch state, for a ninja at (x, y)."""
 
 
@@ -178,7 +176,7 @@ class Distances:
 
     def __init__(self, level: Level, batch: Batch) -> None:
         self._level, self._batch = level, batch
-        self._fields: dict[tuple[object, int], Field] = {}
+        self._fields: dict[tuple[object, int], DistanceField] = {}
 
     @cached_property
     def _heuristics(self) -> Heuristics:

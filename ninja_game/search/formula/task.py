@@ -88,7 +88,7 @@ class SpanTask:
 
 
 @dataclass(order=True)
-class Found:
+class SpanResult:
     """Keys that reach the goal, the smaller, the better, or that come near it.
 
     ``score``: minus the measure (or the measure, for ``least``), or the ticks to the goal or to the exit; ``ticks``: of
@@ -110,7 +110,7 @@ class Found:
     path: NDArray[np.floating] = field(compare=False, repr=False, default_factory=lambda: np.zeros((0, 2)))
 
 
-def without_junk(task: SpanTask, found: Found) -> Found:
+def tidied(task: SpanTask, found: SpanResult) -> SpanResult:
     """The same result without keys that do nothing, as ``without_idle_keys`` has it."""
     first, last = task.first, task.first + found.ticks
     inputs = without_idle_keys(
@@ -121,13 +121,13 @@ def without_junk(task: SpanTask, found: Found) -> Found:
     return replace(found, keys=keys, inputs=inputs)
 
 
-NEAR, NEARLY = 24.0, 6
+SAME_WAY_PX, SAME_WAY_TICKS = 24.0, 6
 """Runs go the same way where each is no farther from the other than this, px, within so many ticks."""
 
 
-def ways_of(found: Iterable[Found], *, measured: bool) -> list[Found]:
+def distinct_ways(found: Iterable[SpanResult], *, measured: bool) -> list[SpanResult]:
     """The best result of each way, best first; with a measure none that another one beats in score and in tick."""
-    ways: list[Found] = []
+    ways: list[SpanResult] = []
     for each in sorted(found):
         beaten = measured and any(way.score < each.score and way.ticks < each.ticks for way in ways)
         if not beaten and not any(_is_same_way(way, each) for way in ways):
@@ -135,12 +135,12 @@ def ways_of(found: Iterable[Found], *, measured: bool) -> list[Found]:
     return ways
 
 
-def _is_same_way(one: Found, other: Found) -> bool:
-    if (one.own_route, one.gold) != (other.own_route, other.gold) or abs(one.ticks - other.ticks) > NEARLY:
+def _is_same_way(one: SpanResult, other: SpanResult) -> bool:
+    if (one.own_route, one.gold) != (other.own_route, other.gold) or abs(one.ticks - other.ticks) > SAME_WAY_TICKS:
         return False
-    ticks = np.arange(len(one.path))[:, np.newaxis] + np.arange(-NEARLY, NEARLY + 1)
+    ticks = np.arange(len(one.path))[:, np.newaxis] + np.arange(-SAME_WAY_TICKS, SAME_WAY_TICKS + 1)
     there = other.path[np.clip(ticks, 0, len(other.path) - 1)] if len(other.path) else np.inf
-    return bool((np.abs(there - one.path[:, np.newaxis]).max(2).min(1) <= NEAR).all()) if len(one.path) else True
+    return bool((np.abs(there - one.path[:, np.newaxis]).max(2).min(1) <= SAME_WAY_PX).all()) if len(one.path) else True
 
 
 def target_of(task: SpanTask) -> int | None:
@@ -149,7 +149,7 @@ def target_of(task: SpanTask) -> int | None:
     return found and int(found[1] or -1) + 1
 
 
-def score_text(task: SpanTask, found: Found) -> str:
+def score_text(task: SpanTask, found: SpanResult) -> str:
     """What a search has found, in words."""
     last = task.first + found.ticks - 1
     if found.missed_by == 0.0:
@@ -201,7 +201,7 @@ class SpanWorlds:
         self.start = single.save([0] * count)
         self.batch.restore(self.start)
         self.ticks_run = task.first
-        self.miss: Found | None = None
+        self.miss: SpanResult | None = None
         self._nearest = -np.inf
         self._paths = np.zeros((task.length, count, 2), np.float32)
         self.rest: Keys = np.zeros(0, np.uint8)
@@ -226,13 +226,15 @@ class SpanWorlds:
 
     def found(
         self, index: int, keys: Keys, score: float, ticks: int, end: list[float], missed_by: float | None = None
-    ) -> Found:
+    ) -> SpanResult:
         """The keys of a world as a result, or as a miss."""
         rest = self.rest.tolist() if self.task.rest else []
         run = with_press_bits([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
         # Of a miss it is not known: a beam goes on from copies of other worlds.
         path = self._paths[: ticks if missed_by is None else 0, index].copy()
-        return Found(score, ticks, keys.copy(), run, int(self.batch.gold[index]), tuple(end), True, missed_by, path)
+        return SpanResult(
+            score, ticks, keys.copy(), run, int(self.batch.gold[index]), tuple(end), True, missed_by, path
+        )
 
     def note_miss(self, margins: Values, keys: Keys, ticks: int) -> None:
         """Keep the living world that is nearest to the goal after so many ticks of the span, if none was nearer."""
@@ -291,8 +293,8 @@ class SpanWorlds:
         trials.margins[:] = np.where(reached & ~passed, 0.0, trials.margins)
 
 
-Report = Callable[[int, tuple[Found, ...]], bool]
+ReportResults = Callable[[int, tuple[SpanResult, ...]], bool]
 """Told the ticks run so far and the best results so far, best first; False ends the search."""
 
-Missed = Callable[[Found], object]
+ReportMiss = Callable[[SpanResult], object]
 """Told of what comes nearest to a goal that nothing has reached."""

@@ -29,7 +29,7 @@ from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, NEVER, OFF, RADIUS, RIG
 
 
 @fast
-def cast(level: TileMap, w: World, x: float, y: float, dx: float, dy: float) -> tuple[bool, float, float]:
+def cast_ray(level: TileMap, w: World, x: float, y: float, dx: float, dy: float) -> tuple[bool, float, float]:
     """Follow a ray from (x, y) along the unit vector (dx, dy) until a tile or a solid edge stops it.
 
     Answers (stopped, px, px); the point is (0, 0) for a ray that runs off the grid.
@@ -92,7 +92,7 @@ def ray_tiles(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: f
     length = sqrt(vx * vx + vy * vy)
     if length == 0.0:
         return False, 0.0, 0.0
-    return cast(level, w, x, y, vx / length, vy / length)
+    return cast_ray(level, w, x, y, vx / length, vy / length)
 
 
 @fast
@@ -134,7 +134,7 @@ def sees(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float)
     hit, hit_x, hit_y = ray_circle(x, y, dx, dy, n.x, n.y, RADIUS)
     if not hit:
         return False, 0.0, 0.0
-    stopped, stop_x, stop_y = cast(level, w, x, y, dx, dy)
+    stopped, stop_x, stop_y = cast_ray(level, w, x, y, dx, dy)
     if stopped:
         alpha = (x - hit_x) * dx + (y - hit_y) * dy
         beta = (x - stop_x) * dx + (y - stop_y) * dy

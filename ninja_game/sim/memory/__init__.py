@@ -1,1 +1,1 @@
-"""The state of a world, described once and held in two memories: plain Python objects, or NumPy records."""
+"""The state of a world, described once, and how rules are marked for the compiler; ``backend`` holds worlds."""

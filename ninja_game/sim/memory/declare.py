@@ -1,11 +1,11 @@
 """One annotated schema, two memories.
 
 The state of the world is described once, by annotated classes (``schema.py``). This module turns such a class into the
-*plain* memory: a Python class with slots, every field zero at first. ``layout.py`` turns the same class into the
-*compiled* memory: a NumPy record. The rules are ordinary functions that never know which of the two they hold.
+*plain* memory: a Python class with slots, every field zero at first. ``layout.py`` of the backend turns the same class
+into the *compiled* memory: a NumPy record. The rules are ordinary functions that never know which of the two they hold.
 
-``@fast`` only registers a rule. ``compiler.py`` makes compiled twins of what is registered; plain play imports
-neither Numba nor NumPy.
+``@fast`` only registers a rule; the backend's ``compiler.py`` makes compiled twins of what is registered. Plain play
+imports neither Numba nor NumPy.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ import numpy as np
 
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError, ReplayError
-from ninja_game.files.reading import LeftOut
+from ninja_game.files.reading import Skipped
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.links import is_link
 from ninja_game.formats.n14.level_string import level_digest
@@ -139,7 +139,7 @@ class OtherRunScreen(ReplaysScreen):
         for rows in super()._file_rows():
             yield [_named(row) for row in rows if self._is_of_the_level(row)]
 
-    def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
+    def places(self) -> list[tuple[str, Iterable[Path | Skipped]]]:
         """Beside the file of the run, too."""
         session = self.others.editor.session
         file = session.file.path or Path(session.about.file)

@@ -7,7 +7,7 @@ from random import Random
 
 import pygame
 
-from ninja_game.sim.inputs import fitted_inputs
+from ninja_game.sim.inputs import fit_inputs
 from ninja_game.sim.memory.schema import World
 from ninja_game.simulation import SaveState, Simulation
 from ninja_game.tas.timeline import Trajectory
@@ -223,7 +223,7 @@ class LevelPicture:
         moment = tick + 1
         if timeline.simulated_until < moment:
             return
-        run, inputs = self.run, fitted_inputs(timeline.inputs[:moment], moment)
+        run, inputs = self.run, fit_inputs(timeline.inputs[:moment], moment)
         if run.inputs == inputs:
             return
         if self._view is not None:

@@ -12,7 +12,7 @@ import pygame
 from numpy.typing import NDArray
 
 from ninja_game.formats.replay.notations import KEY_NAMES
-from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs
+from ninja_game.sim.inputs import KEYS_DOWN, fit_inputs
 from ninja_game.sim.states import STATE_NAMES
 from ninja_game.tas.timeline import exit_distance
 from ninja_game.tas.tracks import InputTrack, first_difference
@@ -78,7 +78,7 @@ def different_rows(ours: bytes, theirs: bytes, ticks: int, height: int) -> list[
 def _keys(*runs: bytes) -> list[NDArray[np.uint8]]:
     """The keys that are down in each tick of the longest of some runs."""
     ticks = max(map(len, runs))
-    return [np.frombuffer(fitted_inputs(inputs, ticks), np.uint8) & np.uint8(KEYS_DOWN) for inputs in runs]
+    return [np.frombuffer(fit_inputs(inputs, ticks), np.uint8) & np.uint8(KEYS_DOWN) for inputs in runs]
 
 
 FLOOR, WALL_LEFT, WALL_RIGHT = 1, 2, 4  # contacts, as a sum

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT, pressed
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT, with_press_bit
 from ninja_game.sim.states import JUMPING
 from ninja_game.tas_editor.roll.facts import FLOOR, WALL_LEFT, WALL_RIGHT, RowFacts, Values
 from ninja_game.ui.canvas import Canvas
@@ -273,7 +273,7 @@ class RowSheet:
         box = (left + 1 + margin, y + gap, place.width - 2 * margin - 1, height - gap)
         self._picture.fill(mixed(colour, line, 0.35) if row.over else colour, box)
         letter = _KEY_LETTERS[key] if begins else ""
-        if key == JUMP_HELD and row.keys != pressed(row.keys, row.before & JUMP_HELD):
+        if key == JUMP_HELD and row.keys != with_press_bit(row.keys, row.before & JUMP_HELD):
             # A recording may jump without the press, and press without the jump.
             letter = "!" if row.keys & JUMP_PRESSED else "-"
         if letter:

@@ -17,8 +17,8 @@ from ninja_game.runtime import cores
 from ninja_game.search.certificate import moved_markers
 from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.methods import KEPT, fewest_ticks
-from ninja_game.search.formula.task import Found, SpanTask, score_text, ways_of
-from ninja_game.sim.inputs import fitted_inputs, with_press_bits
+from ninja_game.search.formula.task import SpanResult, SpanTask, distinct_ways, score_text
+from ninja_game.sim.inputs import fit_inputs, with_press_bits
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.goals import IMPROVE, IMPROVE_GOLD, IMPROVES, PRESETS, SearchedSpan, SpanGoal, whole_run
@@ -84,9 +84,9 @@ class SpanResults:
         # searched and those that results were put into.
         whole = len(task.inputs) if task.rest else task.last
         self._fitting = [(task.inputs[:whole], (task.rest and task.behind) or task.last)]
-        self.better: tuple[Found, ...] = ()
-        self._seen: tuple[Found, ...] = ()
-        self._preview: tuple[Found, OtherRun] | None = None
+        self.better: tuple[SpanResult, ...] = ()
+        self._seen: tuple[SpanResult, ...] = ()
+        self._preview: tuple[SpanResult, OtherRun] | None = None
         self.search.start()
         self._started = monotonic()
 
@@ -117,7 +117,7 @@ class SpanResults:
                 return behind
         return None
 
-    def put(self, found: Found) -> bool:
+    def put(self, found: SpanResult) -> bool:
         """Put a result into the run, as one edit, and select its span; whether that was possible."""
         behind = self.behind
         if behind is None:
@@ -132,15 +132,15 @@ class SpanResults:
             self.editor.select(self.task.first, end)
         return True
 
-    def _whose(self, found: Found) -> OtherRun | None:
+    def _whose(self, found: SpanResult) -> OtherRun | None:
         """The run beside that a result is, just as it is."""
         if found.own_route or not found.inputs:
             return None
         ticks, keys = len(found.inputs), with_press_bits(found.inputs)
-        same = (each for each in self._others if with_press_bits(fitted_inputs(each.track.inputs, ticks)) == keys)
+        same = (each for each in self._others if with_press_bits(fit_inputs(each.track.inputs, ticks)) == keys)
         return next(same, None)
 
-    def _taken(self, found: Found) -> Contributions:
+    def _taken(self, found: SpanResult) -> Contributions:
         """What found a result, and those whose routes may be in it."""
         whose = self._whose(found)
         if whose is not None:
@@ -149,7 +149,7 @@ class SpanResults:
         command = "improve" if isinstance(self.search, RunSearch) else "search"
         return sum((other.made for other in routes), Contributions(commands=(command,)))
 
-    def _made(self, track: InputTrack, found: Found, behind: int) -> InputTrack:
+    def _made(self, track: InputTrack, found: SpanResult, behind: int) -> InputTrack:
         """The run with a result in it; with ``rest`` it is the run that reached the exit in the search."""
         first, keys = self.task.first, found.keys[: found.ticks].tolist()
         if self.task.goal == "won":  # behind an exit nothing follows: keys there would take its claims from the run
@@ -161,7 +161,7 @@ class SpanResults:
         made = track.replaced(first, behind, keys)
         return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers).up_to(end)
 
-    def preview(self, found: Found) -> OtherRun:
+    def preview(self, found: SpanResult) -> OtherRun:
         if self._preview is None or self._preview[0] is not found:
             task = self.task
             timeline = Timeline(task.level, found.inputs, body=task.body, memory=self.editor.session.timeline.memory)
@@ -188,9 +188,9 @@ class SpanResults:
             if each.missed_by is None
             and (own is None or each.score < own.score or (each.score == own.score and each.gold > own.gold))
         ]
-        self.better = tuple(ways_of(better, measured=bool(self.task.measure))[:KEPT])
+        self.better = tuple(distinct_ways(better, measured=bool(self.task.measure))[:KEPT])
 
-    def words(self, found: Found) -> tuple[str, ...]:
+    def words(self, found: SpanResult) -> tuple[str, ...]:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
         own, words = self.search.own, score_text(self.task, found)
         if own is not None and (self.task.rest or self.task.goal == "won") and found.gold != own.gold:
@@ -256,7 +256,7 @@ class SearchTab(Tab):
         self.method = "auto"
         self.results: SpanResults | None = None
         self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal] | None = None
-        self.found: tuple[Found, ...] = ()
+        self.found: tuple[SpanResult, ...] = ()
         fields = ("x > 400, taken(12), distance(300, 200) < 6 ...", "speed; vx, y, gold ...")
         self.goal, self.measure = (
             EntryField(prompt, self.start, longest=LONGEST, hint=_NAMES, put=self._typed) for prompt in fields

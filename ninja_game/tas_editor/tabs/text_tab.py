@@ -14,7 +14,7 @@ from ninja_game.errors import FormatError
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.formats.replay.notations import KEY_NAMES, marker_word
-from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, pressed, with_press_bits
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.tas.files import inputs_of_text
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import Span, TasEditor
@@ -62,7 +62,7 @@ def text_of(track: InputTrack, first: int, last: int, *, celeste: bool) -> str:
     if first == last:
         return name
     keys, held = track.inputs[first], track.keys_at(first - 1) & JUMP_HELD
-    mark = "" if keys == pressed(keys, held) else "!" if keys & JUMP_PRESSED else "-"
+    mark = "" if keys == with_press_bit(keys, held) else "!" if keys & JUMP_PRESSED else "-"
     word, count = KEY_NAMES[keys & KEYS_DOWN] + mark, last - first
     frames = ",".join([str(count), *word.strip(".")]) if celeste and not mark else f"{word}*{count}"
     return f"{name} {frames}".lstrip()

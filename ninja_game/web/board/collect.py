@@ -10,7 +10,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from ninja_game.errors import FileError, NinjaGameError, ReplayError, reason
-from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes, stamp_of
+from ninja_game.files.reading import Skipped, decoded, files_below, read_bytes, stamp_of
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import holds_recordings
 from ninja_game.formats.replay.text import (
@@ -92,7 +92,7 @@ class RunFolder:
         """The paths of all files in the folder, and why one is left out; no link is followed."""
         above = len(self.folder.parts)
         for found in files_below(self.folder, follow_links=False):
-            path, why = (found.path, found.why) if isinstance(found, LeftOut) else (found, "")
+            path, why = (found.path, found.why) if isinstance(found, Skipped) else (found, "")
             yield "/".join(path.parts[above:]), why
 
     def file(self, name: str) -> SentFile:

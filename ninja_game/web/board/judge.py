@@ -15,15 +15,15 @@ from ninja_game.budget import RUN_BUDGET, tick_cost
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.lines import MOST_NAME
 from ninja_game.formats.n14.demo import parse_demo
-from ninja_game.formats.replay.made import parse_made
+from ninja_game.formats.replay.provenance import parse_provenance
 from ninja_game.formats.replay.text import INPUTS_AFTER
 from ninja_game.levels.episodes import Entry
-from ninja_game.levels.findings import RunProblem, in_run
+from ninja_game.levels.findings import RunProblem, run_problem
 from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.verify import NOT_RUN, Verdict
-from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, fitted_demo, with_press_bits
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, fit_demo, with_press_bits
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.ui.input.bindings import MOVES
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
@@ -189,7 +189,7 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
             known = row.kind in KINDS if row.kind else row.level in shown.entries
             if not known or not all(map(isinstance, vars(row).values(), _TYPES)):
                 return []
-            parse_made(row.made)
+            parse_provenance(row.made)
         return rows
     return []
 
@@ -219,7 +219,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
         return Judged(sent.chunk.first, "unreadable", why)
     problems = [_worded(each, result, sent) for each in result.problems]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
-        other = in_run("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
+        other = run_problem("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
         problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
     if problems:
         why = "; ".join(problems)
@@ -241,7 +241,7 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
         return f"it was {result.made}: runs with such help do not count"
     if problem.code == "not-strict" and str(problem).startswith("complete"):
         replay = sent.replay
-        demo = fitted_demo(replay.inputs, replay.demo_length or 0) if replay else parse_demo(sent.chunk.records[0].demo)
+        demo = fit_demo(replay.inputs, replay.demo_length or 0) if replay else parse_demo(sent.chunk.records[0].demo)
         held = f"it claims {demo.end} frames and holds {demo.end - demo.missing}"
         return f"the demo is cut off: {held}; `ninja-game convert FILE OUT --to replay` makes a run that claims no more"
     if problem.code == "not-strict" and str(problem).startswith("possible_by_keyboard"):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from ninja_game.formats.replay.made import names_of_text, parse_made
+from ninja_game.formats.replay.provenance import names_of_text, parse_provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.run import run_level
@@ -165,7 +165,7 @@ class Run(Judged):
         named = self.entry.named
         return Replay(
             self.inputs, self.tick, "exit", self.gold, name=self.entry.title, author=self.player,
-            level_name=self.entry.title, level_author=named.author, level=named.level, made=parse_made(self.made),
+            level_name=self.entry.title, level_author=named.author, level=named.level, made=parse_provenance(self.made),
             co_authors=names_of_text(self.co_authors),
         )  # fmt: skip
 

@@ -15,7 +15,7 @@ from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay, parse_replay
-from ninja_game.levels.findings import found
+from ninja_game.levels.findings import level_finding
 from ninja_game.play.editor.session import _examine
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.runs.packs import lint, make_pars
@@ -189,7 +189,7 @@ def test_a_search_for_an_exit_that_cannot_be_reached_is_asked_about(
     room.choose("Look for a run anyway")
     assert started == [room.draft.level]
     exit_ = next(n for n, spec in enumerate(room.draft.objects) if spec.kind == EXIT)
-    never = found("unreached-exit", (exit_,))
+    never = level_finding("unreached-exit", (exit_,))
     odd = _examine((room.draft.level, (never,), ""))[1]
     assert [each.code for each in odd if exit_ in each.records] == ["unreachable"]
     assert _examine((ROOM.level, (never,), ""))[1] == [never]

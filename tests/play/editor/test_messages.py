@@ -10,7 +10,7 @@ import pytest
 
 from ninja_game.editor import packs
 from ninja_game.editor.stamp import Stamp, put
-from ninja_game.formats.sayings import MOST_LETTERS, MOST_SAYINGS, read_sayings
+from ninja_game.formats.messages import MAX_MESSAGES, MOST_LETTERS, parse_messages
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
 from ninja_game.play.editor.commands import TryScreen
@@ -129,7 +129,7 @@ def test_every_message_comes_back_as_it_was(room: Maker) -> None:
     room.editor.session.tools.history.change(replace(room.draft, says=ALL))
     room.frames()
     screen = opened(room)
-    assert len(screen.messages) == MOST_SAYINGS
+    assert len(screen.messages) == MAX_MESSAGES
     assert not room.button("Remove one first").enabled
     room.choose("OK")
     assert room.draft.says == ALL
@@ -230,7 +230,7 @@ def test_a_level_about_which_something_is_said_keeps_its_messages(room: Maker) -
     room.press("f2")
     room.fill("Other", "OK")
     assert (room.draft.name, room.draft.says) == ("Other", ALL)
-    assert read_sayings(room.draft.says)
+    assert parse_messages(room.draft.says)
 
 
 def test_the_selected_message_is_shown_as_the_level_says_it_with_its_letters_counted(room: Maker) -> None:
@@ -278,7 +278,7 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
 
 
 def test_a_locked_door_and_a_trap_have_their_words() -> None:
-    told = Sayings(read_sayings("lock: The door is open | trap: Shut"))
+    told = Sayings(parse_messages("lock: The door is open | trap: Shut"))
     world = SimpleNamespace(events=[SimpleNamespace(kind=LOCK_OPENED)], event_count=1)
     assert told.on_tick(world)  # type: ignore[arg-type]
     assert told.text == "The door is open"
@@ -319,7 +319,7 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
     assert [each for each in shown if each[0] == "Go"][-1][1:] == pytest.approx(start[1:], abs=4), "but for its letters"
 
 
-@pytest.mark.parametrize("count", range(MOST_SAYINGS + 1))
+@pytest.mark.parametrize("count", range(MAX_MESSAGES + 1))
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
     fixed = [widget.area for widget in screen.widgets[-4:]]

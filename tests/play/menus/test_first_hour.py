@@ -9,9 +9,9 @@ from unittest.mock import patch
 import pygame
 import pytest
 
+from ninja_game.formats.messages import parse_messages
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
-from ninja_game.formats.sayings import read_sayings
 from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, Said
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.places import MUST, solid_place, tag_top
@@ -157,7 +157,7 @@ def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -
 
 
 def test_each_text_has_its_moment(driver: MenuDriver) -> None:
-    says = read_sayings("start: go | switch: open | gold: gold | death 2: wait")
+    says = parse_messages("start: go | switch: open | gold: gold | death 2: wait")
     sayings = Sayings(says)
     simulation = Simulation(short_level(gold=1))
     seen = [sayings.text]
@@ -178,7 +178,7 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
 
 
 def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() -> None:
-    sayings = Sayings(read_sayings("start: go | gold: gold"))
+    sayings = Sayings(parse_messages("start: go | gold: gold"))
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
     seen = []
     for tick in range(START_TICKS + SHOWN_TICKS + 1):
@@ -187,7 +187,7 @@ def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() 
             seen.append((tick, sayings.text))
     assert [text for _, text in seen] == ["gold", "go", ""]
     assert seen[-1][0] == START_TICKS + SHOWN_TICKS - 1, "in all as long as without the other text"
-    sayings = Sayings(read_sayings("start: go | death 1: again"))
+    sayings = Sayings(parse_messages("start: go | death 1: again"))
     sayings.on_death()
     sayings.at_start()
     assert sayings.text == "again"
@@ -198,7 +198,7 @@ def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() 
 def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
     says = "start: one | start: two | switch: three | switch: four"
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,700,564"))
-    sayings = Sayings(read_sayings(says))
+    sayings = Sayings(parse_messages(says))
     heard = [(0, sayings.text)]
     simulation.step_keys(0)
     ticks = range(1, START_TICKS + 9)
@@ -211,7 +211,7 @@ def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
     heard = [(tick, sayings.text) for tick in range(START_TICKS) if sayings.on_tick(simulation.world)]
     assert sayings.text == ""
     assert [text for _, text in heard] == ["four", ""], "and no more of the start, which is understood"
-    quick = Sayings(read_sayings("switch: one | switch: two | gold: three"))
+    quick = Sayings(parse_messages("switch: one | switch: two | gold: three"))
     texts = []
     for kind in (EXIT_OPENED, GOLD_TAKEN, None):
         simulation.world.event_count = int(kind is not None)
@@ -225,8 +225,8 @@ def test_text_at_a_place_is_said_there_once() -> None:
     column = int(simulation.world.ninja.x // 24)
     row = int(simulation.world.ninja.y // 24)
     near, far = (
-        Sayings(read_sayings(f"at {column},{row}: here")),
-        Sayings(read_sayings(f"at {column + 5},{row}: there")),
+        Sayings(parse_messages(f"at {column},{row}: here")),
+        Sayings(parse_messages(f"at {column + 5},{row}: there")),
     )
     simulation.step_keys(0)
     assert near.on_tick(simulation.world)
@@ -236,7 +236,7 @@ def test_text_at_a_place_is_said_there_once() -> None:
 
 @pytest.mark.parametrize("away, ticks", [(0, SHOWN_TICKS), (110, SHOWN_TICKS), (130, READ_TICKS + FADE_TICKS)])
 def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, ticks: int) -> None:
-    told = Sayings(read_sayings("at 3,22: Here"))
+    told = Sayings(parse_messages("at 3,22: Here"))
     ninja = (world := Simulation(room_level(["#@..#"], ())).world).ninja
     ninja.x, ninja.y = 84.0, 540.0
     assert told.on_tick(world)
@@ -582,7 +582,7 @@ def hud_place(told: Sayings) -> tuple[float, float] | None:
 
 
 def test_a_text_knows_its_place_until_another_comes() -> None:
-    told = Sayings(read_sayings("start: Go | at 3,22: Here"))
+    told = Sayings(parse_messages("start: Go | at 3,22: Here"))
     assert hud_place(told) is None
     simulation = Simulation(room_level(["#@..#"], ()))
     simulation.world.ninja.x, simulation.world.ninja.y = 84.0, 540.0

@@ -23,7 +23,7 @@ from ninja_game.formats.links import write_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay
-from ninja_game.levels.findings import found, in_pack
+from ninja_game.levels.findings import level_finding, pack_finding
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
@@ -258,7 +258,7 @@ def test_a_pack_is_made_ready_in_the_background(
     driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pack = Pack(path)
-    left = [in_pack("no-author", "pack.toml")]
+    left = [pack_finding("no-author", "pack.toml")]
     ready = ReadyPack(pack, left, pack.files.zipped(), pack.files.link(), ["No par times"])
     begun = []
     go_on = Event()
@@ -381,7 +381,7 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
     def made(folder: Path, *, seconds: float, jobs: int, say: Say, obstacles: Obstacles) -> ReadyPack:
         seconds_each.append(seconds)
         known_each.append(len(obstacles))
-        obstacles[level, "exit"] = found("unreached-exit")
+        obstacles[level, "exit"] = level_finding("unreached-exit")
         say("Certifying, 1 of 1 levels done", 1.0)
         assert go_on.wait(LONGEST)
         return ReadyPack(pack, [], pack.files.zipped(), pack.files.link(), [])

@@ -10,7 +10,7 @@ import pygame
 
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_replays
-from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.menu_screen import FormPanel, Menu
 from ninja_game.play.replay.screen import ReplayScreen
@@ -247,7 +247,7 @@ def test_a_recovered_run_knows_its_file_and_the_runs_beside_it(tmp_path: Path) -
 
 def test_the_title_is_cut_at_the_names(at: TasDriver) -> None:
     about = at.session.about
-    replay = replace(about.replay, co_authors=("somebody with a long name", "another one"), made=Made(edits=3))
+    replay = replace(about.replay, co_authors=("somebody with a long name", "another one"), made=Provenance(edits=3))
     at.session.about = replace(about, replay=replay)
     with patch.object(Theme, "text", autospec=True, side_effect=Theme.text) as text:
         at.screen.head.paint(pygame.Surface((792, 600)), at.screen.theme)

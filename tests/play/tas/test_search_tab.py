@@ -18,7 +18,7 @@ from ninja_game.search import solve as solve_module
 from ninja_game.search.certificate import without_idle_keys
 from ninja_game.search.formula import background
 from ninja_game.search.formula.methods import fewest_ticks
-from ninja_game.search.formula.task import Found
+from ninja_game.search.formula.task import SpanResult
 from ninja_game.sim.inputs import Input
 from ninja_game.tas.goals import IMPROVE, PRESETS
 from ninja_game.tas_editor.tabs import search_tab as module
@@ -50,7 +50,7 @@ def results_of(tab: SearchTab) -> SpanResults:
     return tab.results
 
 
-def is_in(at: TasDriver, results: SpanResults, found: Found) -> bool:
+def is_in(at: TasDriver, results: SpanResults, found: SpanResult) -> bool:
     """Whether the run has the keys of a result up to its goal."""
     end = results.task.first + found.ticks
     return at.editor.track.inputs[:end] == found.inputs[:end]

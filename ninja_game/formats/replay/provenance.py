@@ -18,7 +18,7 @@ _MADE = re.compile(
 _MOST_EDITS, _LONGEST = 10**9 - 1, 200
 
 
-class Made(NamedTuple):
+class Provenance(NamedTuple):
     """How a run was made; all empty: unknown.
 
     ``played``: in the game, with the help of ``assists``, such as "practice"; ``edits``: in a TAS editor;
@@ -39,7 +39,7 @@ class Made(NamedTuple):
     def __str__(self) -> str:
         """As replay texts have it.
 
-        >>> str(Made(edits=34, searches=("improve", "search"), begun_by="Ann")), str(Made())
+        >>> str(Provenance(edits=34, searches=("improve", "search"), begun_by="Ann")), str(Provenance())
         ('edited 34, searched (improve, search) from a run by Ann', '')
         """
         parts = [
@@ -59,20 +59,20 @@ class Made(NamedTuple):
         return self._replace(searches=searches, begun_by=self.begun_by or " ".join(begun_by.split())[:_LONGEST])
 
 
-UNKNOWN = Made()
+UNKNOWN = Provenance()
 
 
 @lru_cache(4096)
-def parse_made(text: str) -> Made:
-    """Parse what ``str`` of a Made gives. Raises ValueError for any other text.
+def parse_provenance(text: str) -> Provenance:
+    """Parse what ``str`` of a Provenance gives. Raises ValueError for any other text.
 
-    >>> parse_made("played (practice)"), parse_made("edited 3 from a run by Ann").begun_by
-    (Made(played=True, assists=('practice',), edits=0, searches=(), begun_by=''), 'Ann')
+    >>> parse_provenance("played (practice)"), parse_provenance("edited 3 from a run by Ann").begun_by
+    (Provenance(played=True, assists=('practice',), edits=0, searches=(), begun_by=''), 'Ann')
     """
     how, _, begun_by = text.partition(_BEGUN)
     if match := _MADE.fullmatch(how):
         assists, searches = (tuple(filter(None, (match[each] or "").split(", "))) for each in ("assists", "searches"))
-        made = Made(how.startswith("played"), assists, int(match["edits"] or 0), searches, begun_by)
+        made = Provenance(how.startswith("played"), assists, int(match["edits"] or 0), searches, begun_by)
         if str(made) == text:
             return made
     raise ValueError(f"{text[:60]!r} does not say how a run was made")
@@ -87,26 +87,26 @@ def names_of_text(text: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(filter(None, (" ".join(name.split()) for name in text.split(",")))))
 
 
-def can_be_written(made: Made, co_authors: tuple[str, ...]) -> bool:
+def can_be_written(made: Provenance, co_authors: tuple[str, ...]) -> bool:
     """Whether a replay text can hold how a run was made, and with whom.
 
-    >>> can_be_written(Made(edits=3), ("Bob",)), can_be_written(Made(edits=3, begun_by="Ann "), ())
+    >>> can_be_written(Provenance(edits=3), ("Bob",)), can_be_written(Provenance(edits=3, begun_by="Ann "), ())
     (True, False)
     """
     how, names = str(made), ", ".join(co_authors)
     with suppress(ValueError):
         whole = max(len(how), len(names)) <= MOST_NAME
-        return whole and parse_made(how.strip()) == made and names_of_text(names) == co_authors
+        return whole and parse_provenance(how.strip()) == made and names_of_text(names) == co_authors
     return False
 
 
 _MARK, _WITH = "[made: ", "; co-authors: "
 
 
-def with_made(comment: str, made: Made, co_authors: tuple[str, ...]) -> str:
+def with_provenance(comment: str, made: Provenance, co_authors: tuple[str, ...]) -> str:
     """The comment of a record of N, which has no other place for it, with how the run was made.
 
-    >>> with_made("all gold", Made(edits=3), ("Bob",))
+    >>> with_provenance("all gold", Provenance(edits=3), ("Bob",))
     'all gold [made: edited 3; co-authors: Bob]'
     """
     if not (made.assisted is not None or co_authors):
@@ -115,17 +115,17 @@ def with_made(comment: str, made: Made, co_authors: tuple[str, ...]) -> str:
     return f"{comment} {mark}".strip()
 
 
-def without_made(comment: str) -> tuple[str, Made, tuple[str, ...]]:
+def without_provenance(comment: str) -> tuple[str, Provenance, tuple[str, ...]]:
     """The other way: what else the comment says, how the run was made, its co-authors.
 
-    >>> without_made("all gold [made: edited 3; co-authors: Bob]")[::2], without_made("[made: by me]")[0]
+    >>> without_provenance("all gold [made: edited 3; co-authors: Bob]")[::2], without_provenance("[made: by me]")[0]
     (('all gold', ('Bob',)), '[made: by me]')
     """
     start = comment.rfind(_MARK)
     if start >= 0 and comment.endswith("]") and len(_MARK) + 1 < len(comment) - start <= 2 * MOST_NAME:
         how, _, names = comment[start + len(_MARK) : -1].partition(_WITH)
         with suppress(ValueError):
-            made, co_authors = parse_made(how), names_of_text(names)
+            made, co_authors = parse_provenance(how), names_of_text(names)
             if can_be_written(made, co_authors):
                 return comment[:start].removesuffix(" "), made, co_authors
     return comment, UNKNOWN, ()

@@ -20,19 +20,19 @@ BODIES: tuple[Body, ...] = ("circle", "box")
 """The shapes that the ninja can have: the circle of the classic rules, and a box of the same size."""
 
 
-class RunRecord(NamedTuple):
+class RunPath(NamedTuple):
     """The ninja after each tick of a run: ``places`` x, y in turn (float64, px), ``states`` (uint8); flat buffers."""
 
     places: Any
     states: Any
 
 
-TRACED_PLACES = ("x", "y", "prev_x", "prev_y", "wall_x", "floor_x", "floor_y")
-TRACED_NUMBERS = ("state", "gold", "jump_timer", "in_air", "near_wall", "floor_contacts", "outcome")
+TRACED_FLOATS = ("x", "y", "prev_x", "prev_y", "wall_x", "floor_x", "floor_y")
+TRACED_INTS = ("state", "gold", "jump_timer", "in_air", "near_wall", "floor_contacts", "outcome")
 """What a trace records of the ninja and the run: the schema's fields, seven of each sort."""
 
 
-class TraceRecord(NamedTuple):
+class TraceArrays(NamedTuple):
     """What a trace recorded, in flat buffers as ``trace_world`` has them.
 
     ``ninja``, ``places``: float64; ``numbers``, ``statuses``: int32; ``switched``, ``events``: uint8.
@@ -49,7 +49,7 @@ class TraceRecord(NamedTuple):
 class Worlds(ABC):
     """``count`` worlds in some levels, world i at first in level i modulo the number of levels.
 
-    Methods of a single world take its ``index``; those of several take ``which``, an array or list of indices.
+    Methods of a single world take its ``index``; those of several take ``indices``, an array or list of which.
     ``name``: "plain" or "compiled". ``level_of`` (count,): which of ``levels`` each world plays, a buffer to be read.
     ``maps``, ``worlds``, ``fresh``: the levels, the worlds, and a new world in each level, which nobody changes, as
     kernels take them: arrays of records, or lists of plain objects.
@@ -69,8 +69,8 @@ class Worlds(ABC):
     worlds: Any
     fresh: Any
     records: Any
-    """The worlds as NumPy records (count,), in one block; of the plain memory as they were after the last ``run_rows``,
-    ``load`` or ``restore_many``, without events."""
+    """The worlds as NumPy records (count,), in one block; of the plain memory as after the last ``run_batch``, ``load``
+    or ``restore_many``, without events."""
     states: Any
     """The records as a matrix of bytes, one row per world, without events."""
 
@@ -109,11 +109,11 @@ class Worlds(ABC):
         """Kill the ninja where it is; (dx, dy) is its corpse's impulse, px/tick."""
 
     @abstractmethod
-    def run(self, inputs: bytes, index: int = 0) -> RunRecord:
+    def run(self, inputs: bytes, index: int = 0) -> RunPath:
         """Run until the tick of the first exit contact or death, or to the end of ``inputs``."""
 
     @abstractmethod
-    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool, index: int = 0) -> TraceRecord:
+    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool, index: int = 0) -> TraceArrays:
         """Run all of ``inputs`` and record the ninja, the objects in ``slots`` and, if asked for, the events."""
 
     @abstractmethod
@@ -143,17 +143,17 @@ class Worlds(ABC):
     # --- several worlds ---
 
     @abstractmethod
-    def load(self, which: Any, levels: Any) -> None:
+    def load(self, indices: Any, levels: Any) -> None:
         """Start worlds afresh, each in the level of that number."""
 
     @abstractmethod
-    def save_many(self, which: Any) -> Any:
+    def save_many(self, indices: Any) -> Any:
         """The states of worlds, unchanged by what happens later; without events."""
 
     @abstractmethod
-    def restore_many(self, states: Any, which: Any, levels: Any) -> None:
+    def restore_many(self, states: Any, indices: Any, levels: Any) -> None:
         """Put worlds back to states that ``save_many`` gave for as many, in the levels that those had."""
 
     @abstractmethod
-    def run_rows(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:
+    def run_batch(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:
         """Run worlds ``first`` … ``last`` - 1 for all rows of ``inputs`` (ticks, count), as ``run_worlds``."""

@@ -10,20 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.sim.level import Level
-from ninja_game.sim.loader import RecordTable, grid_tiles, record_table
-from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.interface import (
-    TRACED_NUMBERS,
-    TRACED_PLACES,
-    Kernel,
-    MemoryName,
-    R,
-    RunRecord,
-    TraceRecord,
-    Worlds,
-)
-from ninja_game.sim.memory.kernels import (
+from ninja_game.backend.kernels import (
     kill_ninja,
     load_world,
     observe_object,
@@ -32,7 +19,11 @@ from ninja_game.sim.memory.kernels import (
     step_world,
     trace_world,
 )
-from ninja_game.sim.memory.layout import TILE_MAP, Records, bytes_of, new_worlds, plain_copy, write_plain
+from ninja_game.backend.layout import TILE_MAP, Records, bytes_of, new_worlds, plain_copy, write_plain
+from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS, Kernel, MemoryName, R, RunPath, TraceArrays, Worlds
+from ninja_game.sim.level import Level
+from ninja_game.sim.loader import ObjectTable, grid_tiles, object_table
+from ninja_game.sim.memory.declare import fields_of
 from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, World
 
 Compile = Callable[[Callable[..., Any]], Callable[..., Any]]
@@ -46,14 +37,14 @@ _EventRow: Any = namedtuple("_EventRow", [field.name for field in fields_of(Even
 
 
 def load_worlds(compiled: Compile, levels: Sequence[Level], *, box: bool) -> tuple[NDArray[np.void], Records]:
-    """Levels, and a new world in each, as arrays of records. Raises LevelError as ``record_table`` does."""
-    tables = [record_table(level) for level in levels]
+    """Levels, and a new world in each, as arrays of records. Raises LevelError as ``object_table`` does."""
+    tables = [object_table(level) for level in levels]
     worlds = new_worlds(len(levels), max(table.slots for table in tables))
     return _loaded(compiled, levels, tables, worlds, 0, box), worlds
 
 
 def _loaded(
-    compiled: Compile, levels: Sequence[Level], tables: Sequence[RecordTable], worlds: Records, first: int, box: bool
+    compiled: Compile, levels: Sequence[Level], tables: Sequence[ObjectTable], worlds: Records, first: int, box: bool
 ) -> NDArray[np.void]:
     """Make new worlds of zeroed ones from ``first`` on, one in each level; the maps of the levels."""
     maps = np.zeros(len(levels), TILE_MAP)
@@ -67,7 +58,7 @@ def _loaded(
 
 
 class CompiledWorlds(Worlds):
-    """Worlds of NumPy records in one block: fast for many ticks. Raises LevelError as ``record_table`` does.
+    """Worlds of NumPy records in one block: fast for many ticks. Raises LevelError as ``object_table`` does.
 
     Every level is loaded once; a fresh world is a copy of bytes.
     """
@@ -78,7 +69,7 @@ class CompiledWorlds(Worlds):
         self.levels, self.count, self.box = tuple(levels), count, box
         self._compiled = compiled
         self._step, self._observe = compiled(step_world), compiled(observe_object)
-        tables = [record_table(level) for level in self.levels]
+        tables = [object_table(level) for level in self.levels]
         self.slots = max(table.slots for table in tables)
         # Behind the worlds lies a new one in each level, and one more: an array of one counts as contiguous, which is
         # another type and another compile.
@@ -124,7 +115,7 @@ class CompiledWorlds(Worlds):
     def kill(self, cause: int, dx: float, dy: float, index: int = 0) -> None:
         self._compiled(kill_ninja)(self.worlds, index, cause, dx, dy)
 
-    def run(self, inputs: bytes, index: int = 0) -> RunRecord:
+    def run(self, inputs: bytes, index: int = 0) -> RunPath:
         keys = np.frombuffer(inputs, np.uint8)
         places, states = np.empty(2 * len(keys)), np.empty(len(keys), np.uint8)
         kernel, level = self._compiled(run_world), self._played()[index]
@@ -134,18 +125,18 @@ class CompiledWorlds(Worlds):
             ticks += kernel(self.maps, level, self.worlds, index, keys[first:last], *here)
             if ticks < last or self.number("outcome", index):
                 break
-        return RunRecord(places[: 2 * ticks], states[:ticks])
+        return RunPath(places[: 2 * ticks], states[:ticks])
 
-    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool, index: int = 0) -> TraceRecord:
-        keys, columns = np.frombuffer(inputs, np.uint8), np.array(slots, np.int64)
+    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool, index: int = 0) -> TraceArrays:
+        keys, slot_array = np.frombuffer(inputs, np.uint8), np.array(slots, np.int64)
         ticks, width = len(keys), MAX_EVENTS if events else 0
-        widths = (len(TRACED_PLACES), len(TRACED_NUMBERS), 2 * len(columns), len(columns), len(columns), width)
+        widths = (len(TRACED_FLOATS), len(TRACED_INTS), 2 * len(slot_array), len(slot_array), len(slot_array), width)
         kinds = (np.float64, np.int32, np.float64, np.int32, np.uint8, np.uint8)
-        record = TraceRecord(*(np.zeros(ticks * wide, kind) for wide, kind in zip(widths, kinds, strict=True)))
+        record = TraceArrays(*(np.zeros(ticks * wide, kind) for wide, kind in zip(widths, kinds, strict=True)))
         kernel, level = self._compiled(trace_world), self._played()[index]
         for first, last in self._slices(ticks):
             here = [part[first * wide : last * wide] for part, wide in zip(record, widths, strict=True)]
-            kernel(self.maps, level, self.worlds, index, keys[first:last], columns, *here)
+            kernel(self.maps, level, self.worlds, index, keys[first:last], slot_array, *here)
         return record
 
     def _slices(self, ticks: int) -> Iterator[tuple[int, int]]:
@@ -174,22 +165,22 @@ class CompiledWorlds(Worlds):
     def world(self, index: int = 0) -> World:
         return plain_copy(self.records, index)
 
-    def load(self, which: Iterable[int], levels: Iterable[int]) -> None:
-        for index, number in zip(which, levels, strict=True):
+    def load(self, indices: Iterable[int], levels: Iterable[int]) -> None:
+        for index, number in zip(indices, levels, strict=True):
             self.restore(self._all_states[self.count + number], index)
             self.level_of[index] = number
         self._levels_played = []
 
-    def save_many(self, which: Any) -> NDArray[np.uint8]:
-        states: NDArray[np.uint8] = self.states[which]
+    def save_many(self, indices: Any) -> NDArray[np.uint8]:
+        states: NDArray[np.uint8] = self.states[indices]
         return states
 
-    def restore_many(self, states: Any, which: Any, levels: Any) -> None:
+    def restore_many(self, states: Any, indices: Any, levels: Any) -> None:
         """A state holds its level's objects."""
-        self.states[which], self.level_of[which], self._event_count[which] = states, levels, 0
+        self.states[indices], self.level_of[indices], self._event_count[indices] = states, levels, 0
         self._levels_played = []
 
-    def run_rows(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:
+    def run_batch(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:
         ticks: int = self._compiled(run_worlds)(self.maps, self.level_of, self.worlds, inputs, first, last, int(stop))
         return ticks
 

@@ -13,31 +13,37 @@ from ninja_game import ReplayError, parse_replay, write_replay
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import parse_replays
-from ninja_game.formats.replay.made import UNKNOWN, Made, names_of_text, parse_made, with_made, without_made
 from ninja_game.formats.replay.notations import Marker
+from ninja_game.formats.replay.provenance import (
+    UNKNOWN,
+    Provenance,
+    names_of_text,
+    parse_provenance,
+    with_provenance,
+    without_provenance,
+)
 from ninja_game.runs.conversion import level_file_text, on_level, recorded_again
 from ninja_game.sim.level import Level
 from tests.support.forgeries import replay
 
-SEARCHED = Made(played=True, edits=34, searches=("improve", "search"), begun_by="Ann")
+SEARCHED = Provenance(played=True, edits=34, searches=("improve", "search"), begun_by="Ann")
 WORDS = st.lists(st.from_regex(r"[a-z][a-z -]{0,20}", fullmatch=True), max_size=4).map(tuple)
 NAMES = st.text(max_size=12).map(lambda name: " ".join(name.replace(",", " ").split()))
 MADE = st.builds(
-    lambda played, assists, edits, searches, by: Made(played, assists if played else (), edits, searches, by),
+    lambda played, assists, edits, searches, by: Provenance(played, assists if played else (), edits, searches, by),
     st.booleans(), WORDS, st.integers(0, 10**9 - 1), WORDS, NAMES,
 ).filter(lambda made: made.assisted is not None or not made.begun_by)  # fmt: skip
 
 
 @given(MADE, st.lists(NAMES.filter(bool), max_size=3, unique=True).map(tuple))
-def test_a_text_reads_back_equal(made: Made, names: tuple[str, ...]) -> None:
+def test_a_text_reads_back_equal(made: Provenance, names: tuple[str, ...]) -> None:
     told = replace(parse_replay(replay()), made=made, co_authors=names)
     assert parse_replay(write_replay(told)) == told
 
 
 def test_it_says_whether_anything_helped() -> None:
-    assert [made.assisted for made in (UNKNOWN, Made(played=True), Made(True, ("practice",)), SEARCHED)] == [
-        None, False, True, True,
-    ]  # fmt: skip
+    ways = UNKNOWN, Provenance(played=True), Provenance(True, ("practice",)), SEARCHED
+    assert [made.assisted for made in ways] == [None, False, True, True]
     assert parse_replay(replay()).made == UNKNOWN
     assert parse_replay(replay(author="Ann", made=SEARCHED, co_authors=("Bob",))).credit == (
         "Ann, Bob (edited, searched)"
@@ -50,14 +56,14 @@ def test_it_says_whether_anything_helped() -> None:
      "edited 9999999999", "played, ", "searched (improve) from a run by"],
 )  # fmt: skip
 def test_anything_else_is_refused_with_its_place(said: str) -> None:
-    text = replay(made=Made(played=True)).replace("made: played", f"made: {said}")
+    text = replay(made=Provenance(played=True)).replace("made: played", f"made: {said}")
     with pytest.raises(ReplayError, match=r"^3:7: not how a run is made; found .*leave the line out"):
         parse_replay(text)
 
 
 def test_what_a_text_cannot_hold_is_not_written() -> None:
     told = parse_replay(replay())
-    for lies in ({"made": Made(edits=-1)}, {"made": Made(begun_by="Ann")}, {"co_authors": ("Bob, Cy",)},
+    for lies in ({"made": Provenance(edits=-1)}, {"made": Provenance(begun_by="Ann")}, {"co_authors": ("Bob, Cy",)},
                  {"co_authors": ("B" * 2000,)}):  # fmt: skip
         with pytest.raises(ReplayError, match="not how a run is made"):
             write_replay(replace(told, **lies))
@@ -70,11 +76,11 @@ def test_too_many_co_authors_are_told() -> None:
 
 
 @given(MADE, st.lists(NAMES.filter(bool), max_size=3, unique=True).map(tuple), st.text(max_size=20))
-def test_comments_of_n_hold_it(made: Made, names: tuple[str, ...], comment: str) -> None:
-    held = with_made(comment.strip(), made, names)
+def test_comments_of_n_hold_it(made: Provenance, names: tuple[str, ...], comment: str) -> None:
+    held = with_provenance(comment.strip(), made, names)
     # A comment of the maker's own that reads as such a mark cannot be told from one, nor can names with its signs.
     assume("]" not in f"{made}{names}" and ";" not in f"{made}" and "[made" not in comment)
-    assert without_made(held) == (comment.strip(), made, names)
+    assert without_provenance(held) == (comment.strip(), made, names)
 
 
 def test_it_goes_to_a_demo_of_n_and_back(tmp_path: Path) -> None:
@@ -93,13 +99,13 @@ def test_it_goes_to_a_demo_of_n_and_back(tmp_path: Path) -> None:
 
 
 def test_a_text_that_was_changed_by_hand_counts_as_edited() -> None:
-    text = replay(made=Made(played=True), author="Ann")
+    text = replay(made=Provenance(played=True), author="Ann")
     (honest,) = parse_replays(text)
-    assert recorded_again(honest).made == Made(played=True)
+    assert recorded_again(honest).made == Provenance(played=True)
     (changed,) = parse_replays(text.replace("R*", ".*3 R*").replace("final-tick: 2", "final-tick: 9"))
-    assert recorded_again(changed).made == Made(played=True, edits=1)
+    assert recorded_again(changed).made == Provenance(played=True, edits=1)
     moved = on_level(honest, Level(honest.level.tiles, honest.level.objects[:-1]))
-    assert moved.replay.made == Made(played=True, edits=1)
+    assert moved.replay.made == Provenance(played=True, edits=1)
 
 
 def command(*arguments: object) -> None:
@@ -109,13 +115,15 @@ def command(*arguments: object) -> None:
 
 def test_a_searched_run_says_so_and_whose_run_it_began_from(tmp_path: Path) -> None:
     source, out, twice = (tmp_path / f"{name}.replay.txt" for name in ("run", "out", "twice"))
-    source.write_text(replay(bytes(20) + bytes([2] * 24), author="Ann", made=Made(played=True), co_authors=("Cy",)))
+    source.write_text(
+        replay(bytes(20) + bytes([2] * 24), author="Ann", made=Provenance(played=True), co_authors=("Cy",))
+    )
     command("improve", source, "--ticks", "100000", "--jobs", "1", "-o", out)
     command("search", out, "--from", "0", "--to", "12", "--goal", "x > 103", "--seconds", "2", "-o", twice)
     for path, searches in ((out, ("improve",)), (twice, ("improve", "search"))):
         (run,) = load_replays(path)
         assert (run.author, run.replay.co_authors) == ("Ann", ("Cy",))
-        assert run.replay.made == Made(played=True, searches=searches, begun_by="Ann")
+        assert run.replay.made == Provenance(played=True, searches=searches, begun_by="Ann")
         assert "searched" in run.title
         said = CliRunner().invoke(cli, ["verify", str(path)]).stdout
         assert f"(played, searched ({', '.join(searches)}) from a run by Ann)" in said
@@ -123,7 +131,7 @@ def test_a_searched_run_says_so_and_whose_run_it_began_from(tmp_path: Path) -> N
 
 def test_names_are_names() -> None:
     assert names_of_text(" Bob,Cy ,, Bob") == ("Bob", "Cy")
-    assert parse_made("") == UNKNOWN
+    assert parse_provenance("") == UNKNOWN
 
 
 def test_markers_stay_at_their_places(tmp_path: Path) -> None:
@@ -142,7 +150,7 @@ def test_a_hostile_comment_takes_no_time_and_is_a_comment() -> None:
         "[made: " * 200_000 + "]",
         "[made: edited 3 from a run by " + "A" * 10**6 + "]",
     ):
-        assert without_made(comment) == (comment, UNKNOWN, ())
+        assert without_provenance(comment) == (comment, UNKNOWN, ())
 
 
 LETTERS = ",".join(map(chr, range(0x4E00, 0x4E00 + 900)))
@@ -154,4 +162,4 @@ LETTERS = ",".join(map(chr, range(0x4E00, 0x4E00 + 900)))
      f"edited 3 from a run by {'B' * 1500}", f"edited 3; co-authors: {LETTERS}"],
 )  # fmt: skip
 def test_what_a_text_cannot_hold_is_a_comment(told: str) -> None:
-    assert without_made(f"gold [made: {told}]") == (f"gold [made: {told}]", UNKNOWN, ())
+    assert without_provenance(f"gold [made: {told}]") == (f"gold [made: {told}]", UNKNOWN, ())

@@ -154,8 +154,8 @@ def write_plain(w: World, worlds: Records, index: int) -> None:
     for number in range(w.event_count):
         record["events"][number] = _get_event(w.events[number])
     objects = record["objects"]
-    room = (worlds.strides[0] - OBJECTS_START) // OBJECT.itemsize
-    objects[1:room] = np.zeros((), OBJECT)
+    capacity = (worlds.strides[0] - OBJECTS_START) // OBJECT.itemsize
+    objects[1:capacity] = np.zeros((), OBJECT)
     for slot in range(1, w.slots_used):
         o = w.objects[slot]
         objects[_KIND_FIELDS[o.kind]][slot] = _GET_KIND[o.kind](o)

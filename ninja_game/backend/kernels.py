@@ -9,17 +9,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS
 from ninja_game.sim.arithmetic import canonical
 from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.death import kill
 from ninja_game.sim.loader import populate
 from ninja_game.sim.memory.declare import entry_point
-from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES
 from ninja_game.sim.memory.schema import MAX_EVENTS, TileMap, World
 from ninja_game.sim.traces import is_switched, place_of, status_of
 from ninja_game.sim.world import step
 
-PLACES, NUMBERS = len(TRACED_PLACES), len(TRACED_NUMBERS)
+PLACES, NUMBERS = len(TRACED_FLOATS), len(TRACED_INTS)
 """How many places and numbers a trace has of a tick."""
 
 
@@ -105,7 +105,7 @@ def trace_world(
     """Run all of ``inputs``, whatever happens, and record everything after each tick.
 
     World ``index`` runs in level ``number``.
-    ``ninja``: TRACED_PLACES of each tick in turn; ``numbers``: TRACED_NUMBERS. ``places``: x, y of each object in
+    ``ninja``: TRACED_FLOATS of each tick in turn; ``numbers``: TRACED_INTS. ``places``: x, y of each object in
     ``slots``; ``statuses``: one of each; ``switched``: 1 for a door that is not as it began. ``events``:
     MAX_EVENTS numbers a tick, each event's plus 1, 0 behind the last; nothing is recorded in an empty array.
     """

@@ -6,7 +6,7 @@ import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.sayings import MOST_LETTERS, read_sayings
+from ninja_game.formats.messages import MOST_LETTERS, parse_messages
 
 PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
 
@@ -34,7 +34,7 @@ def test_what_cannot_be_said_is_refused_with_its_line(value: str, words: str) ->
 def test_each_moment_is_read() -> None:
     says = "start: a | switch: b | death 12: c | at 31,23: d"
     read = parse_ascii_level(f"ninja-game level 1\nsays: {says}\n{PICTURE}").says
-    assert [(each.when, each.text, each.deaths, each.cell) for each in read_sayings(read)] == [
+    assert [(each.when, each.text, each.deaths, each.cell) for each in parse_messages(read)] == [
         ("start", "a", 0, (0, 0)),
         ("switch", "b", 0, (0, 0)),
         ("death", "c", 12, (0, 0)),

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ninja_game.sim.memory.code_digest import OPTIONS
+from ninja_game.backend.code_digest import OPTIONS
 from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED
 
 R = TypeVar("R")
@@ -96,13 +96,9 @@ class Compiler:
         for name, value in source.items():
             if isinstance(value, FunctionType) and value in REGISTERED:
                 namespace[name] = self._twin(value)
-            elif isinstance(value, (list, tuple)) and _is_table(value):
+            elif (
+                isinstance(value, (list, tuple)) and value and {*map(type, value)} <= {int, float}
+            ):  # a table of numbers
                 namespace[name] = np.array(value)
             elif not name.startswith("__"):
                 namespace[name] = value
-
-
-def _is_table(values: Iterable[Any]) -> bool:
-    """Tell whether this is a module-level sequence of numbers, which a rule may index."""
-    kinds = {type(value) for value in values}
-    return bool(kinds) and kinds <= {int, float}

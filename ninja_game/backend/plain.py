@@ -7,20 +7,11 @@ from collections.abc import Iterable, Sequence
 from functools import cached_property, partial
 from typing import Any
 
+from ninja_game.backend.kernels import kill_ninja, load_world, observe_object, run_world, run_worlds, trace_world
+from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS, Kernel, MemoryName, R, RunPath, TraceArrays, Worlds
 from ninja_game.sim.level import Level
-from ninja_game.sim.loader import grid_tiles, record_table
+from ninja_game.sim.loader import grid_tiles, object_table
 from ninja_game.sim.memory.declare import fields_of, getter_of, scalars_of, setter_of
-from ninja_game.sim.memory.interface import (
-    TRACED_NUMBERS,
-    TRACED_PLACES,
-    Kernel,
-    MemoryName,
-    R,
-    RunRecord,
-    TraceRecord,
-    Worlds,
-)
-from ninja_game.sim.memory.kernels import kill_ninja, load_world, observe_object, run_world, run_worlds, trace_world
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, TileMap, World
 from ninja_game.sim.world import step
@@ -37,8 +28,8 @@ def tile_map(data: Level) -> TileMap:
 
 
 def load_plain(data: Level, box: bool) -> tuple[TileMap, World]:
-    """A level and a new world in it. Raises LevelError as ``record_table`` does."""
-    table = record_table(data)
+    """A level and a new world in it. Raises LevelError as ``object_table`` does."""
+    table = object_table(data)
     level = tile_map(data)
     w = World()
     w.objects += [Object() for _ in range(table.slots - 1)]
@@ -71,7 +62,7 @@ def restore_plain(w: World, state: PlainState) -> None:
 
 
 class PlainWorlds(Worlds):
-    """Worlds of plain Python objects. Raises LevelError as ``record_table`` does."""
+    """Worlds of plain Python objects. Raises LevelError as ``object_table`` does."""
 
     name: MemoryName = "plain"
 
@@ -108,7 +99,7 @@ class PlainWorlds(Worlds):
 
     @cached_property
     def records(self) -> Any:
-        from ninja_game.sim.memory.layout import new_worlds
+        from ninja_game.backend.layout import new_worlds
 
         self._shown = new_worlds(self.count, self.slots)
         for index in range(self.count):
@@ -117,14 +108,14 @@ class PlainWorlds(Worlds):
 
     @cached_property
     def states(self) -> Any:
-        from ninja_game.sim.memory.layout import bytes_of
+        from ninja_game.backend.layout import bytes_of
 
         return bytes_of(self.records)
 
     def _show(self, index: int) -> None:
         """Copy a world into its record, once somebody looks at those."""
         if self._shown is not None:
-            from ninja_game.sim.memory.layout import write_plain
+            from ninja_game.backend.layout import write_plain
 
             write_plain(self.worlds[index], self._shown, index)
 
@@ -144,16 +135,16 @@ class PlainWorlds(Worlds):
     def kill(self, cause: int, dx: float, dy: float, index: int = 0) -> None:
         kill_ninja(self.worlds, index, cause, dx, dy)
 
-    def run(self, inputs: bytes, index: int = 0) -> RunRecord:
+    def run(self, inputs: bytes, index: int = 0) -> RunPath:
         places, states = _zeros("d", 2 * len(inputs)), bytearray(len(inputs))
         ticks = run_world(self.maps, self.level_of[index], self.worlds, index, inputs, places, states)
-        return RunRecord(places[: 2 * ticks], states[:ticks])
+        return RunPath(places[: 2 * ticks], states[:ticks])
 
-    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool, index: int = 0) -> TraceRecord:
+    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool, index: int = 0) -> TraceArrays:
         ticks, rows = len(inputs), len(inputs) * len(slots)
         happened = bytearray(MAX_EVENTS * ticks if events else 0)
-        ninja, numbers = _zeros("d", len(TRACED_PLACES) * ticks), _zeros("i", len(TRACED_NUMBERS) * ticks)
-        record = TraceRecord(ninja, numbers, _zeros("d", 2 * rows), _zeros("i", rows), bytearray(rows), happened)
+        ninja, numbers = _zeros("d", len(TRACED_FLOATS) * ticks), _zeros("i", len(TRACED_INTS) * ticks)
+        record = TraceArrays(ninja, numbers, _zeros("d", 2 * rows), _zeros("i", rows), bytearray(rows), happened)
         trace_world(self.maps, self.level_of[index], self.worlds, index, inputs, slots, *record)
         return record
 
@@ -176,22 +167,22 @@ class PlainWorlds(Worlds):
     def world(self, index: int = 0) -> World:
         return self.worlds[index]
 
-    def load(self, which: Iterable[int], levels: Sequence[int]) -> None:
-        self.restore_many([self._fresh_states[number] for number in levels], which, levels)
+    def load(self, indices: Iterable[int], levels: Sequence[int]) -> None:
+        self.restore_many([self._fresh_states[number] for number in levels], indices, levels)
 
-    def save_many(self, which: Iterable[int]) -> list[PlainState]:
-        return [save_plain(self.worlds[index]) for index in which]
+    def save_many(self, indices: Iterable[int]) -> list[PlainState]:
+        return [save_plain(self.worlds[index]) for index in indices]
 
-    def restore_many(self, states: Iterable[PlainState], which: Iterable[int], levels: Iterable[int]) -> None:
+    def restore_many(self, states: Iterable[PlainState], indices: Iterable[int], levels: Iterable[int]) -> None:
         """A world of another level is made again."""
-        for state, index, number in zip(states, which, levels, strict=True):
+        for state, index, number in zip(states, indices, levels, strict=True):
             if self.level_of[index] != number:
                 self.worlds[index] = load_plain(self.levels[number], self.box)[1]
                 self.level_of[index] = number
             restore_plain(self.worlds[index], state)
             self._show(index)
 
-    def run_rows(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:
+    def run_batch(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:
         ticks = run_worlds(self.maps, self.level_of, self.worlds, inputs, first, last, int(stop))
         for index in range(first, last):
             self._show(index)

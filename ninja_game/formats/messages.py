@@ -11,7 +11,7 @@ from ninja_game.formats.ascii.places import middle_of
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
-MOST_SAYINGS, MOST_LETTERS = 4, 120
+MAX_MESSAGES, MOST_LETTERS = 4, 120
 NEAR = 2.5 * CELL
 """px from the middle of its cell, along both axes, within which a text with a place is shown."""
 BAR = "|"
@@ -20,7 +20,7 @@ BAR = "|"
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 """Actions whose key a text may name: {jump} becomes the key or button of whoever plays."""
 
-THINGS = ("switch", "exit")
+TARGETS = ("switch", "exit")
 """What a text may name in the same way: an arrow leads to it."""
 
 _KEY = re.compile(r"\{([^{}]*)\}")
@@ -30,7 +30,7 @@ _EVENTS = ("start", "switch", "gold", "lock", "trap")
 _WHEN = f"{', '.join(_EVENTS)}, 'death 3' or 'at 12,5'"
 
 
-class Saying(NamedTuple):
+class LevelMessage(NamedTuple):
     """``when``: of _EVENTS, "death" or "at"; ``deaths``: after how many; ``cell``: column and row."""
 
     when: str
@@ -44,38 +44,38 @@ class Saying(NamedTuple):
         return middle_of(self.cell) if self.when == "at" else None
 
 
-def read_sayings(value: str) -> tuple[Saying, ...]:
+def parse_messages(value: str) -> tuple[LevelMessage, ...]:
     """The texts in a header's value, parted by bars. Raises LevelError.
 
-    >>> read_sayings("start: {jump} jumps | death 3: Wait for the drone")[1]
-    Saying(when='death', text='Wait for the drone', deaths=3, cell=(0, 0))
+    >>> parse_messages("start: {jump} jumps | death 3: Wait for the drone")[1]
+    LevelMessage(when='death', text='Wait for the drone', deaths=3, cell=(0, 0))
     """
     parts = value.split(BAR) if value.strip() else []
-    if len(parts) > MOST_SAYINGS:
-        raise LevelError("too many texts in 'says'", found=str(len(parts)), expected=f"at most {MOST_SAYINGS}")
+    if len(parts) > MAX_MESSAGES:
+        raise LevelError("too many texts in 'says'", found=str(len(parts)), expected=f"at most {MAX_MESSAGES}")
     return tuple(map(_read, parts))
 
 
 def unknown_words(text: str) -> list[str]:
-    """What stands in braces and is neither of KEYS nor of THINGS."""
-    return [name for name in _KEY.findall(text) if name not in KEYS + THINGS]
+    """What stands in braces and is neither of KEYS nor of TARGETS."""
+    return [name for name in _KEY.findall(text) if name not in KEYS + TARGETS]
 
 
-def named_things(texts: Iterable[str]) -> Sequence[str]:
-    """What the arrows in a level with these texts lead to: both THINGS where any text names one, else nothing.
+def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
+    """What the arrows in a level with these texts lead to: both TARGETS where any text names one, else nothing.
 
     Both, for a newcomer who is told of the exit alone looks for its switch.
 
-    >>> named_things(["Go", "Now the {exit} is open"]), named_things(["Go"])
+    >>> arrow_targets(["Go", "Now the {exit} is open"]), arrow_targets(["Go"])
     (('switch', 'exit'), ())
     """
-    return THINGS if any(name in THINGS for text in texts for name in _KEY.findall(text)) else ()
+    return TARGETS if any(name in TARGETS for text in texts for name in _KEY.findall(text)) else ()
 
 
-def moved_saying(says: str, number: int, cell: tuple[int, int]) -> str:
-    """A header's value with the place of one of its texts, by its number from 0, in another cell.
+def with_message_moved(says: str, number: int, cell: tuple[int, int]) -> str:
+    """A header's value with one of its messages, by number from 0, moved to another cell.
 
-    >>> moved_saying("start: Go | at 12,5: Jump: here", 1, (3, 4))
+    >>> with_message_moved("start: Go | at 12,5: Jump: here", 1, (3, 4))
     'start: Go | at 3,4: Jump: here'
     """
     parts = [part.strip() for part in says.split(BAR)]
@@ -83,7 +83,7 @@ def moved_saying(says: str, number: int, cell: tuple[int, int]) -> str:
     return f" {BAR} ".join(parts)
 
 
-def _read(part: str) -> Saying:
+def _read(part: str) -> LevelMessage:
     when, colon, text = (each.strip() for each in part.partition(":"))
     found = repr(part.strip()[:40])
     if not colon or not text:
@@ -91,13 +91,13 @@ def _read(part: str) -> Saying:
     if len(text) > MOST_LETTERS or not text.isprintable():
         raise LevelError("a text in 'says'", found=found, expected=f"at most {MOST_LETTERS} printable letters")
     for name in unknown_words(text):
-        raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + THINGS))
+        raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + TARGETS))
     if when in _EVENTS:
-        return Saying(when, text)
+        return LevelMessage(when, text)
     if match := _DEATH.fullmatch(when):
-        return Saying("death", text, deaths=int(match[1]))
+        return LevelMessage("death", text, deaths=int(match[1]))
     if (match := _PLACE.fullmatch(when)) and 1 <= int(match[1]) <= COLUMNS and 1 <= int(match[2]) <= ROWS:
-        return Saying("at", text, cell=(int(match[1]), int(match[2])))
+        return LevelMessage("at", text, cell=(int(match[1]), int(match[2])))
     raise LevelError("an unknown moment in 'says'", found=repr(when[:40]), expected=_WHEN)
 
 
@@ -107,4 +107,4 @@ def named_keys(text: str, name: Callable[[str], str]) -> str:
     >>> named_keys("{jump} jumps", {"jump": "Z"}.__getitem__)
     'Z jumps'
     """
-    return _KEY.sub(lambda match: match[1] if match[1] in THINGS else name(match[1]), text)
+    return _KEY.sub(lambda match: match[1] if match[1] in TARGETS else name(match[1]), text)
