@@ -177,9 +177,8 @@ class LevelPart(TasPart):
         over = self._paths
         over.draw_beside(inner, others)
         over.draw_flags(inner, positions, editor.track.markers)
-        for ghost in self.ghosts:
-            if ghost.label:
-                over.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(theme.palette))
+        names = [(ghost.label, ghost.place(fraction), ghost.colour(theme.palette)) for ghost in self.ghosts]
+        over.draw_names(inner, names, picture.place(fraction))
         if len(positions):
             over.draw_present(inner, positions, editor.cursor, editor.selection, paths.shown_span(editor.cursor))
         picture.draw_ninja_over(inner, fraction)
