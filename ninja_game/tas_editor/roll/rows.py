@@ -321,6 +321,10 @@ class RowSheet:
         palette, gap, height = self.theme.palette, self.theme.canvas.px(2), self.layout.row
         x, right = left + gap + 1, left + width
         events = sorted(map(EVENTS.__getitem__, row.events.split())) if row.events else []
+        if row.death:
+            words = f"died: {row.death.partition(' at ')[0]}"
+            fitting = self.theme.fit(words, (right - x - gap) / self.theme.canvas.scale, SIZE, bold=True)
+            events[0] = events[0]._replace(word=fitting)
         for event in events[:1] if row.name else events:
             dark = getattr(palette, event.ink) if event.chip else ink
             word = self.theme.lettering.rendered(event.word, SIZE, dark, bold=bool(event.chip))
