@@ -86,7 +86,7 @@ class SpanResults:
         self._fitting = [(task.inputs[:whole], (task.rest and task.behind) or task.last)]
         self.better: tuple[Found, ...] = ()
         self._seen: tuple[Found, ...] = ()
-        self._preview: tuple[Found, OtherRun] | None = None
+        self._preview: tuple[Found, OtherRun, str] | None = None
         self.search.start()
         self._started = monotonic()
 
@@ -118,18 +118,27 @@ class SpanResults:
         return None
 
     def put(self, found: Found) -> bool:
-        """Put a result into the run, as one edit, and select its span; whether that was possible."""
+        """Put a result into the run, as one edit; whether that was possible.
+
+        Cursor and selection keep their ticks; behind the span they go with what follows it.
+        """
         behind = self.behind
         if behind is None:
             self.editor.app.notify("The run was changed: search again")
             return False
-        made = self._made(self.editor.track, found, behind)
-        if not self.editor.edit(lambda _: made, self._taken(found)):
+        editor, end = self.editor, self.task.first + found.ticks
+        cursor, anchor = editor.cursor, editor.anchor
+        made = self._made(editor.track, found, behind)
+        if not editor.edit_selected(lambda _: made, self._taken(found)):
             return False
-        end = self.task.first + found.ticks
         self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
-        if not isinstance(self.search, RunSearch):  # of a whole run one stays where one is
-            self.editor.select(self.task.first, end)
+        if not isinstance(self.search, RunSearch):  # of a whole run all ticks stay what they are
+
+            def moved(tick: int) -> int:
+                return tick + end - behind if tick >= behind else min(tick, end - 1)
+
+            editor.go(moved(cursor if anchor is None else anchor))
+            editor.go(moved(cursor), select=anchor is not None)
         return True
 
     def _whose(self, found: Found) -> OtherRun | None:
@@ -161,13 +170,19 @@ class SpanResults:
         made = track.replaced(first, behind, keys)
         return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers).up_to(end)
 
-    def preview(self, found: Found) -> OtherRun:
+    def is_in_run(self, found: Found) -> bool:
+        ours, theirs = self.editor.track.inputs, found.inputs
+        return first_difference(ours, theirs) == min(len(ours), len(theirs))
+
+    def looked_at(self, found: Found) -> tuple[OtherRun, str]:
+        """A result as a run beside, and how it ends, in words."""
         if self._preview is None or self._preview[0] is not found:
             task = self.task
             timeline = Timeline(task.level, found.inputs, body=task.body, memory=self.editor.session.timeline.memory)
             timeline.simulate(len(found.inputs))
-            self._preview = found, OtherRun("result", InputTrack(found.inputs), timeline.trajectory())
-        return self._preview[1]
+            made = OtherRun("result", InputTrack(found.inputs), timeline.trajectory())
+            self._preview = found, made, timeline.ending
+        return self._preview[1:]
 
     # --- in words ---
 
@@ -193,6 +208,8 @@ class SpanResults:
     def words(self, found: Found) -> tuple[str, ...]:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
         own, words = self.search.own, score_text(self.task, found)
+        if found.missed_by == 0.0:
+            words += f": {self.looked_at(found)[1] or 'it goes on'}"
         if own is not None and (self.task.rest or self.task.goal == "won") and found.gold != own.gold:
             words += f", {abs(own.gold - found.gold)} gold {'fewer' if found.gold < own.gold else 'more'}"
         if self._others:
@@ -429,7 +446,9 @@ class SearchTab(Tab):
         self.found = results.better
         self.list.fill(self.found)
         over = self.list.over if results.behind is not None and self.editor.tab == self.name else -1
-        self.editor.preview = results.preview(self.found[over]) if 0 <= over < len(self.found) else None
+        looked_at = self.found[over] if 0 <= over < len(self.found) else None
+        taken = looked_at is not None and results.is_in_run(looked_at)  # then the change is what there is to be seen
+        self.editor.preview = None if looked_at is None or taken else results.looked_at(looked_at)[0]
 
     def _put(self, index: int) -> None:
         if self.results is not None and index < len(self.found):
