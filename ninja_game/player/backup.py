@@ -35,10 +35,10 @@ from ninja_game.formats.run_time import level_score
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import WITH_HELP, is_place
 from ninja_game.player.records import Records
-from ninja_game.runs.deaths import KILLERS
 from ninja_game.player.schema import SCHEMA, TABLES, VERSION, OtherVersionError, bounded
 from ninja_game.player.settings import read_settings
 from ninja_game.player.store import Store
+from ninja_game.runs.deaths import KILLERS
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.memory.interface import BODIES
 

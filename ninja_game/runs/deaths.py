@@ -16,7 +16,7 @@ KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and
 
 
 def _death(world: World) -> tuple[int, int]:
-    """The cause of the ninja's death in the world's last tick, NO_CAUSE where it did not die; the killer's slot or 0."""
+    """Cause and killer's slot (0: nobody) of the ninja's death in the last tick; NO_CAUSE where it did not die."""
     events = world.events[: world.event_count]
     return next(((event.cause, event.slot) for event in events if event.kind == DIED), (NO_CAUSE, 0))
 

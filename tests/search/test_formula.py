@@ -440,6 +440,13 @@ def test_the_nearest_miss_is_told_ever_nearer_and_ends_where_it_says() -> None:
     assert px / 2 < misses[-1].missed_by < 2 * px  # type: ignore[operator]
 
 
+def test_the_run_as_it_was_begun_is_no_miss() -> None:
+    task = SpanTask(LEVEL, bytes([2] * 20), 0, 20, goal="x > 10000")
+    misses: list[Found] = []
+    assert not searched(task, rounds=4, missed=misses.append)
+    assert not misses, "nothing goes farther than the key to the right"
+
+
 def test_where_only_the_exit_is_missed_it_says_so() -> None:
     task = SpanTask(LEVEL, bytes(60), 0, 30, goal="x > 110", rest=True)
     misses: list[Found] = []

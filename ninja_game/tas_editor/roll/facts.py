@@ -102,9 +102,9 @@ class RowFacts(NamedTuple):
     """The data that a row is drawn from.
 
     ``keys``, ``before``: inputs of the tick and of the one before it; ``differs``: the keys that are down either here
-    or in the run that this one is compared to. ``values``: None where nothing is simulated. ``death``: of the tick in which
-    the ninja dies, what kills it.
-    ``beyond``: behind the last input; ``over``: behind exit or death. ``changed``: its keys are not the saved ones.
+    or in the run that this one is compared to. ``values``: None where nothing is simulated.
+    ``death``: what kills the ninja in this tick. ``beyond``: behind the last input; ``over``: behind exit or death.
+    ``changed``: its keys are not the saved ones.
     """
 
     tick: int

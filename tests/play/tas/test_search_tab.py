@@ -193,6 +193,36 @@ def test_results_of_one_way_are_one(at: TasDriver, tab: SearchTab) -> None:
     assert tab.found[:2] == (best, elsewhere)
 
 
+def test_pieces_of_a_span_in_which_nothing_better_is_found_are_searched_by_a_click(
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    end = at.session.timeline.end[0]
+    at.editor.select(0, end + 1)
+    at.choose("Use the selection")
+    tab.goal.show(f"won and tick < {end // 2}")
+    tab.start()
+    at.wait(lambda: bool(tab.pieces), "pieces")
+    assert all(found.missed_by for found in tab.found)
+    reached = {"gold-taken", "exit-opened"}
+    splits = [tick for tick, names in at.session.timeline.event_ticks if reached & {*names.split()}]
+    assert {piece.last - 1 for piece in tab.pieces} <= {*splits, end}
+    assert [piece.first for piece in tab.pieces] == [0, *(piece.last for piece in tab.pieces[:-1])]
+    assert all(piece.last - piece.first >= 10 for piece in tab.pieces)
+    assert (tab.pieces[-1].name, tab.pieces[-1].wanted.goal) == ("exit", "won")
+    proposed = tab.pieces
+    row(at, tab, len(tab.found))
+    assert tab.span == (0, proposed[0].last)
+    assert (tab.goal.text, tab.rest) == (proposed[0].wanted.goal, True)
+    assert results_of(tab).running
+    at.frames(2)
+    assert tab.pieces == proposed, "for the next click"
+    results_of(tab).stop()
+    at.wait(lambda: not results_of(tab).running, "the end")
+    at.choose("Use the selection")
+    assert not tab.pieces
+
+
 def test_a_taken_result_leaves_the_cursor_in_its_place_and_undo_too(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
     results = searched(at, tab)
