@@ -10,6 +10,7 @@ from math import hypot
 import numpy as np
 import pygame
 
+from ninja_game.formats.replay.notations import KEY_NAMES
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.workspace import Commands
 from ninja_game.sim.kinds import EXIT, KIND_NAMES, SWITCH
@@ -238,7 +239,9 @@ class LevelPart(TasPart):
         elif self.playing.on:
             text = "Playing. Space: stop"
         else:
-            text = "Space: play; Enter: take over"
+            track, cursor = self.editor.track, self.editor.cursor
+            down = (KEY_NAMES[track.keys_at(tick)].strip(".") or "-" for tick in (cursor, cursor + 1))
+            text = f"Keys: {', next: '.join(down)}. Space: play; Enter: take over"
         x, y, w, h = self.area
         palette, y = theme.palette, y + h - LINE
         theme.canvas.fill_rect(surface, palette.tile, x, y, w, LINE)
