@@ -103,8 +103,8 @@ class RowFacts(NamedTuple):
 
     ``keys``, ``before``: inputs of the tick and of the one before it; ``differs``: the keys that are down either here
     or in the run that this one is compared to. ``values``: None where nothing is simulated.
-    ``death``: what kills the ninja in this tick. ``beyond``: behind the last input; ``over``: behind exit or death.
-    ``changed``: its keys are not the saved ones.
+    ``death``: what kills the ninja in this tick; ``lead``: over the run beside, None where not both do the same.
+    ``beyond``: behind the last input; ``over``: behind exit or death. ``changed``: its keys are not the saved ones.
     """
 
     tick: int
@@ -114,6 +114,7 @@ class RowFacts(NamedTuple):
     values: Values | None
     events: str
     death: str
+    lead: int | None
     name: str
     beyond: bool
     over: bool
@@ -143,6 +144,7 @@ def row_facts(editor: TasEditor, first: int, last: int) -> list[RowFacts]:
             values[tick - first],
             timeline.events(tick),
             timeline.death if tick == end else "",
+            editor.leads.get(tick),
             names.get(tick, ""),
             tick >= count,
             0 <= end < tick,

@@ -325,6 +325,8 @@ class RowSheet:
             words = f"died: {row.death.partition(' at ')[0]}"
             fitting = self.theme.fit(words, (right - x - gap) / self.theme.canvas.scale, SIZE, bold=True)
             events[0] = events[0]._replace(word=fitting)
+        if row.lead is not None and events:
+            events.insert(1, EventWord(0, f"{row.lead:+d}", "panel", "good" if row.lead >= 0 else "bad"))
         for event in events[:1] if row.name else events:
             dark = getattr(palette, event.ink) if event.chip else ink
             word = self.theme.lettering.rendered(event.word, SIZE, dark, bold=bool(event.chip))
