@@ -322,9 +322,8 @@ class RowSheet:
         x, right = left + gap + 1, left + width
         events = sorted(map(EVENTS.__getitem__, row.events.split())) if row.events else []
         if row.death:
-            words = f"died: {row.death.partition(' at ')[0]}"
-            fitting = self.theme.fit(words, (right - x - gap) / self.theme.canvas.scale, SIZE, bold=True)
-            events[0] = events[0]._replace(word=fitting)
+            killer, room = row.death.partition(" at ")[0], (right - x - gap) / self.theme.canvas.scale
+            events[0] = events[0]._replace(word=self.theme.fit(killer, room, SIZE, bold=True))
         if row.lead is not None and events:
             events.insert(1, EventWord(0, f"{row.lead:+d}", "panel", "good" if row.lead >= 0 else "bad"))
         for event in events[:1] if row.name else events:
