@@ -147,11 +147,13 @@ class LevelPaths:
     def draw_names(self, surface: pygame.Surface, ghosts: Sequence[tuple[str, Point, pygame.Color]], at: Point) -> None:
         """The names of ghosts ("": none) above them, over none of them nor the ninja, which is ``at`` a place."""
         places = [at, *(place for _, place, _ in ghosts)]
-        self._labels += [self.canvas.rect(x - RADIUS, y - RADIUS, 2 * RADIUS, 2 * RADIUS) for x, y in places]
+        ninjas = [self.canvas.rect(x - RADIUS, y - RADIUS, 2 * RADIUS, 2 * RADIUS) for x, y in places]
+        self._labels[:0] = ninjas
         above = -RADIUS * self.canvas.scale / self.theme.canvas.scale - LETTERS - 4
         for name, place, colour in ghosts:
             if name:
                 self._label(surface, self.theme.fit(name, _LONGEST_NAME, LETTERS), place, (-4, above), colour)
+        del self._labels[: len(ninjas)]
 
     def _label(self, surface: pygame.Surface, text: str, at: Point, beside: Point, colour: pygame.Color) -> None:
         """A small text on a plate, beside a place of the level, inside of the picture where that place is."""
