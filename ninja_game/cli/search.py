@@ -150,7 +150,10 @@ def improve(
             task.level, task.first[: played.ticks], task.seconds / 2, body=task.body, seed=task.seed, threads=task.jobs
         )
         if first is None:
-            click.echo(f"{played.outcome} after {played.ticks} ticks, and no way to the exit found from there")
+            from ninja_game.runs.deaths import ending_text
+
+            ends = ending_text(played.outcome, played.ticks - 1, played.death)
+            click.echo(f"{ends}; no way to the exit found from there")
             return FAILED
         task = replace(task, first=first, others=(), seconds=task.seconds if known else task.seconds / 2)
     before: list[int] = []

@@ -132,12 +132,14 @@ def show(tables: Sequence[Table]) -> None:
     from rich.table import Table as RichTable
 
     from ninja_game.runs.compare import sum_of_best
+    from ninja_game.runs.deaths import ending_text
 
     console = Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else WIDTH)
     for runs, rows in tables:
         best, (name, *others) = runs[0], titles([run.recording for run in runs])
         end = best.ticks - (best.outcome != "running")
-        console.print(f"{name}: {best.outcome} after {end} ticks, {seconds_text(end)} s, {best.gold} gold")
+        ends = ending_text(best.outcome, end, best.death)
+        console.print(f"{name}: {ends}, {seconds_text(end)} s, {best.gold} gold")
         table = RichTable(box=None, pad_edge=False, header_style="bold")
         table.add_column("split")
         for name in ("x", "y", "tick", "segment", *others):
@@ -265,8 +267,9 @@ def _cells(lead: Lead) -> tuple[str, float, float, int, int, int]:
 def _show_comparison(found: Comparison, ours: Recording, theirs: Recording) -> None:
     from ninja_game.runs.compare import each_second
 
-    for letter, name, positions in zip("AB", titles([ours, theirs]), found.positions, strict=True):
-        click.echo(f"{letter}: {name}, {len(positions)} ticks")
+    both = zip("AB", titles([ours, theirs]), found.positions, found.deaths, strict=True)
+    for letter, name, positions, death in both:
+        click.echo(f"{letter}: {name}, {len(positions)} ticks{f', dead: {death}' if death else ''}")
     if found.first_keys is None and found.first_place is None:
         click.echo("the runs are equal")
         return

@@ -9,7 +9,7 @@ from ninja_game.budget import NO_LIMIT
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import level_score
-from ninja_game.player.records import SELF, killer_of
+from ninja_game.runs.deaths import SELF, killer_of
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.events import DIED
 from ninja_game.sim.inputs import with_press_bit

@@ -35,10 +35,11 @@ from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.formats.run_time import level_score
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import WITH_HELP, is_place
-from ninja_game.player.records import KILLERS, Records
+from ninja_game.player.records import Records
 from ninja_game.player.schema import SCHEMA, TABLES, VERSION, OtherVersionError, bounded
 from ninja_game.player.settings import read_settings
 from ninja_game.player.store import Store
+from ninja_game.runs.deaths import KILLERS
 from ninja_game.runs.verify import verify_recording
 
 MOST_FILES = 4096

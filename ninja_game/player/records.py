@@ -10,16 +10,12 @@ from typing import NamedTuple, get_type_hints
 
 from ninja_game.backend.worlds import BODIES
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.ascii.object_lines import WEAPONS
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.replay.provenance import names_of_text, parse_provenance
 from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.formats.run_time import level_score
 from ninja_game.player.store import Store
-from ninja_game.sim.events import DIED
-from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
-from ninja_game.sim.memory.schema import World
-from ninja_game.sim.states import NO_CAUSE
+from ninja_game.runs.deaths import KILLERS
 
 NEWEST_SHOWN = 500  # replays listed at most, the newest first
 
@@ -208,26 +204,6 @@ _DROP_UNNEEDED = f"DELETE FROM replay WHERE {_UNNEEDED}"
 def _digest(replay: Replay) -> str:
     assert replay.level is not None  # noqa: S101 - attempts give replays with their levels
     return replay.level_digest or level_digest(replay.level)
-
-
-SELF = "player"  # falls, being crushed, suicide, time
-
-_DRONES = {int(weapon): name for name, weapon in WEAPONS.items()}
-KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and kind.number != DRONE), SELF)
-
-
-def cause_of(world: World) -> int:
-    """The cause of the ninja's death in the world's last tick, as in ``sim.states``; NO_CAUSE where it did not die."""
-    return next((event.cause for event in world.events[: world.event_count] if event.kind == DIED), NO_CAUSE)
-
-
-def killer_of(world: World) -> str:
-    """What killed the ninja in the world's last tick, one of KILLERS."""
-    slot = next((event.slot for event in world.events[: world.event_count] if event.kind == DIED), 0)
-    if not slot:
-        return SELF
-    killer = world.objects[slot]
-    return _DRONES[killer.weapon] if killer.kind == DRONE else KIND_OF[killer.kind].killer
 
 
 class Played(NamedTuple):

@@ -17,6 +17,7 @@ from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.notations import Marker
+from ninja_game.runs.deaths import death_text
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
@@ -69,7 +70,7 @@ class Split(NamedTuple):
 class RunSplits:
     """The splits of a run in order, until its end as ``verify`` has it.
 
-    ``positions``: float64 (ticks, 2), px, the ninja after each tick.
+    ``positions``: float64 (ticks, 2), px, the ninja after each tick. ``death``: what killed it, in words; "": nothing.
     """
 
     recording: Recording = field(repr=False)
@@ -77,6 +78,7 @@ class RunSplits:
     gold: int
     splits: tuple[Split, ...]
     positions: NDArray[np.float64] = field(repr=False)
+    death: str = ""
 
     @property
     def ticks(self) -> int:
@@ -126,7 +128,8 @@ def run_splits(
         with named_errors(recording):
             raise over_budget(recording.level, recording.ticks, budget)
     places = np.array(positions, np.float64).reshape(-1, 2)
-    return RunSplits(recording, run.outcome, run.gold, tuple(splits), places)
+    death = death_text(run.world) if run.outcome == "dead" else ""
+    return RunSplits(recording, run.outcome, run.gold, tuple(splits), places, death)
 
 
 class SplitRow(NamedTuple):
@@ -219,7 +222,7 @@ class Comparison:
     ``first_keys``: the first tick with other keys; ``first_place``: the first tick after which the ninja is at another
     place, or the shorter run is over; None where there is no such tick. ``splits``: the lead at each split that both
     reach; ``places``: the lead wherever the second run passes within NEAR px of the first, tick by tick of the first.
-    ``positions``: of both, float64 (ticks, 2), px.
+    ``positions``: of both, float64 (ticks, 2), px. ``deaths``: what killed each, in words; "": nothing.
     """
 
     first_keys: int | None
@@ -227,6 +230,7 @@ class Comparison:
     splits: tuple[Lead, ...]
     places: tuple[Lead, ...] = field(repr=False)
     positions: tuple[NDArray[np.float64], NDArray[np.float64]] = field(repr=False)
+    deaths: tuple[str, str] = ("", "")
 
 
 def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -> Comparison:
@@ -252,7 +256,9 @@ def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -
         for tick, ((x, y), other) in enumerate(zip(here.positions.tolist(), partner.tolist(), strict=True))
         if other >= 0
     )
-    return Comparison(first_keys, first_place, splits, places, (here.positions, there.positions))
+    return Comparison(
+        first_keys, first_place, splits, places, (here.positions, there.positions), (here.death, there.death)
+    )
 
 
 def each_second(places: tuple[Lead, ...]) -> list[Lead]:

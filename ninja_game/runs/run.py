@@ -24,11 +24,12 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.headers import Waypoint
 from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay
 from ninja_game.formats.run_time import level_score
+from ninja_game.runs.deaths import death_text
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.inputs import ALL_KEYS, check_inputs, fit_inputs
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
+from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_NAMES, STATE_NAMES
 from ninja_game.simulation import Body, is_box
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ class RunResult:
     ``outcome``: "exit", "dead" or "running"; ``end_tick``: the tick of that contact or death, -1 while running;
     ``places``: the ninja after each tick, x and y in turn as little-endian float64, px; ``state_numbers``: a byte each.
     ``in_time``: the lifetime never ran out (game.md §1.1). ``digest``: of what the world shows after the last tick, as
-    replays have it, where it was asked for.
+    replays have it, where it was asked for. ``death``: what killed the ninja, in words, "" where it did not die.
     """
 
     outcome: str
@@ -54,6 +55,7 @@ class RunResult:
     state_numbers: bytes = field(repr=False)
     in_time: bool = True
     digest: str = ""
+    death: str = ""
 
     @property
     def ticks(self) -> int:
@@ -164,7 +166,8 @@ def run_in_slices(
     places = _little_endian(array("d", b"".join(_bytes(each.places) for each in records))).tobytes()
     states = b"".join(_bytes(each.states) for each in records)
     final_digest = replay_digest(world.world()) if digest else ""
-    return RunResult(OUTCOME_NAMES[world.outcome()], world.gold(), places, states, in_time, final_digest)
+    death = death_text(world.world()) if world.outcome() == OUTCOME_DEAD else ""
+    return RunResult(OUTCOME_NAMES[world.outcome()], world.gold(), places, states, in_time, final_digest, death)
 
 
 def run_to_completion(slices: Generator[None, None, T]) -> T:

@@ -17,6 +17,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
 from ninja_game.levels.findings import RunProblem, run_problem
+from ninja_game.runs.deaths import ending_text
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, run_in_slices, run_to_completion
 from ninja_game.sim.inputs import with_press_bits
@@ -199,7 +200,7 @@ def _as_json(value: object) -> str:
 
 def _ending(recording: Recording, run: RunResult) -> str:
     if run.outcome != "running":
-        return f"{run.outcome} in tick {run.end_tick}"
+        return ending_text(run.outcome, run.end_tick, run.death)
     if recording.missing:
         held = len(recording.replay.inputs)
         return f"the demo is truncated, it holds {held} of its {held + recording.missing} ticks"

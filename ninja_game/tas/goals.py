@@ -168,6 +168,38 @@ def _is_passed(span: SearchedSpan) -> bool:
     return outcome == "exit" and tick >= span.last
 
 
+class RunPiece(NamedTuple):
+    """The ticks ``first`` … ``last`` - 1 of a run, up to something that it reaches: its name, and how to want it."""
+
+    first: int
+    last: int
+    name: str
+    wanted: SpanGoal
+
+
+SHORTEST_PIECE = 10  # ticks; what is reached sooner belongs to the piece before
+_GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened": "opened({})", "won": "won"}
+
+
+def pieces_of(span: SearchedSpan) -> list[RunPiece]:
+    """The pieces of a span, from one piece of gold, switch or exit to the next; from the last one to the exit.
+
+    Where the run reaches the exit, the rest of it follows.
+    """
+    session, first, pieces = span.session, span.first, list[RunPiece]()
+    end, outcome = session.timeline.end
+    for split in run_splits(session.recording(), tuple(_GOALS), memory="auto").splits:
+        if span.first <= split.tick < span.last and split.tick - first + 1 >= SHORTEST_PIECE:
+            goal, behind = _GOALS[split.event].format(split.object_id), split.tick + 1
+            rest = outcome == "exit" and behind <= end
+            pieces.append(RunPiece(first, behind, split.name, SpanGoal(goal, rest=rest)))
+            first = behind
+    if outcome != "exit" and pieces:
+        last = min(max(span.last, first + EXIT_TICKS), first + LONGEST_SPAN)
+        pieces.append(RunPiece(first, last, "exit", SpanGoal("won")))
+    return pieces
+
+
 PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], SpanGoal]], ...] = (
     ("Reach the exit sooner", "From tick {0} on, in any way", reach_exit),
     ("Whole run", "Shorten all of it; by routes of runs beside, too", whole_run),

@@ -13,6 +13,7 @@ from ninja_game.backend.memories import open_worlds, switch_to_compiled
 from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS, MemoryName
 from ninja_game.budget import tick_cost
 from ninja_game.errors import FormatError
+from ninja_game.runs.deaths import death_text, ending_text
 from ninja_game.runs.save_states import SaveStates
 from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
 from ninja_game.search.formula.language import Formula, Values, parse_number, parse_truth
@@ -21,7 +22,7 @@ from ninja_game.sim.inputs import MAX_TICKS, fit_inputs
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
-from ninja_game.sim.states import OUTCOME_NAMES
+from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_NAMES
 from ninja_game.simulation import Body, SaveState, is_box
 from ninja_game.tas.tracks import first_difference
 
@@ -89,6 +90,7 @@ class Timeline:
         self._objects = np.zeros((0, 0), _WATCHED_RECORD)
         self._events: list[str] = []
         self.inputs = b""
+        self._death = b"", ""
         self.simulated_until = self._ticks_on_plain = 0
         self.set_inputs(inputs)
 
@@ -236,6 +238,26 @@ class Timeline:
         outcomes = self.column("outcome")
         ended = np.flatnonzero(outcomes)
         return (int(ended[0]), OUTCOME_NAMES[int(outcomes[ended[0]])]) if len(ended) else (-1, OUTCOME_NAMES[0])
+
+    @property
+    def ending(self) -> str:
+        """The end in words, of a death with what killed; "" without one."""
+        end, outcome = self.end
+        return ending_text(outcome, end, self.death) if end >= 0 else ""
+
+    @property
+    def death(self) -> str:
+        """What killed the ninja, in words; "" where it did not die in the simulated ticks."""
+        end, outcome = self.end
+        if outcome != OUTCOME_NAMES[OUTCOME_DEAD]:
+            return ""
+        inputs = fit_inputs(self.inputs[: end + 1], end + 1)
+        if self._death[0] != inputs:
+            start, state = self._states.nearest(end)
+            self._worlds.restore(state)
+            self._worlds.run(inputs[start:])
+            self._death = inputs, death_text(self._worlds.world())
+        return self._death[1]
 
     def save_state(self, tick: int) -> SaveState:
         """The nearest moment that is kept at or before the one after this many ticks, for ``Simulation.restore``."""

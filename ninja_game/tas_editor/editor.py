@@ -55,7 +55,8 @@ class TasEditor:
     ``against``: the run that the lead is told over; None: the chosen other one, else the run as it was opened.
     ``theme``: the look of all parts, in the TAS editor's own logical px, which are not those of other screens.
     ``places``: cursor and anchor when a run was edited or taken over, for undo.
-    ``hint``: of what is under the mouse, for the line below.
+    ``hint``: of what is under the mouse, for the line below. ``leads``: by how many ticks the run is ahead of the one
+    beside it at everything that both do, by its own tick.
     """
 
     def __init__(self, app: App, session: Session) -> None:
@@ -71,6 +72,7 @@ class TasEditor:
         self.tab = "Values"
         self.against: InputTrack | None = None
         self.hint = ""
+        self.leads: dict[int, int] = {}
         self._refusal = ""
         self.places: WeakKeyDictionary[InputTrack, tuple[int, int | None]] = WeakKeyDictionary()
 

@@ -153,7 +153,7 @@ class Head(TasPart):
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         session, palette, right = self.editor.session, theme.palette, self.area[2] - 8
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
-        end, outcome = session.timeline.end
+        end = session.timeline.end[0]
         opened = Path(session.about.file).name
         where = ", on another level" * session.moved
         unsaved = f"{opened}{where}, to be saved as a new file" if opened else "no file yet"
@@ -170,10 +170,11 @@ class Head(TasPart):
             beside = f", not its {what}" * (not session.is_saved)
             saved = f", saved{beside}" if session.file.path else beside
         state = session.journal.problem or file + saved
-        theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=right - 224 - x)
-        words = {"exit": f"exit in tick {end}", "dead": f"dead in tick {end}"}.get(outcome, "no exit yet")
         seconds = f", {seconds_text(end)} s" if end >= 0 else ""
-        theme.text(surface, words + seconds, right, 8, size=11, bold=True, colour=palette.on_tile, align="right")
+        words = (session.timeline.ending or "no exit yet") + seconds
+        ends = theme.text(surface, words, right, 8, size=11, bold=True, colour=palette.on_tile, align="right")
+        room = ends.left / theme.canvas.scale - 12 - x
+        theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=room)
 
 
 class Foot(TasPart):

@@ -35,7 +35,7 @@ def test_every_level_has_a_table_with_its_best_run_first(runs: Path) -> None:
     result = called("splits", runs)
     assert result.exit_code == 0
     lines = result.stdout.splitlines()
-    assert lines[0] == f"Walk: exit after {WALK_END} ticks, 0.850 s, 1 gold"
+    assert lines[0] == f"Walk: exit in tick {WALK_END}, 0.850 s, 1 gold"
     assert [line.split()[-1] for line in lines[2:5]] == ["+4"] * 3
     assert f"sum of best: tick {WALK_END}, {WALK_END / 40:.3f} s" in lines
     assert any(line.startswith("Mine: dead") for line in lines)

@@ -10,8 +10,8 @@ import pytest
 from ninja_game.player.player_data import EPISODE_BEST, NEW_BEST
 from ninja_game.player.playthrough import EpisodeRun, LevelRun, Navigation
 from ninja_game.player.progress import CHEATED, LOCKED, UNLOCKED, Progress, complete_columns, new_unlocks
-from ninja_game.player.records import SELF
 from ninja_game.player.store import Store
+from ninja_game.runs.deaths import SELF
 from ninja_game.sim.rules import LIFETIME
 from tests.support.players import EXIT_TICK, deadly_level, entry, episode, played, player_data, short_level
 

@@ -53,6 +53,7 @@ def test_a_run_notes_gold_the_switch_and_its_end() -> None:
 def test_a_death_is_a_split_whoever_killed() -> None:
     found = run_splits(walk(0, level=SPIKED))
     assert (found.outcome, found.splits[-1].key) == ("dead", ("died", None, 0))
+    assert found.death == "mine 1"
 
 
 def test_a_pass_that_kills_in_the_same_tick_has_no_death() -> None:

@@ -432,7 +432,7 @@ def test_a_run_on_a_level_that_does_not_count_is_not_simulated(tmp_path: Path, m
             "rules": 1, "outcome": "not run", "end_tick": -1, "gold": 0, "score_ticks": None, "ticks": 0,
             "xy_sha256": "", "possible_by_keyboard": None, "in_time": None, "practice": False, "complete": True,
             "made": "", "assisted": None, "co_authors": "", "episode": "", "lifetime": 3600,
-            "problems": [f"level_digest is {digest}, which is not one of the levels that count"],
+            "problems": [f"not run: its level is not one of those that count (level_digest {digest})"],
             "codes": ["other-level"],
         }  # fmt: skip
         assert result_from_data(json.loads(json.dumps(asdict(result)))) == result

@@ -433,7 +433,7 @@ def test_the_nearest_miss_is_told_ever_nearer_and_ends_where_it_says() -> None:
     level = parse_level("0" * 713 + "|5^100,566!0^400,566!12^150,566")
     task = SpanTask(level, bytes(40), 5, 35, goal="taken(1)")
     misses: list[SpanResult] = []
-    assert not searched(task, rounds=8, missed=misses.append)
+    assert not searched(task, rounds=8, report_miss=misses.append)
     ends = [each.missed_by for each in misses]
     assert None not in ends
     assert ends == sorted(ends, reverse=True)  # type: ignore[type-var]
@@ -448,16 +448,23 @@ def test_the_nearest_miss_is_told_ever_nearer_and_ends_where_it_says() -> None:
     assert px / 2 < misses[-1].missed_by < 2 * px  # type: ignore[operator]
 
 
+def test_the_run_as_it_was_begun_is_no_miss() -> None:
+    task = SpanTask(LEVEL, bytes([2] * 20), 0, 20, goal="x > 10000")
+    misses: list[SpanResult] = []
+    assert not searched(task, rounds=4, report_miss=misses.append)
+    assert not misses, "nothing goes farther than the key to the right"
+
+
 def test_where_only_the_exit_is_missed_it_says_so() -> None:
     task = SpanTask(LEVEL, bytes(60), 0, 30, goal="x > 110", rest=True)
     misses: list[SpanResult] = []
-    assert not searched(task, rounds=2, method="local", missed=misses.append)
+    assert not searched(task, rounds=2, method="local", report_miss=misses.append)
     assert score_text(task, misses[-1]).endswith("but not the exit")
 
 
 def test_nothing_is_near_to_a_fact_that_is_not_so() -> None:
     misses: list[SpanResult] = []
-    assert not searched(SpanTask(LEVEL, bytes(40), 0, 5, goal="dead"), rounds=3, missed=misses.append)
+    assert not searched(SpanTask(LEVEL, bytes(40), 0, 5, goal="dead"), rounds=3, report_miss=misses.append)
     assert not misses
 
 

@@ -21,7 +21,7 @@ from ninja_game.formats.ascii.object_lines import FORMS
 from ninja_game.learn.observations.pixels import SHADES
 from ninja_game.levels.picture import COLOURS
 from ninja_game.play.level.sayings import WHY
-from ninja_game.player.records import KILLERS, SELF
+from ninja_game.runs.deaths import KILLERS, SELF
 from ninja_game.runs.level_design import clearance
 from ninja_game.runs.trace import trace_level
 from ninja_game.sim import events, kinds

@@ -6,7 +6,7 @@ from math import hypot
 
 import pytest
 
-from ninja_game.player.records import SELF, killer_of
+from ninja_game.runs.deaths import SELF, death_text, killer_of
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCH_PAD, LAUNCHER, MINE, THWUMP, TURRET
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.simulation import EventView, Simulation
@@ -25,6 +25,8 @@ def assert_killed(run: Simulation, death: EventView, killer: int | None, cause: 
     """The ninja is dead, by this object (None: by nobody) and this cause; the statistics count it by this name."""
     assert (death.object_id, death.cause, killer_of(run.world)) == (killer, cause, name)
     assert (run.outcome, run.ninja.state) == ("dead", "dead")
+    text = death_text(run.world)
+    assert text == (cause if killer is None else f"{name} {killer}") or (cause, text[:9]) == ("fall", "floor at ")
 
 
 def test_a_mine_kills_within_14_px_and_is_gone(play: Play) -> None:

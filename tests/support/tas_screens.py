@@ -13,6 +13,7 @@ import numpy as np
 import pygame
 
 from ninja_game.search.formula.task import SpanResult, SpanTask
+from ninja_game.tas.goals import RunPiece, SpanGoal
 from ninja_game.tas_editor.level import paths
 from ninja_game.tas_editor.level.part import LevelPart
 from ninja_game.tas_editor.opening import OpeningScreen
@@ -303,6 +304,11 @@ def _tabs(at: TasDriver) -> Iterator[str]:
     fixed.found, fixed.own, fixed.miss = (), None, replace(fixed.own, score=np.inf, missed_by=14.25)
     at.frames(2)
     yield "tas-search-miss"
+    pieces = RunPiece(0, 60, "gold 5", SpanGoal("taken(5)")), RunPiece(60, 130, "exit", SpanGoal("won"))
+    search._in_pieces, search._cut, search.pieces = (0, 130), at.editor.track, pieces  # type: ignore[attr-defined]
+    at.frames(2)
+    yield "tas-search-pieces"
+    search.close()
     fixed.found, fixed.own = found, own
     at.frames(2)
     at.press("escape")

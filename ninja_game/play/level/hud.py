@@ -208,7 +208,8 @@ class Hud:
 
     def label(self, surface: pygame.Surface, text: str, size: float = 10.0) -> pygame.Rect:
         """A word in the time bar's place."""
-        return self.theme.text(surface, text, 24, 7, size=size, colour=self.theme.palette.on_tile, bold=True)
+        colour, y = self.theme.palette.on_tile, 12.5 - 0.55 * size
+        return self.theme.text(surface, text, 24, y, size=size, colour=colour, bold=True, width=_FOOT_WIDTH)
 
     def foot(self, surface: pygame.Surface, left: str, right: str, size: float = _FOOT_SIZE) -> list[pygame.Rect]:
         """A line in the border below the level; where both texts do not fit, the left one is shortened."""

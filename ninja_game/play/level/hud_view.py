@@ -15,7 +15,7 @@ from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
 from ninja_game.player.playthrough import Navigation
 from ninja_game.player.progress import NO_MEDAL, Mark, next_par
-from ninja_game.player.records import SELF
+from ninja_game.runs.deaths import SELF
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME

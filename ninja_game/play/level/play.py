@@ -15,7 +15,7 @@ from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, AttemptState
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.progress import HELPED
-from ninja_game.player.records import cause_of
+from ninja_game.runs.deaths import cause_of
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME

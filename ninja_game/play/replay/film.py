@@ -43,7 +43,8 @@ MOST_PICTURES = 20_000
 
 SHOWN_SPLITS = 3  # the last ones of a run
 LONGEST_NAME = 28  # letters of a run's name among its splits
-LETTERS = 13.0  # the size of what is written above and below the level, larger than in the game: films are small
+LETTERS = 12.0  # the least size of what is written above and below the level, px: films are small
+MOST_LETTERS = 18.0  # the greatest, for which there is room in the border, px of the level
 
 
 class _StoppedError(Exception):
@@ -135,6 +136,7 @@ class _Panel:
         self.playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
         self.view = LevelView(context, self.playback.simulation)
         self.hud = Hud(context.theme)
+        self.letters = min(MOST_LETTERS, LETTERS / context.canvas.scale)
         self.ghosts: list[tuple[str, Ghost]] = []
 
     def follow(self, runs: Sequence[Recording]) -> None:
@@ -156,18 +158,20 @@ class _Panel:
         if run.episode:
             covered = hud.time_bar(surface, run.lifetime + GOLD_BONUS * world.gold - self.time)
         else:
-            covered = [hud.label(surface, self.title, LETTERS)]
+            covered = [hud.label(surface, self.title, self.letters)]
         words = [self.title] * bool(run.episode)
         if self.film.splits:
             words += [
                 f"{seconds_text(self.time)} s",
                 *[text for tick, text in self.splits if tick < world.tick][-SHOWN_SPLITS:],
             ]
+        size = 0.8 * self.letters
         for name, ghost in self.ghosts if self.view.context.settings.show_ghost else ():
             x, y = ghost.place(1.0)
             if is_near(x, y):
-                covered.append(hud.theme.text(surface, name, x, y - 24, size=9, colour=ghost.shade, align="centre"))
-        covered += hud.foot(surface, "; ".join(words), "", LETTERS)
+                above = y - 15 - size
+                covered.append(hud.theme.text(surface, name, x, above, size=size, colour=ghost.shade, align="centre"))
+        covered += hud.foot(surface, "; ".join(words), "", self.letters)
         if self.film.keys:
             covered.append(hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))
         for each in covered:

@@ -237,14 +237,19 @@ class SpanWorlds:
         )
 
     def note_miss(self, margins: Values, keys: Keys, ticks: int) -> None:
-        """Keep the living world that is nearest to the goal after so many ticks of the span, if none was nearer."""
+        """Keep the living world that is nearest to the goal after so many ticks of the span, if none was nearer.
+
+        The run as it was begun is no result: only what is nearer than that is kept.
+        """
         batch = self.batch
         living = np.where(batch.outcomes == OUTCOME_RUNNING, np.minimum(margins, 0.0), -np.inf)
         index = int(np.argmax(living))
         if living[index] > self._nearest and living[index] not in (UNTRUE, UNREACHABLE):
             self._nearest = living[index]
             end = [*batch.positions[index].tolist(), *batch.velocities()[index].tolist()]
-            self.miss = self.found(index, keys[:, index], np.inf, ticks, end, abs(float(living[index])))
+            own = np.array_equal(keys[:ticks, index], self.task.base[:ticks])
+            found = self.found(index, keys[:, index], np.inf, ticks, end, abs(float(living[index])))
+            self.miss = None if own else found
 
     def try_all(self, keys: Keys) -> Trials:
         """Play keys, (ticks of the span, worlds), from the start of the span."""

@@ -10,6 +10,7 @@ from math import hypot
 import numpy as np
 import pygame
 
+from ninja_game.formats.replay.notations import KEY_NAMES
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.workspace import Commands
 from ninja_game.sim.kinds import EXIT, KIND_NAMES, SWITCH
@@ -177,9 +178,8 @@ class LevelPart(TasPart):
         over = self._paths
         over.draw_beside(inner, others)
         over.draw_flags(inner, positions, editor.track.markers)
-        for ghost in self.ghosts:
-            if ghost.label:
-                over.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(theme.palette))
+        names = [(ghost.label, ghost.place(fraction), ghost.colour(theme.palette)) for ghost in self.ghosts]
+        over.draw_names(inner, names, picture.place(fraction))
         if len(positions):
             over.draw_present(inner, positions, editor.cursor, editor.selection, paths.shown_span(editor.cursor))
         picture.draw_ninja_over(inner, fraction)
@@ -239,7 +239,9 @@ class LevelPart(TasPart):
         elif self.playing.on:
             text = "Playing. Space: stop"
         else:
-            text = "Space: play; Enter: take over"
+            track, cursor = self.editor.track, self.editor.cursor
+            down = (KEY_NAMES[track.keys_at(tick)].strip(".") or "-" for tick in (cursor, cursor + 1))
+            text = f"Keys: {', next: '.join(down)}. Space: play; Enter: take over"
         x, y, w, h = self.area
         palette, y = theme.palette, y + h - LINE
         theme.canvas.fill_rect(surface, palette.tile, x, y, w, LINE)

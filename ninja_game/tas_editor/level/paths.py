@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ninja_game.formats.replay.notations import Marker
 from ninja_game.play.replay.paths import draw_path
+from ninja_game.sim.rules import RADIUS
 from ninja_game.simulation import ObjectView
 from ninja_game.tas.timeline import Trajectory
 from ninja_game.tas_editor.editor import Span
@@ -143,9 +144,16 @@ class LevelPaths:
     def draw_object(self, surface: pygame.Surface, seen: ObjectView) -> None:
         self._label(surface, f"{seen.kind} {seen.id}", (seen.x, seen.y), (5, -14), self.theme.palette.text)
 
-    def draw_name(self, surface: pygame.Surface, name: str, at: Point, colour: pygame.Color) -> None:
-        name = self.theme.fit(name, _LONGEST_NAME, LETTERS)
-        self._label(surface, name, at, (-4, -18), colour)
+    def draw_names(self, surface: pygame.Surface, ghosts: Sequence[tuple[str, Point, pygame.Color]], at: Point) -> None:
+        """The names of ghosts ("": none) above them, over none of them nor the ninja, which is ``at`` a place."""
+        places = [at, *(place for _, place, _ in ghosts)]
+        ninjas = [self.canvas.rect(x - RADIUS, y - RADIUS, 2 * RADIUS, 2 * RADIUS) for x, y in places]
+        self._labels[:0] = ninjas
+        above = -RADIUS * self.canvas.scale / self.theme.canvas.scale - LETTERS - 4
+        for name, place, colour in ghosts:
+            if name:
+                self._label(surface, self.theme.fit(name, _LONGEST_NAME, LETTERS), place, (-4, above), colour)
+        del self._labels[: len(ninjas)]
 
     def _label(self, surface: pygame.Surface, text: str, at: Point, beside: Point, colour: pygame.Color) -> None:
         """A small text on a plate, beside a place of the level, inside of the picture where that place is."""

@@ -44,8 +44,8 @@ class RollCommands:
             "copy": self.copy, "cut": self.cut,
             "paste": self.paste, "paste_insert": lambda: self.paste(between=True),
             "cut_end": self.cut_end, "marker": self.name_tick,
-            "undo": lambda: self._step(editor.session.undo, "Nothing to undo"),
-            "redo": lambda: self._step(editor.session.redo, "Nothing to redo"),
+            "undo": lambda: self._step(editor.session.undo, "Undone", "Nothing to undo"),
+            "redo": lambda: self._step(editor.session.redo, "Redone", "Nothing to redo"),
         }  # fmt: skip
 
     # --- moving ---
@@ -142,7 +142,7 @@ class RollCommands:
         else:
             editor.edit(lambda track: track.replaced(end + 1, len(track), b""))
 
-    def _step(self, step: Callable[[], bool], refusal: str) -> None:
+    def _step(self, step: Callable[[], bool], done: str, refusal: str) -> None:
         """Undo or redo, and have the cursor and the selection of that time again; else go where something changes."""
         editor = self._editor
         editor.session.end()
@@ -150,7 +150,7 @@ class RollCommands:
         if not step():
             editor.app.notify(refusal)
             return
-        editor.app.notify("")
+        editor.app.notify(f"{done}: {_change_text(before, editor.track)}")
         if editor.track in editor.places:
             editor.places[before] = place
         first = _first_change(before, editor.track)
@@ -226,3 +226,11 @@ def _first_change(before: InputTrack, after: InputTrack) -> int:
     if before.inputs != after.inputs:
         return before.first_difference(after)
     return min((tick for tick, _ in set(before.markers) ^ set(after.markers)), default=0)
+
+
+def _change_text(before: InputTrack, after: InputTrack) -> str:
+    more, tick = len(after) - len(before), _first_change(before, after)
+    if before.inputs == after.inputs:
+        return f"a marker in tick {tick}"
+    length = f", {counted(abs(more), 'tick', 'ticks')} {'more' if more > 0 else 'fewer'}" if more else ""
+    return f"keys from tick {tick} on{length}"

@@ -103,6 +103,7 @@ class RowFacts(NamedTuple):
 
     ``keys``, ``before``: inputs of the tick and of the one before it; ``differs``: the keys that are down either here
     or in the run that this one is compared to. ``values``: None where nothing is simulated.
+    ``death``: what kills the ninja in this tick; ``lead``: over the run beside, None where not both do the same.
     ``beyond``: behind the last input; ``over``: behind exit or death. ``changed``: its keys are not the saved ones.
     """
 
@@ -112,6 +113,8 @@ class RowFacts(NamedTuple):
     differs: int
     values: Values | None
     events: str
+    death: str
+    lead: int | None
     name: str
     beyond: bool
     over: bool
@@ -140,6 +143,8 @@ def row_facts(editor: TasEditor, first: int, last: int) -> list[RowFacts]:
             differs[tick - first],
             values[tick - first],
             timeline.events(tick),
+            timeline.death if tick == end else "",
+            editor.leads.get(tick),
             names.get(tick, ""),
             tick >= count,
             0 <= end < tick,
@@ -205,7 +210,8 @@ def row_text(row: RowFacts, *, numbers: bool) -> str:
     seen = row.values
     if numbers:
         places = "  ".join(f"{key} {getattr(seen, key)!r}" for key in ("x", "y", "vx", "vy"))
-        return f"{name}{row.tick}:  {places}  {row.events.replace(' ', ', ')}"
+        events = row.events.replace(" ", ", ").replace("died", f"died: {row.death}")
+        return f"{name}{row.tick}:  {places}  {events}"
     touched = [
         word
         for bit, word in ((FLOOR, "on a floor"), (WALL_LEFT, "wall at the left"), (WALL_RIGHT, "wall at the right"))

@@ -83,7 +83,7 @@ class Roll(TasPart):
         timeline = editor.session.timeline
         return (
             editor.track, editor.session.saved, compared(editor), editor.cursor, editor.selection,
-            timeline.simulated_until, self.top, self.hidden,
+            timeline.simulated_until, self.top, self.hidden, editor.leads,
         )  # fmt: skip
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:

@@ -321,6 +321,11 @@ class RowSheet:
         palette, gap, height = self.theme.palette, self.theme.canvas.px(2), self.layout.row
         x, right = left + gap + 1, left + width
         events = sorted(map(EVENTS.__getitem__, row.events.split())) if row.events else []
+        if row.death:
+            killer, room = row.death.partition(" at ")[0], (right - x - gap) / self.theme.canvas.scale
+            events[0] = events[0]._replace(word=self.theme.fit(killer, room, SIZE, bold=True))
+        if row.lead is not None and events:
+            events.insert(1, EventWord(0, f"{row.lead:+d}", "panel", "good" if row.lead >= 0 else "bad"))
         for event in events[:1] if row.name else events:
             dark = getattr(palette, event.ink) if event.chip else ink
             word = self.theme.lettering.rendered(event.word, SIZE, dark, bold=bool(event.chip))

@@ -55,8 +55,7 @@ class BranchesTab(Tab):
     def keep(self) -> None:
         self.editor.tab = self.name
         session = self.editor.session
-        end, outcome = session.timeline.end
-        name = f"{outcome} {end}" if end >= 0 else f"branch {len(self.branches) + 1}"
+        name = session.timeline.ending or f"branch {len(self.branches) + 1}"
 
         def kept(text: str) -> None:
             number = session.keep_branch(text.strip() or name)

@@ -78,7 +78,7 @@ class LeadTab(Tab):
         return self.editor.track, self._against()
 
     def update(self, real_ms: int) -> None:
-        if self.editor.tab != self.name:
+        if self.editor.tab != self.name and not self.editor.others:
             return
         self._choice.options = self._options()
         if self._against() not in {track for _, track in self._choice.options}:
@@ -92,7 +92,10 @@ class LeadTab(Tab):
                 session = self.editor.session
                 ours, theirs = session.recording(pair[0], "this run"), session.recording(pair[1], "the other run")
                 self._job.ask((pair, ours, theirs, pair[0].markers))
-        self.list.fill(self.table.rows if self.table else ())
+        rows = self.table.rows if self.table else ()
+        self.list.fill(rows)
+        shown = self.editor.others and self.is_current
+        self.editor.leads = {row.tick: row.ahead for row in rows if row.at} if shown else {}
 
     @property
     def table(self) -> LeadTable | None:

@@ -21,7 +21,17 @@ from ninja_game.search.formula.task import SpanResult, SpanTask, distinct_ways, 
 from ninja_game.sim.inputs import fit_inputs, with_press_bits
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.contributions import Contributions
-from ninja_game.tas.goals import IMPROVE, IMPROVE_GOLD, IMPROVES, PRESETS, SearchedSpan, SpanGoal, whole_run
+from ninja_game.tas.goals import (
+    IMPROVE,
+    IMPROVE_GOLD,
+    IMPROVES,
+    PRESETS,
+    RunPiece,
+    SearchedSpan,
+    SpanGoal,
+    pieces_of,
+    whole_run,
+)
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas.tracks import InputTrack, first_difference
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
@@ -39,6 +49,8 @@ COMPILING = (
 )
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet."
+PATIENCE = 5.0  # seconds of a search after which pieces of its span are proposed
+PIECES = "Nothing better so far. A click searches one of its pieces:"
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
 
 LONGEST = 300  # characters of a formula that one can type
@@ -86,7 +98,7 @@ class SpanResults:
         self._fitting = [(task.inputs[:whole], (task.rest and task.behind) or task.last)]
         self.better: tuple[SpanResult, ...] = ()
         self._seen: tuple[SpanResult, ...] = ()
-        self._preview: tuple[SpanResult, OtherRun] | None = None
+        self._preview: tuple[SpanResult, OtherRun, str] | None = None
         self.search.start()
         self._started = monotonic()
 
@@ -118,18 +130,27 @@ class SpanResults:
         return None
 
     def put(self, found: SpanResult) -> bool:
-        """Put a result into the run, as one edit, and select its span; whether that was possible."""
+        """Put a result into the run, as one edit; whether that was possible.
+
+        Cursor and selection keep their ticks; behind the span they go with what follows it.
+        """
         behind = self.behind
         if behind is None:
             self.editor.app.notify("The run was changed: search again")
             return False
-        made = self._made(self.editor.track, found, behind)
-        if not self.editor.edit(lambda _: made, self._taken(found)):
+        editor, end = self.editor, self.task.first + found.ticks
+        cursor, anchor = editor.cursor, editor.anchor
+        made = self._made(editor.track, found, behind)
+        if not editor.edit_selected(lambda _: made, self._taken(found)):
             return False
-        end = self.task.first + found.ticks
         self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
-        if not isinstance(self.search, RunSearch):  # of a whole run one stays where one is
-            self.editor.select(self.task.first, end)
+        if not isinstance(self.search, RunSearch):  # of a whole run all ticks stay what they are
+
+            def moved(tick: int) -> int:
+                return tick + end - behind if tick >= behind else min(tick, end - 1)
+
+            editor.go(moved(cursor if anchor is None else anchor))
+            editor.go(moved(cursor), select=anchor is not None)
         return True
 
     def _whose(self, found: SpanResult) -> OtherRun | None:
@@ -161,13 +182,19 @@ class SpanResults:
         made = track.replaced(first, behind, keys)
         return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers).up_to(end)
 
-    def preview(self, found: SpanResult) -> OtherRun:
+    def is_in_run(self, found: SpanResult) -> bool:
+        ours, theirs = self.editor.track.inputs, found.inputs
+        return first_difference(ours, theirs) == min(len(ours), len(theirs))
+
+    def looked_at(self, found: SpanResult) -> tuple[OtherRun, str]:
+        """A result as a run beside, and how it ends, in words."""
         if self._preview is None or self._preview[0] is not found:
             task = self.task
             timeline = Timeline(task.level, found.inputs, body=task.body, memory=self.editor.session.timeline.memory)
             timeline.simulate(len(found.inputs))
-            self._preview = found, OtherRun("result", InputTrack(found.inputs), timeline.trajectory())
-        return self._preview[1]
+            made = OtherRun("result", InputTrack(found.inputs), timeline.trajectory())
+            self._preview = found, made, timeline.ending
+        return self._preview[1:]
 
     # --- in words ---
 
@@ -193,6 +220,8 @@ class SpanResults:
     def words(self, found: SpanResult) -> tuple[str, ...]:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
         own, words = self.search.own, score_text(self.task, found)
+        if found.missed_by == 0.0:
+            words += f": {self.looked_at(found)[1] or 'it goes on'}"
         if own is not None and (self.task.rest or self.task.goal == "won") and found.gold != own.gold:
             words += f", {abs(own.gold - found.gold)} gold {'fewer' if found.gold < own.gold else 'more'}"
         if self._others:
@@ -257,6 +286,9 @@ class SearchTab(Tab):
         self.results: SpanResults | None = None
         self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal] | None = None
         self.found: tuple[SpanResult, ...] = ()
+        self.pieces: tuple[RunPiece, ...] = ()
+        self._in_pieces: Span | None = None
+        self._cut: InputTrack | None = None
         fields = ("x > 400, taken(12), distance(300, 200) < 6 ...", "speed; vx, y, gold ...")
         self.goal, self.measure = (
             EntryField(prompt, self.start, longest=LONGEST, hint=_NAMES, put=self._typed) for prompt in fields
@@ -415,6 +447,7 @@ class SearchTab(Tab):
         if self.results is not None:
             self.results.close()
         self.results, self.found, self.editor.preview = None, (), None
+        self.pieces, self._in_pieces, self._cut = (), None, None
         self.list.fill(())
 
     def update(self, real_ms: int) -> None:
@@ -427,20 +460,41 @@ class SearchTab(Tab):
             results.stop()
         results.refresh()
         self.found = results.better
-        self.list.fill(self.found)
+        self._propose_pieces(results)
+        self.list.fill((*self.found, *self.pieces))
         over = self.list.over if results.behind is not None and self.editor.tab == self.name else -1
-        self.editor.preview = results.preview(self.found[over]) if 0 <= over < len(self.found) else None
+        looked_at = self.found[over] if 0 <= over < len(self.found) else None
+        taken = looked_at is not None and results.is_in_run(looked_at)  # then the change is what there is to be seen
+        self.editor.preview = None if looked_at is None or taken else results.looked_at(looked_at)[0]
+
+    def _propose_pieces(self, results: SpanResults) -> None:
+        """Once a search of a span has found nothing for a while: its pieces, of the run as it is now."""
+        late = results.search.ticks_run and (results.search.seconds > PATIENCE or not results.running)
+        nothing = late and all(each.missed_by is not None for each in self.found)
+        if self._in_pieces is None and nothing and self.method not in IMPROVES:
+            self._in_pieces = self.span
+        if self._in_pieces is not None and self._cut is not self.editor.track:
+            self._cut = self.editor.track
+            found = pieces_of(SearchedSpan(self.editor.session, *self._in_pieces))
+            self.pieces = tuple(found) if len(found) > 1 else ()
 
     def _put(self, index: int) -> None:
+        """Take a result, or search a piece; the others stay, for later."""
         if self.results is not None and index < len(self.found):
             self.results.put(self.found[index])
+        elif index < len(self.found) + len(self.pieces):
+            piece, kept = self.pieces[index - len(self.found)], (self._in_pieces, self._cut, self.pieces)
+            self.span = piece.first, piece.last
+            self._fill(lambda _: piece.wanted, start=True)
+            self._in_pieces, self._cut, self.pieces = kept
 
     # --- picture ---
 
     def render_key(self) -> tuple[object, ...]:
         results, state = self.results, tuple[object, ...]()
         if results:
-            state = (results.status, results.running, results.behind, self.editor.track, *map(id, self.found))
+            track = self.editor.track
+            state = (results.status, results.running, results.behind, track, self.pieces, *map(id, self.found))
         wanted = self.order, self.rest, self.goal.text
         return self.span, self._why, self.editor.selection, *wanted, self.list.over, state
 
@@ -460,10 +514,13 @@ class SearchTab(Tab):
             if results.behind is None:
                 status, colour = "the run was changed: search again", palette.bad
         theme.text(surface, status, x + 222, y + 72, size=SMALL, colour=colour, width=w - 226)
+        note = results.note if results and not self.pieces else "" if results else _EXPLAINED
         if self.found:
             for at, head in zip(self._cells(self.list.row_area(0)), _HEADS, strict=True):
                 theme.text(surface, head, at, y + 88, size=8, colour=palette.faint)
-        for k, line in enumerate(wrapped(theme, results.note if results else _EXPLAINED, w - 28, 10)):
+        elif self.pieces:
+            theme.text(surface, PIECES, x + _LEFT + 4, y + 88, size=8, colour=palette.faint)
+        for k, line in enumerate(wrapped(theme, note, w - 28, 10)):
             theme.text(surface, line, x + 10, y + 97 + 15 * k, size=10, colour=palette.faint)
 
     @staticmethod
@@ -473,6 +530,8 @@ class SearchTab(Tab):
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
         if self.results is None or index >= len(self.found):
+            for piece in self.pieces[index - len(self.found) :][:1]:
+                self._draw_piece(surface, theme, piece, area)
             return
         x, y, w, _h = area
         widths = w - _LEFT - _COLUMNS[0] - 4, *_WIDTHS
@@ -484,3 +543,12 @@ class SearchTab(Tab):
             )
         theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=78,
                    colour=palette.faint if not fits else palette.bad if gain == "a miss" else palette.good)  # fmt: skip
+
+    def _draw_piece(self, surface: pygame.Surface, theme: Theme, piece: RunPiece, area: Area) -> None:
+        x, y, w, _ = area
+        ticks = f"ticks {piece.first} to {piece.last - 1}"
+        now = (piece.first, piece.last) == self.span
+        theme.text(surface, f"To {piece.name}", x + _LEFT, y + 3, size=SMALL, bold=now, width=w - _COLUMNS[0] - _LEFT)
+        theme.text(surface, ticks, x + w - _COLUMNS[0], y + 3, size=SMALL, width=104)
+        what = "is searched" if now else "search it"
+        theme.text(surface, what, x + w - 6, y + 3, size=SMALL, align="right", colour=theme.palette.faint)

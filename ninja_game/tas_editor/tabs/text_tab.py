@@ -73,6 +73,16 @@ def _read(text: str) -> Inputs:
     return inputs_of_text("\n".join(words), "") if words else Inputs(b"")
 
 
+def _named_in_line(typed: Inputs) -> Inputs:
+    """A marker behind the last keys names these, as a comment behind a line does, unless they have a name."""
+    *before, last = typed.markers or [None]
+    if not typed.keys or last is None or last.tick < len(typed.keys):
+        return typed
+    line = int(starts_of(InputTrack(typed.keys, typed.markers))[-2])
+    named = any(each.tick == line for each in typed.markers)
+    return typed if named else typed._replace(markers=(*before, last._replace(tick=line)))
+
+
 class TextTab(Tab):
     """The lines; that of the cursor's tick stands in the field, and Enter puts what is typed there in its place."""
 
@@ -150,6 +160,7 @@ class TextTab(Tab):
             error.line = error.column = 0
             self.editor.refuse(f"Not changed: {place}{error}")
             return False
+        typed = _named_in_line(typed)
 
         def changed(track: InputTrack) -> InputTrack:
             left = first + bool(typed.keys and not typed.markers)

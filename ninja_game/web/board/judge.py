@@ -250,7 +250,7 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
         tick = next(compress(count(), odd))
         down = ", ".join(name for name, key in MOVES if inputs[tick] & key) or "no key"
         pressed = (
-            "is pressed again though it is down already" if inputs[tick] & JUMP_HELD else "is pressed without going down"
+            "is pressed once more while it is down" if inputs[tick] & JUMP_HELD else "is pressed without going down"
         )
         what = pressed if inputs[tick] & JUMP_PRESSED else "is down and was never pressed"
         how = "a key is pressed in the tick in which it goes down, and in no other"

@@ -34,7 +34,7 @@ from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.rooms import room_level
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
-from ninja_game.player.records import SELF
+from ninja_game.runs.deaths import SELF
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS

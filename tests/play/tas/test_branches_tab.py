@@ -31,8 +31,8 @@ def row(at: TasDriver, tab: BranchesTab, index: int) -> None:
 
 def test_the_name_that_is_proposed_is_the_outcome(at: TasDriver, tab: BranchesTab) -> None:
     at.press("b", "return")
-    end, outcome = at.session.timeline.end
-    assert [branch.name for branch in tab.branches.all] == [f"{outcome} {end}"]
+    end, _ = at.session.timeline.end
+    assert [branch.name for branch in tab.branches.all] == [f"exit in tick {end}"]
 
 
 def test_branches_are_shown_as_a_tree(at: TasDriver, tab: BranchesTab) -> None:

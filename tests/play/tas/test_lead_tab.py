@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from ninja_game.tas_editor.roll.facts import row_facts
 from ninja_game.tas_editor.tabs.lead_tab import PAUSE_MS, LeadTab
 from tests.support.tas_driver import TasDriver
 
@@ -100,3 +101,15 @@ def test_seconds_without_a_row_are_told(at: TasDriver, tab: LeadTab) -> None:
     seconds = (len(tab.table.comparison.positions[0]) - 1) // 40
     assert 0 < tab.table.apart == seconds - there
     assert tab.summary.endswith(f"no rows for {tab.table.apart} s: over 24 px apart there")
+
+
+def test_the_lead_over_a_run_beside_stands_in_the_roll(at: TasDriver) -> None:
+    late = at.editor.track.replaced(5, 5, [0] * 3)
+    at.screen.level.others.open([at.session.recording(late, "late")])
+    at.wait(lambda: bool(at.editor.leads), "the comparison")
+    end = at.session.timeline.end[0]
+    assert at.editor.leads[end] == 3
+    assert row_facts(at.editor, end, end + 1)[0].lead == 3
+    at.editor.edit(lambda track: track.replaced(0, 0, [0]))
+    at.frames(2)
+    assert not at.editor.leads, "of the run as it was"

@@ -176,6 +176,25 @@ def test_other_runs_are_opened_chosen_and_taken_in(at: TasDriver) -> None:
     assert editor.chosen == 1
 
 
+@pytest.mark.parametrize("zoom", [0, 6])
+def test_names_of_ghosts_lie_over_no_ninja_and_no_name(at: TasDriver, zoom: int) -> None:
+    screen, recording = at.screen, load_replays(RUN)[0]
+    screen.level.others.open([recording] * 3)
+    at.editor.go(40)
+    at.frames(2)
+    camera, size = screen.level.picture.camera, screen.level.picture.surface.get_size()
+    camera.zoom_at(size, screen.level.picture.canvas.point(*screen.level.picture.place(1.0)), zoom)
+    at.frames(2)
+    over = screen.level._paths
+    assert over is not None
+    x, y = screen.level.picture.place(1.0)
+    ninja, names = over.canvas.rect(x - 10, y - 10, 20, 20), over._labels[-3:]
+    assert len(over._labels) == 2 * len(at.editor.track.markers) + 3
+    for number, name in enumerate(names):
+        assert name.collidelist([ninja, *names[:number]]) < 0
+        assert name.bottom <= ninja.top
+
+
 def test_the_rest_of_another_run_from_the_nearest_place(at: TasDriver) -> None:
     editor = at.editor
     mine = editor.track

@@ -206,3 +206,14 @@ def test_broken_text_is_refused_in_words(at: TasDriver, clipboard: list[str], te
     at.chord("v", CTRL)
     assert told in at.app.notice
     assert at.editor.track == before
+
+
+def test_undo_says_what_it_undid(at: TasDriver) -> None:
+    at.editor.edit(lambda track: track.replaced(40, 40, [7] * 3))
+    at.screen.run("undo")
+    assert at.app.notice == "Undone: keys from tick 40 on, 3 ticks fewer"
+    at.screen.run("redo")
+    assert at.app.notice == "Redone: keys from tick 40 on, 3 ticks more"
+    at.editor.edit(lambda track: track.named(30, "here"))
+    at.screen.run("undo")
+    assert at.app.notice == "Undone: a marker in tick 30"

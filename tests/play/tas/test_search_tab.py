@@ -21,6 +21,7 @@ from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import SpanResult
 from ninja_game.sim.inputs import Input
 from ninja_game.tas.goals import IMPROVE, PRESETS
+from ninja_game.tas_editor.roll.facts import BEFORE, compared, different_keys
 from ninja_game.tas_editor.tabs import search_tab as module
 from ninja_game.tas_editor.tabs.search_tab import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SearchTab, SpanResults
 from ninja_game.tas_editor.tabs.tab import SMALL
@@ -190,6 +191,68 @@ def test_results_of_one_way_are_one(at: TasDriver, tab: SearchTab) -> None:
     results.search.found = best, replace(best, score=best.score + 0.01, path=best.path + 9), elsewhere
     at.frames(2)
     assert tab.found[:2] == (best, elsewhere)
+
+
+def test_pieces_of_a_span_in_which_nothing_better_is_found_are_searched_by_a_click(
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    end = at.session.timeline.end[0]
+    at.editor.select(0, end + 1)
+    at.choose("Use the selection")
+    tab.goal.show(f"won and tick < {end // 2}")
+    tab.start()
+    at.wait(lambda: bool(tab.pieces), "pieces")
+    assert all(found.missed_by for found in tab.found)
+    reached = {"gold-taken", "exit-opened"}
+    splits = [tick for tick, names in at.session.timeline.event_ticks if reached & {*names.split()}]
+    assert {piece.last - 1 for piece in tab.pieces} <= {*splits, end}
+    assert [piece.first for piece in tab.pieces] == [0, *(piece.last for piece in tab.pieces[:-1])]
+    assert all(piece.last - piece.first >= 10 for piece in tab.pieces)
+    assert (tab.pieces[-1].name, tab.pieces[-1].wanted.goal) == ("exit", "won")
+    proposed = tab.pieces
+    row(at, tab, len(tab.found))
+    assert tab.span == (0, proposed[0].last)
+    assert (tab.goal.text, tab.rest) == (proposed[0].wanted.goal, True)
+    assert results_of(tab).running
+    at.frames(2)
+    assert tab.pieces == proposed, "for the next click"
+    results_of(tab).stop()
+    at.wait(lambda: not results_of(tab).running, "the end")
+    at.choose("Use the selection")
+    assert not tab.pieces
+
+
+def test_a_taken_result_leaves_the_cursor_in_its_place_and_undo_too(at: TasDriver, tab: SearchTab) -> None:
+    wish(at, "Greatest speed")
+    results = searched(at, tab)
+    results.stop()
+    shorter = replace(tab.found[0], ticks=25, inputs=tab.found[0].inputs[:125])
+    results.better = tab.found = (shorter,)
+    for cursor, expected in ((50, 50), (110, 110), (128, 124), (135, 130)):
+        at.editor.go(cursor)
+        at.frames(2)
+        top = at.screen.roll.top
+        assert results.put(shorter)
+        at.frames(2)
+        assert (at.editor.selection, at.screen.roll.top) == ((expected, expected + 1), top), cursor
+        at.screen.run("undo")
+        assert at.editor.cursor == (cursor if cursor > 60 else 100), "back, where the change is seen from there"
+    at.editor.select(100, 130)
+    assert results.put(shorter)
+    assert at.editor.selection == (100, 125), "a selected span is that of the result"
+
+
+def test_the_change_is_marked_while_the_mouse_rests_on_the_result_that_was_taken(at: TasDriver, tab: SearchTab) -> None:
+    wish(at, "Greatest speed")
+    searched(at, tab)
+    row(at, tab, 0)
+    at.frames(2)
+    assert tab.list.over == 0
+    other = compared(at.editor)
+    assert other is not None
+    assert (at.editor.preview, other.number) == (None, BEFORE)
+    assert different_keys(at.editor.track.inputs, other.track.inputs)[100:130].any()
 
 
 def test_the_result_under_the_mouse_is_looked_at(at: TasDriver, tab: SearchTab) -> None:

@@ -113,7 +113,22 @@ def test_what_is_wrong_is_told_by_its_word(at: TasDriver, tab: TextTab) -> None:
 
 def test_a_name_of_several_words_ends_a_line(at: TasDriver, tab: TextTab) -> None:
     typed(at, tab, "R*2 . #over the edge")
-    assert texts(tab)[:3] == ["R*2", ".*1", '#"over the edge" R*3']
+    assert texts(tab)[:3] == ["R*2", '#"over the edge" .*1', "#hop R*3"]
+
+
+@pytest.mark.parametrize("line", ["#turn L*5", "L*5 #turn", "5,L #turn"])
+def test_a_marker_on_either_side_of_keys_names_their_first_tick(at: TasDriver, tab: TextTab, line: str) -> None:
+    typed(at, tab, line)
+    assert texts(tab)[:2] == ["#turn L*5", "#hop R*3"]
+
+
+def test_a_marker_between_keys_or_behind_named_ones_names_what_comes_next(at: TasDriver, tab: TextTab) -> None:
+    typed(at, tab, "#one L*2 #two J")
+    assert texts(tab)[:3] == ["#one L*2", "#two J*1", "#hop R*3"]
+    at.editor.go(0)
+    at.frames(2)
+    typed(at, tab, "#one L*5 #next")
+    assert texts(tab)[:2] == ["#one L*5", "#next J*1"], "those keys have a name"
 
 
 def test_enter_and_arrows_lead_from_line_to_line_while_one_types(at: TasDriver, tab: TextTab) -> None:

@@ -1,0 +1,58 @@
+"""What killed the ninja: its name, and in words."""
+
+from __future__ import annotations
+
+from ninja_game.formats.ascii.object_lines import WEAPONS
+from ninja_game.sim.events import DIED
+from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.rules import FATAL_IMPACT, FLOOR_ALLOWANCE
+from ninja_game.sim.states import CAUSE_NAMES, FALL, NO_CAUSE
+
+SELF = "player"  # falls, being crushed, suicide, time
+
+_DRONES = {int(weapon): name for name, weapon in WEAPONS.items()}
+KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and kind.number != DRONE), SELF)
+
+
+def _death(world: World) -> tuple[int, int]:
+    """Cause and killer's slot (0: nobody) of the ninja's death in the last tick; NO_CAUSE where it did not die."""
+    events = world.events[: world.event_count]
+    return next(((event.cause, event.slot) for event in events if event.kind == DIED), (NO_CAUSE, 0))
+
+
+def cause_of(world: World) -> int:
+    """The cause of the ninja's death in the world's last tick, as in ``sim.states``; NO_CAUSE where it did not die."""
+    return _death(world)[0]
+
+
+def killer_of(world: World) -> str:
+    """What killed the ninja in the world's last tick, one of KILLERS."""
+    _, slot = _death(world)
+    if not slot:
+        return SELF
+    killer = world.objects[slot]
+    return _DRONES[killer.weapon] if killer.kind == DRONE else KIND_OF[killer.kind].killer
+
+
+def death_text(world: World) -> str:
+    """What killed the ninja in the world's last tick, in words; "" where it did not die.
+
+    A killer with its id; of a landing the speed against the floor, px/tick, and the greatest that is survived there.
+    """
+    (cause, slot), n = _death(world), world.ninja
+    if slot:
+        return f"{killer_of(world)} {slot - 1}"
+    if cause == FALL:
+        speed = -(n.impact_x * n.floor_x + n.impact_y * n.floor_y)
+        return f"floor at {speed:.3f} px/tick, over {FATAL_IMPACT - FLOOR_ALLOWANCE * abs(n.floor_y):.3f}"
+    return CAUSE_NAMES[cause] if cause != NO_CAUSE else ""
+
+
+def ending_text(outcome: str, tick: int, death: str = "") -> str:
+    """How a run ends, in words.
+
+    >>> ending_text("dead", 96, "mine 12"), ending_text("exit", 219)
+    ('dead in tick 96: mine 12', 'exit in tick 219')
+    """
+    return f"{outcome} in tick {tick}{f': {death}' if death else ''}"
