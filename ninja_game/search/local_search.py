@@ -14,12 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import compiled
+from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.macros import Keys
-from ninja_game.search.nodes import RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
+from ninja_game.search.nodes import RandomState, Start, StateWords, copy_words, random_below, ticks_at_once, zeroed
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, pressed, with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 from ninja_game.sim.world import step
 
@@ -187,21 +188,39 @@ def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
 
 
 @fast
-def try_run(level: TileMap, w: World, runs: Runs, first: int, shift: int, limit: int) -> int:
-    """Play the trial run from tick ``first`` on; the ticks played. It is given up far from the current run's path."""
+def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: int) -> tuple[int, float]:
+    """Play the trial run from tick ``first`` on: up to which tick, and its score; UNREACHED if it is given up.
+
+    That is done far from the current run's path. Where it is as the current run, to the bit, and has the same keys from
+    there on, it ends as that one does.
+    """
+    w = start.worlds[1]
     path = runs.path
     ticks = runs.counters[0].ticks
+    differs = ticks
+    while runs.trial[differs - 1] == runs.current[differs - 1]:
+        differs -= 1
     for k in range(first, limit):
-        step(level, w, pressed(runs.trial[k], w.ninja.jump_held))
+        step(start.levels[0], w, pressed(runs.trial[k], w.ninja.jump_held))
         if w.outcome != OUTCOME_RUNNING:
-            return k + 1 - first
-        if k % 8 == 7:
+            return k + 1, score_of(w) if w.outcome == OUTCOME_EXIT and w.gold >= gold else UNREACHED
+        if (k + 1) % CHECKPOINT == 0:
             now = min(k, ticks - 1)
             then = min(max(k + shift, 0), ticks - 1)
-            near = abs(w.ninja.x - path[now, 0]) + abs(w.ninja.y - path[now, 1])
-            if near > LEASH and abs(w.ninja.x - path[then, 0]) + abs(w.ninja.y - path[then, 1]) > LEASH:
-                return k + 1 - first
-    return limit - first
+            away = abs(w.ninja.x - path[now, 0]) + abs(w.ninja.y - path[now, 1])
+            if away > LEASH and abs(w.ninja.x - path[then, 0]) + abs(w.ninja.y - path[then, 1]) > LEASH:
+                return k + 1, UNREACHED
+            if away == 0.0 and differs <= k + 1 < ticks and same(start.scratch, runs.checkpoints[(k + 1) // CHECKPOINT]):
+                return k + 1, runs.counters[0].score
+    return limit, UNREACHED
+
+
+@fast
+def same(words: StateWords, others: StateWords) -> bool:
+    for k in range(len(words)):
+        if words[k] != others[k]:
+            return False
+    return True
 
 
 @fast
@@ -244,22 +263,21 @@ def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget
         checkpoint = tick // CHECKPOINT
         copy_words(start.scratch, runs.checkpoints[checkpoint])
         limit = min(int(allowed) + 1, room)
-        counters.played += try_run(start.levels[0], w, runs, checkpoint * CHECKPOINT, shift, limit) + 4
-        if w.outcome != OUTCOME_EXIT or w.gold < gold:
-            continue
-        score = score_of(w)
+        end, score = try_run(start, runs, checkpoint * CHECKPOINT, shift, limit, gold)
+        counters.played += end - checkpoint * CHECKPOINT + 4
         if score > allowed:
             continue
         for k in range(room):
             runs.current[k] = runs.trial[k]
-        counters.score = score
-        counters.ticks = w.tick
-        if score < counters.best_score:
-            counters.best_score = score
-            counters.best_ticks = w.tick
-            for k in range(room):
-                runs.best[k] = runs.trial[k]
-        retrace(start, runs, tick, w.tick)
+        retrace(start, runs, tick, end)
+        if w.outcome == OUTCOME_EXIT:
+            counters.score = score
+            counters.ticks = end
+            if score < counters.best_score:
+                counters.best_score = score
+                counters.best_ticks = end
+                for k in range(room):
+                    runs.best[k] = runs.trial[k]
 
 
 class LocalSearch:
