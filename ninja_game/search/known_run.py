@@ -89,16 +89,17 @@ def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
     last = max(0, w.tick - BEHIND)
     while k > last and ticks - k < least:
         k -= 1
-        row = run.moves[k]
-        dx = abs(n.x - row[0])
-        dy = abs(n.y - row[1])
+        dx = abs(n.x - run.moves[k, 0])  # a row by itself would be an object, counted for each k
+        dy = abs(n.y - run.moves[k, 1])
         too_far = max(dx, dy) - run.max_distance
         if too_far > 0.0:
             k -= int(too_far / run.most_moved)
         elif run.masks[k] == mask and run.gold[k] <= w.gold:
-            way = sqrt(row[2] * row[2] + row[3] * row[3])
+            run_vx = run.moves[k, 2]
+            run_vy = run.moves[k, 3]
+            way = sqrt(run_vx * run_vx + run_vy * run_vy)
             price = sqrt(dx * dx + dy * dy) * run.place_price / max(way, SLOW)
-            price += (abs(vx - row[2]) + abs(vy - row[3])) * run.speed_price
+            price += (abs(vx - run_vx) + abs(vy - run_vy)) * run.speed_price
             if ticks - k + price <= least:
                 least = ticks - k + price
                 best = k

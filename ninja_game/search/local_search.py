@@ -114,14 +114,9 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
     if kind <= 8:
         return shift_pulse(keys, length, tick, sign * by), 0
     span = 1 + random_below(source, 4 if random_below(source, 2) else 24)
-    if kind == 9:
-        overwrite(keys, length, tick, tick + span, 3, random_below(source, 3))
-    elif kind == 10:
-        overwrite(keys, length, tick, tick + span, JUMP_HELD, JUMP_HELD * random_below(source, 2))
-    else:
-        overwrite(
-            keys, length, tick, tick + span, KEYS_DOWN, random_below(source, 3) + JUMP_HELD * random_below(source, 2)
-        )
+    way = random_below(source, 3) if kind != 10 else 0
+    jump = JUMP_HELD * random_below(source, 2) if kind != 9 else 0
+    overwrite(keys, length, tick, tick + span, (3, JUMP_HELD, KEYS_DOWN)[kind - 9], way + jump)
     return tick, 0
 
 
@@ -140,8 +135,7 @@ class LocalCounters(RandomState):
     score: f8
     best_ticks: i8  #: of the best run
     best_score: f8
-    trials: i8  #: runs tried
-    played: i8  #: ticks simulated
+    played: i8  #: ticks of the trial runs, the rest of those that were back on the current run included
 
 
 class Runs(NamedTuple):
@@ -196,8 +190,8 @@ def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: 
     """
     w = start.worlds[1]
     path = runs.path
-    ticks = runs.counters[0].ticks
-    differs = ticks
+    score = runs.counters[0].score  # just the ticks as long as how deep it ends in the exit is not known
+    differs = ticks = runs.counters[0].ticks
     while runs.trial[differs - 1] == runs.current[differs - 1]:
         differs -= 1
     for k in range(first, limit):
@@ -210,17 +204,18 @@ def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: 
             away = abs(w.ninja.x - path[now, 0]) + abs(w.ninja.y - path[now, 1])
             if away > LEASH and abs(w.ninja.x - path[then, 0]) + abs(w.ninja.y - path[then, 1]) > LEASH:
                 return k + 1, UNREACHED
-            if away == 0.0 and differs <= k + 1 < ticks and same(start.scratch, runs.checkpoints[(k + 1) // CHECKPOINT]):
-                return k + 1, runs.counters[0].score
+            is_back = away == 0.0 and differs <= k + 1 < ticks and score < ticks
+            if is_back and same(start.scratch, runs.checkpoints[(k + 1) // CHECKPOINT]):
+                return k + 1, score
     return limit, UNREACHED
 
 
 @fast
 def same(words: StateWords, others: StateWords) -> bool:
-    for k in range(len(words)):
-        if words[k] != others[k]:
-            return False
-    return True
+    k = 0
+    while k < len(words) and words[k] == others[k]:
+        k += 1
+    return k == len(words)
 
 
 @fast
@@ -251,7 +246,6 @@ def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget
     counters = runs.counters[0]
     stop = counters.played + budget
     while counters.played < stop:
-        counters.trials += 1
         ticks = counters.ticks
         room = min(ticks + 4, len(runs.trial))
         tick, shift = make_trial(runs, room)
@@ -264,7 +258,8 @@ def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget
         copy_words(start.scratch, runs.checkpoints[checkpoint])
         limit = min(int(allowed) + 1, room)
         end, score = try_run(start, runs, checkpoint * CHECKPOINT, shift, limit, gold)
-        counters.played += end - checkpoint * CHECKPOINT + 4
+        back = w.outcome == OUTCOME_RUNNING and score < UNREACHED
+        counters.played += (ticks if back else end) - checkpoint * CHECKPOINT + 4
         if score > allowed:
             continue
         for k in range(room):
@@ -324,7 +319,3 @@ class LocalSearch:
     @property
     def played(self) -> int:
         return int(self.counters.played)
-
-    @property
-    def trials(self) -> int:
-        return int(self.counters.trials)
