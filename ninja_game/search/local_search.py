@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ninja_game.backend.memories import compiled
 from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.macros import Keys
-from ninja_game.search.nodes import RandomState, Start, StateWords, copy_words, random_below, ticks_at_once, zeroed
+from ninja_game.search.nodes import RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, pressed, with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
@@ -185,8 +185,7 @@ def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
 def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: int) -> tuple[int, float]:
     """Play the trial run from tick ``first`` on: up to which tick, and its score; UNREACHED if it is given up.
 
-    That is done far from the current run's path. Where it is as the current run, to the bit, and has the same keys from
-    there on, it ends as that one does.
+    It is, far from the current run's path. Where it is that run again, to the bit and in the keys to come, it ends alike.
     """
     w = start.worlds[1]
     path = runs.path
@@ -205,17 +204,9 @@ def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: 
             if away > LEASH and abs(w.ninja.x - path[then, 0]) + abs(w.ninja.y - path[then, 1]) > LEASH:
                 return k + 1, UNREACHED
             is_back = away == 0.0 and differs <= k + 1 < ticks and score < ticks
-            if is_back and same(start.scratch, runs.checkpoints[(k + 1) // CHECKPOINT]):
+            if is_back and np.array_equal(start.scratch, runs.checkpoints[(k + 1) // CHECKPOINT]):
                 return k + 1, score
     return limit, UNREACHED
-
-
-@fast
-def same(words: StateWords, others: StateWords) -> bool:
-    k = 0
-    while k < len(words) and words[k] == others[k]:
-        k += 1
-    return k == len(words)
 
 
 @fast
