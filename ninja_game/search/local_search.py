@@ -185,7 +185,7 @@ def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
 def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: int) -> tuple[int, float]:
     """Play the trial run from tick ``first`` on: up to which tick, and its score; UNREACHED if it is given up.
 
-    It is, far from the current run's path. Where it is that run again, to the bit and in the keys to come, it ends alike.
+    It is, far from the current run's path. Where it is that run again, to the bit and in the keys to come, it ends so.
     """
     w = start.worlds[1]
     path = runs.path
