@@ -38,13 +38,14 @@ class KnownRun(NamedTuple):
     max_distance: float  #: px across, and px down, by which a state may differ from its row
     place_price: float  #: of a difference of place, in ticks a tick of the run's way
     speed_price: float  #: ticks a px/tick
+    most_moved: float  #: px from row to row, across or down, at most
 
 
 def known_run(ticks: int, keys: bytes = b"") -> KnownRun:
     """Room for a run of this many ticks, to be filled by ``play_known``."""
     moves, (masks, gold) = np.zeros((ticks + 1, 4)), np.zeros((2, ticks + 1), np.int64)
     held = np.array(list(keys), np.uint8) & np.uint8(KEYS_DOWN)
-    return KnownRun(moves, held, masks, gold, (0, ticks), 0.0, 64.0, 1.0, 1.0)
+    return KnownRun(moves, held, masks, gold, (0, ticks), 0.0, 64.0, 1.0, 1.0, 1.0)
 
 
 @fast
@@ -84,22 +85,22 @@ def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
     vy = n.y - n.prev_y
     best = -1
     least = UNREACHED
-    for k in range(max(0, w.tick - BEHIND), min(ticks, w.tick + AHEAD)):
-        row = run.moves[k]
-        dx = abs(n.x - row[0])
-        dy = abs(n.y - row[1])
-        if (
-            dx > run.max_distance
-            or dy > run.max_distance
-            or ticks - k >= least
-            or run.masks[k] != mask
-            or run.gold[k] > w.gold
-        ):
-            continue
-        way = sqrt(row[2] * row[2] + row[3] * row[3])
-        price = sqrt(dx * dx + dy * dy) * run.place_price / max(way, SLOW)
-        price += (abs(vx - row[2]) + abs(vy - row[3])) * run.speed_price
-        if ticks - k + price < least:
-            least = ticks - k + price
-            best = k
+    k = min(ticks, w.tick + AHEAD)
+    last = max(0, w.tick - BEHIND)
+    while k > last and ticks - k < least:
+        k -= 1
+        dx = abs(n.x - run.moves[k, 0])  # a row by itself would be an object, counted for each k
+        dy = abs(n.y - run.moves[k, 1])
+        too_far = max(dx, dy) - run.max_distance
+        if too_far > 0.0:
+            k -= int(too_far / run.most_moved)
+        elif run.masks[k] == mask and run.gold[k] <= w.gold:
+            run_vx = run.moves[k, 2]
+            run_vy = run.moves[k, 3]
+            way = sqrt(run_vx * run_vx + run_vy * run_vy)
+            price = sqrt(dx * dx + dy * dy) * run.place_price / max(way, SLOW)
+            price += (abs(vx - run_vx) + abs(vy - run_vy)) * run.speed_price
+            if ticks - k + price <= least:
+                least = ticks - k + price
+                best = k
     return best, least

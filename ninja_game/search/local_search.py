@@ -14,12 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import compiled
+from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.macros import Keys
 from ninja_game.search.nodes import RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 from ninja_game.sim.world import step
 
@@ -113,14 +114,9 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
     if kind <= 8:
         return shift_pulse(keys, length, tick, sign * by), 0
     span = 1 + random_below(source, 4 if random_below(source, 2) else 24)
-    if kind == 9:
-        overwrite(keys, length, tick, tick + span, 3, random_below(source, 3))
-    elif kind == 10:
-        overwrite(keys, length, tick, tick + span, JUMP_HELD, JUMP_HELD * random_below(source, 2))
-    else:
-        overwrite(
-            keys, length, tick, tick + span, KEYS_DOWN, random_below(source, 3) + JUMP_HELD * random_below(source, 2)
-        )
+    way = random_below(source, 3) if kind != 10 else 0
+    jump = JUMP_HELD * random_below(source, 2) if kind != 9 else 0
+    overwrite(keys, length, tick, tick + span, (3, JUMP_HELD, KEYS_DOWN)[kind - 9], way + jump)
     return tick, 0
 
 
@@ -139,8 +135,7 @@ class LocalCounters(RandomState):
     score: f8
     best_ticks: i8  #: of the best run
     best_score: f8
-    trials: i8  #: runs tried
-    played: i8  #: ticks simulated
+    played: i8  #: ticks of the trial runs, the rest of those that were back on the current run included
 
 
 class Runs(NamedTuple):
@@ -187,21 +182,31 @@ def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
 
 
 @fast
-def try_run(level: TileMap, w: World, runs: Runs, first: int, shift: int, limit: int) -> int:
-    """Play the trial run from tick ``first`` on; the ticks played. It is given up far from the current run's path."""
+def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: int) -> tuple[int, float]:
+    """Play the trial run from tick ``first`` on: up to which tick, and its score; UNREACHED if it is given up.
+
+    It is, far from the current run's path. Where it is that run again, to the bit and in the keys to come, it ends so.
+    """
+    w = start.worlds[1]
     path = runs.path
-    ticks = runs.counters[0].ticks
+    score = runs.counters[0].score  # just the ticks as long as how deep it ends in the exit is not known
+    differs = ticks = runs.counters[0].ticks
+    while runs.trial[differs - 1] == runs.current[differs - 1]:
+        differs -= 1
     for k in range(first, limit):
-        step(level, w, with_press_bit(runs.trial[k], w.ninja.jump_held))
+        step(start.levels[0], w, with_press_bit(runs.trial[k], w.ninja.jump_held))
         if w.outcome != OUTCOME_RUNNING:
-            return k + 1 - first
-        if k % 8 == 7:
+            return k + 1, score_of(w) if w.outcome == OUTCOME_EXIT and w.gold >= gold else UNREACHED
+        if (k + 1) % CHECKPOINT == 0:
             now = min(k, ticks - 1)
             then = min(max(k + shift, 0), ticks - 1)
-            near = abs(w.ninja.x - path[now, 0]) + abs(w.ninja.y - path[now, 1])
-            if near > LEASH and abs(w.ninja.x - path[then, 0]) + abs(w.ninja.y - path[then, 1]) > LEASH:
-                return k + 1 - first
-    return limit - first
+            away = abs(w.ninja.x - path[now, 0]) + abs(w.ninja.y - path[now, 1])
+            if away > LEASH and abs(w.ninja.x - path[then, 0]) + abs(w.ninja.y - path[then, 1]) > LEASH:
+                return k + 1, UNREACHED
+            is_back = away == 0.0 and differs <= k + 1 < ticks and score < ticks
+            if is_back and np.array_equal(start.scratch, runs.checkpoints[(k + 1) // CHECKPOINT]):
+                return k + 1, score
+    return limit, UNREACHED
 
 
 @fast
@@ -232,7 +237,6 @@ def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget
     counters = runs.counters[0]
     stop = counters.played + budget
     while counters.played < stop:
-        counters.trials += 1
         ticks = counters.ticks
         capacity = min(ticks + 4, len(runs.trial))
         tick, shift = make_trial(runs, capacity)
@@ -244,22 +248,22 @@ def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget
         checkpoint = tick // CHECKPOINT
         copy_words(start.scratch, runs.checkpoints[checkpoint])
         limit = min(int(allowed) + 1, capacity)
-        counters.played += try_run(start.levels[0], w, runs, checkpoint * CHECKPOINT, shift, limit) + 4
-        if w.outcome != OUTCOME_EXIT or w.gold < gold:
-            continue
-        score = score_of(w)
+        end, score = try_run(start, runs, checkpoint * CHECKPOINT, shift, limit, gold)
+        back = w.outcome == OUTCOME_RUNNING and score < UNREACHED
+        counters.played += (ticks if back else end) - checkpoint * CHECKPOINT + 4
         if score > allowed:
             continue
         for k in range(capacity):
             runs.current[k] = runs.trial[k]
-        counters.score = score
-        counters.ticks = w.tick
-        if score < counters.best_score:
-            counters.best_score = score
-            counters.best_ticks = w.tick
-            for k in range(capacity):
-                runs.best[k] = runs.trial[k]
-        retrace(start, runs, tick, w.tick)
+        retrace(start, runs, tick, end)
+        if w.outcome == OUTCOME_EXIT:
+            counters.score = score
+            counters.ticks = end
+            if score < counters.best_score:
+                counters.best_score = score
+                counters.best_ticks = end
+                for k in range(capacity):
+                    runs.best[k] = runs.trial[k]
 
 
 class LocalSearch:
@@ -306,7 +310,3 @@ class LocalSearch:
     @property
     def played(self) -> int:
         return int(self.counters.played)
-
-    @property
-    def trials(self) -> int:
-        return int(self.counters.trials)

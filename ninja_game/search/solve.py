@@ -122,7 +122,7 @@ class _Job:
                 return
             if turn:
                 self._follow(route, ticks)  # switch by switch: for long ways
-            self._search_once(resolution, ticks, seed=turn, bound=0, until_found=True)
+            self._search_once(resolution, ticks, seed=turn, bound=0)
 
     def _shorten_with_gold(self) -> None:
         """Make a run with gold shorter, by a beam search of legs and then a local search; submit what is found."""
@@ -181,10 +181,9 @@ class _Job:
             self.shortener.search_spans(run, self.plan.spans)
 
     def _search_once(
-        self, resolution: Resolution, ticks: int, *, seed: int, bound: int, backed_up: bool = False,
-        until_found: bool = False,
-    ) -> bytes | None:  # fmt: skip
-        search = self._search
+        self, resolution: Resolution, ticks: int, *, seed: int, bound: int, backed_up: bool = False
+    ) -> bytes | None:
+        search, first = self._search, not self.state.runs
         search.begin(resolution, seed=self.seed * 1000 + seed, bound=bound, backed_up=backed_up)
         ended = MORE
         while ended == MORE and search.ticks < ticks and not self._over:
@@ -192,7 +191,7 @@ class _Job:
             ended = search.run(min(SLICE, ticks - before))
             self.work += (search.ticks - before) * SEARCH_COST
             self.state.count(search.ticks - before, "searching")
-            if until_found and (self.state.runs or search.best()):
+            if first and (self.state.runs or search.best()):
                 break
         if not self.state.runs:
             self.state.note_unreached(search.untouched)

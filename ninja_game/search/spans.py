@@ -75,7 +75,7 @@ class SpanSearches:
         compiled(play_known)(search.start, run, search.goal.switch_slots, len(inputs), 1)
         if not self.gold:
             run.gold[:] = 0
-        return run
+        return run._replace(most_moved=1.0 + float(np.abs(np.diff(run.moves[:, :2], axis=0)).max(initial=0.0)))
 
     def shorter(self, inputs: bytes, *, seed: int, spend: Spend) -> bytes | None:
         """Search spans of a run at random until a shorter run is found, or until it is over: None."""

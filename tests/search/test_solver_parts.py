@@ -15,10 +15,12 @@ if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
 from ninja_game.backend.plain import PlainWorlds
+from ninja_game.search.certificate import verified_run
 from ninja_game.search.heuristics import POINTS, UNREACHED, Heuristics, open_mask, open_masks, point_at
 from ninja_game.search.legs import short_tour
 from ninja_game.search.local_search import (
     LocalCounters,
+    LocalSearch,
     cut,
     mutate,
     overwrite,
@@ -26,6 +28,7 @@ from ninja_game.search.local_search import (
     shift_boundary,
     shift_pulse,
     stretch,
+    try_run,
 )
 from ninja_game.search.macros import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
 from ninja_game.search.nodes import (
@@ -169,6 +172,28 @@ def test_random_mutations_leave_what_lies_before_and_make_keys_only() -> None:
         assert abs(shift) <= 3
         first = max(first, 0)
         assert keys[: min(first, tick)].tolist() == before[: min(first, tick)].tolist()
+
+
+def test_a_trial_run_ends_where_it_is_the_current_run_again() -> None:
+    """Left and right at once are like neither, the same world while the ninja stands; each case lacks another thing."""
+    level = parse_level_string(OPEN + "5^100,566!11^340,564,160,564")
+    start = open_start(level, box=False)
+    run = verified_run(level, bytes([0] * 8 + [2] * 100)).inputs
+    runs, ticks = LocalSearch(start, run, gold=0, seed=1).runs, len(run)
+
+    def ended(*, keys: int = 3, tick: int = 4, score: float = ticks - 0.5, words: int = 0) -> tuple[int, float]:
+        memory = PlainWorlds([level], box=False)
+        plain = start._replace(levels=memory.maps, worlds=[None, memory.world()], scratch=np.full(3, words))
+        runs.counters[0].score = score
+        runs.trial[:] = runs.current
+        runs.trial[tick] = keys
+        return try_run(plain, runs._replace(checkpoints=np.zeros((99, 3), np.int64)), 0, 0, ticks, 0)
+
+    assert ended() == (8, ticks - 0.5)
+    assert ended(tick=9) == (ticks, UNREACHED)  # lost a tick
+    assert ended(words=1)[0] == ticks  # another state, at the same place
+    assert ended(score=ticks)[0] == ticks  # how deep the current run ends is not known yet
+    assert ended(keys=KEY_RIGHT)[0] == ticks - 1  # gained one
 
 
 def test_a_state_that_finds_no_room_leaves_the_pool_as_it_was() -> None:
