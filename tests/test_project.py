@@ -55,7 +55,7 @@ def test_what_tests_and_tools_share_imports_neither() -> None:
 
 def test_changelog_knows_the_version() -> None:
     changelog = (ROOT / "CHANGELOG.md").read_text("utf-8")
-    released = re.findall(r"^## \[(\d+\.\d+\.\d+)\]", changelog, re.MULTILINE)
+    released = re.findall(r"^## \[(\d+\.\d+(?:\.\d+)?)\]", changelog, re.MULTILINE)
     assert "## [Unreleased]" in changelog
     # Before the first release the version is the one that will be.
     assert not released or released[0] == ninja_game.__version__
