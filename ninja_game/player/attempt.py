@@ -72,7 +72,7 @@ class Attempt:
 
     @property
     def killer(self) -> str:
-        """What killed the ninja, one of ``records.KILLERS``: asked right after the tick of its death."""
+        """What killed the ninja, one of ``deaths.KILLERS``: asked right after the tick of its death."""
         return SELF if self.self_inflicted else killer_of(self.simulation.world)
 
     def tick(self, held: int, *, invincible: bool = False) -> None:
