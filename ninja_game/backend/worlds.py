@@ -14,11 +14,6 @@ Kernel: TypeAlias = Callable[..., R]
 """An entry point, or its compiled twin."""
 
 MemoryName = Literal["plain", "compiled"]
-Body = Literal["circle", "box"]
-
-BODIES: tuple[Body, ...] = ("circle", "box")
-"""The shapes that the ninja can have: the circle of the classic rules, and a box of the same size."""
-
 
 class RunPath(NamedTuple):
     """The ninja after each tick of a run: ``places`` x, y in turn (float64, px), ``states`` (uint8); flat buffers."""

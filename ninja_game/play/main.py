@@ -20,8 +20,8 @@ from ninja_game.play.app import App, Screen, TasEditorOpener, build_app
 from ninja_game.play.window import Window, save_picture
 from ninja_game.player.playthrough import FileRun
 from ninja_game.runtime import run_in_background
-from ninja_game.sim.level import Level
-from ninja_game.simulation import Body, Simulation
+from ninja_game.sim.level import Body, Level
+from ninja_game.simulation import Simulation
 
 
 def main(

@@ -24,8 +24,8 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay
 from ninja_game.runs.trace import first_difference, trace_digests, trace_level
-from ninja_game.sim.level import Level
-from ninja_game.simulation import Body, Simulation
+from ninja_game.sim.level import Body, Level
+from ninja_game.simulation import Simulation
 from tests.support.crowded import TICKS, crowded_inputs, crowded_level
 from tests.support.own_pack import PACK
 from tests.support.own_scenes import SCENES

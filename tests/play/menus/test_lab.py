@@ -12,7 +12,6 @@ import pygame
 import pytest
 from PIL import Image
 
-from ninja_game.backend.worlds import BODIES
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.lab.cells import CellsTouched, GridOfCells, NineCells, RayCast
 from ninja_game.play.lab.edges import STATES, Doors, EdgeStates, WalkingEnemies
@@ -29,6 +28,7 @@ from ninja_game.sim.collision.tiles import EDGE_OF_FACES, FACE, NEIGHBOUR_OFFSET
 from ninja_game.sim.digest import world_digest
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import DOOR, DRONE
+from ninja_game.sim.level import BODIES
 from ninja_game.sim.rules import GOLD_RADIUS, STRIDE
 from ninja_game.simulation import Simulation
 from ninja_game.ui.theme import PALETTES
