@@ -444,8 +444,7 @@ def _row(ranked: Ranked, category: Category) -> dict[str, Any]:
 def _inputs(inputs: bytes) -> dict[str, int | str]:
     """Ticks with each key down, and spans of the same keys; and the inputs as text."""
     from ninja_game.formats.replay.notations import write_inputs
-    from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN
-    from ninja_game.ui.input.bindings import MOVES
+    from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, MOVES
 
     counts = {name: sum(bool(each & key) for each in inputs) for name, key in MOVES}
     spans = [len(list(span)) for _, span in groupby(each & KEYS_DOWN for each in inputs)]
