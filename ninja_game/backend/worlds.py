@@ -15,6 +15,7 @@ Kernel: TypeAlias = Callable[..., R]
 
 MemoryName = Literal["plain", "compiled"]
 
+
 class RunPath(NamedTuple):
     """The ninja after each tick of a run: ``places`` x, y in turn (float64, px), ``states`` (uint8); flat buffers."""
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game.backend.memories import prefers_plain
+from ninja_game.backend.memories import warm_up
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.links import is_link, read_link, recordings_of
@@ -70,7 +70,7 @@ def run_app(
         try:
             app.push(first(app))
             # Who certifies or searches later does not wait for the compiler then.
-            run_in_background(prefers_plain, lambda _: None)
+            run_in_background(warm_up, lambda _: None)
             # What is there now stays: to look through all of it for garbage took 9 ms in the middle of play.
             gc.freeze()
             app.run(frames)
