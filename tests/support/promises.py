@@ -1,4 +1,4 @@
-"""What a release keeps: names and signatures of the public API, commands and options, exit codes, versions of the formats."""
+"""What a release keeps: the public API, commands and options, exit codes, versions of the formats."""
 
 from __future__ import annotations
 
