@@ -20,8 +20,8 @@ from typing import Any
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import Replay
-from ninja_game.search.solve import Progress, Task, compile_solver, solve
-from ninja_game.search.task import WORK_PER_SECOND
+from ninja_game.search.solve import compile_solver, solve
+from ninja_game.search.task import WORK_PER_SECOND, Progress, Task
 from ninja_game.sim.level import Level
 from tests.support.reference import levels, recordings
 

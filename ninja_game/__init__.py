@@ -1,17 +1,7 @@
 """ninja-game: a playable N-style platformer whose world is that of N v1.4, bit for bit.
 
-The public API, each name imported when it is first used:
-
-- levels: ``load_levels(path)``, ``load_level(path)``, ``parse_level(text)``, ``Level``, ``ObjectSpec``, ``NamedLevel``
-- a run: ``Simulation`` (step, look, save, restore, digest), ``SaveState``, ``Input``
-- whole runs: ``run_level`` and its ``RunResult``, ``trace_level`` and its ``RunTrace``
-- many worlds: ``Batch``, ``BatchState``
-- recordings: ``load_replays(path)``, ``Recording``, ``verify_recording``, ``Verdict``; our replays: ``Replay``,
-  ``record_replay``, ``parse_replay``, ``write_replay``; the demos of N: ``Demo``, ``parse_demo``, ``write_demo``
-- learning: ``gymnasium.make("ninja_game:Ninja-v0")``, ``ninja_game.learn``; docs/learning.md describes it
-- errors: everything raised on purpose is a ``NinjaGameError``
-
-docs/python-api.md describes them all.
+The public API is what ``__all__`` names, each imported when it is first used: docs/python-api.md describes it, and
+docs/learning.md ``ninja_game.learn``. Every error that is raised on purpose is a ``NinjaGameError``.
 """
 
 from __future__ import annotations

@@ -25,17 +25,17 @@ from typing import Any
 
 from ninja_game.backend.memories import open_worlds
 from ninja_game.backend.plain import tile_map
-from ninja_game.backend.worlds import BODIES, Body, MemoryName
+from ninja_game.backend.worlds import MemoryName
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import differences, replay_digest, world_digest
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bit
 from ninja_game.sim.kinds import KIND_OF
-from ninja_game.sim.level import Level
+from ninja_game.sim.level import BODIES, Body, Level
 from ninja_game.sim.memory.schema import Event, TileMap, World
 from ninja_game.sim.states import CAUSE_NAMES, NO_CAUSE, OUTCOME_NAMES, STATE_NAMES
 
-__all__ = ["BODIES", "Body", "EventView", "NinjaView", "ObjectView", "SaveState", "Simulation", "is_box"]
+__all__ = ["EventView", "NinjaView", "ObjectView", "SaveState", "Simulation", "is_box"]
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ import ninja_game.learn
 from ninja_game.files.reading import MAX_BYTES
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.memory.schema import CAPACITY
+from ninja_game.ui.input.bindings import TAP_SECONDS
 from ninja_game.web.pages import documents
 
 DEFINITIONS = (ast.FunctionDef, ast.ClassDef)
@@ -120,6 +121,30 @@ def test_files_that_a_page_names_exist(page: Path) -> None:
             continue
         missing += [] if exists else [word]
     assert not missing
+
+
+def test_constants_that_pages_and_docstrings_name_exist() -> None:
+    word = r"(?!PYTHON)[A-Z][A-Z\d_]{3,}"
+    texts = {path: path.read_text("utf-8") for path in SOURCES if path != Path(__file__)}
+    homes = {(path.stem, name) for path, text in texts.items() for name in re.findall(rf"\b({word})\b[^=\n]* = ", text)}
+    # What is between quotes is a variable of the environment, or a file's name.
+    quoted = {name for text in texts.values() for name in re.findall(rf"[\"']({word})[\"']", text)}
+    known = quoted | {name for _, name in homes}
+    in_pages = [
+        (page, name) for page in PAGES for name in re.findall(rf"`(?:\w+\.)*({word})`", page.read_text("utf-8"))
+    ]
+    in_docstrings = [
+        (path, home) for path, text in texts.items() for home in re.findall(rf"``([a-z]\w*)\.({word})``", text)
+    ]
+    assert len(in_pages) > 20
+    assert len(in_docstrings) > 5
+    assert not [f"{named(page)}: {name}" for page, name in in_pages if name not in known]
+    assert not [f"{named(path)}: {'.'.join(home)}" for path, home in in_docstrings if home not in homes]
+
+
+def test_the_page_on_latency_says_how_old_a_tap_may_be() -> None:
+    page = (ROOT / "docs" / "input-latency.md").read_text("utf-8")
+    assert f"within {TAP_SECONDS * 1000:.0f} ms." in page
 
 
 def test_every_tool_is_listed_with_its_module_name() -> None:

@@ -55,7 +55,7 @@ def test_what_tests_and_tools_share_imports_neither() -> None:
 
 def test_changelog_knows_the_version() -> None:
     changelog = (ROOT / "CHANGELOG.md").read_text("utf-8")
-    released = re.findall(r"^## \[(\d+\.\d+\.\d+)\]", changelog, re.MULTILINE)
+    released = re.findall(r"^## \[(\d+\.\d+(?:\.\d+)?)\]", changelog, re.MULTILINE)
     assert "## [Unreleased]" in changelog
     # Before the first release the version is the one that will be.
     assert not released or released[0] == ninja_game.__version__
@@ -80,6 +80,13 @@ def test_no_files_import_one_another_in_a_circle() -> None:
         graph = grimp.build_graph(package, cache_dir=None)
         # Raises CycleError, which names the files; imports within functions and for types count too.
         TopologicalSorter({name: graph.find_modules_directly_imported_by(name) for name in graph.modules}).prepare()
+
+
+@pytest.mark.parametrize("part, without", [("formats/**/*", "backend"), ("web/board/judge", "ui"), ("runs/*", "ui")])
+def test_files_need_no_memory_and_judges_no_window(part: str, without: str) -> None:
+    files = [*(ROOT / "ninja_game").glob(f"{part}.py")]
+    assert files
+    assert not [file for file in files if f"from ninja_game.{without}." in file.read_text("utf-8")]
 
 
 def test_the_formatter_is_skipped_only_where_that_saves_lines(tmp_path: Path) -> None:

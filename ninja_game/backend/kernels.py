@@ -116,6 +116,7 @@ def trace_world(
     for tick in range(len(inputs)):
         step(level, w, int(inputs[tick]))
         place, fact = PLACES * tick, NUMBERS * tick
+        # In the order of TRACED_FLOATS and of TRACED_INTS.
         ninja[place] = canonical(n.x)
         ninja[place + 1] = canonical(n.y)
         ninja[place + 2] = canonical(n.prev_x)

@@ -6,34 +6,29 @@ Where its kernels are not in the cache yet, any run begins on the plain one, and
 (``switch_to_compiled``) once a process in the background has compiled them: the bits are the same. A run that is judged
 follows a ``Plan``, by which compiled code checks each index.
 
-Before the first compiled world of a process is loaded, a known run must come out on it as it must: what computes
-another one must not judge runs. The arithmetic of a process can be spoiled from outside: by how a compiler is set up,
-by what other code does to the processor's modes, by machine code that is not ours. A level with every kind of object
-and most shapes of tiles, played eight times with other keys, costs some milliseconds and shows it.
+Before the first compiled world of a process is loaded, it is put to the test (``self_test.py``).
 """
 
 from __future__ import annotations
 
 import os
-import struct
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
-from hashlib import sha256
 from importlib.util import find_spec
 from threading import Lock
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ninja_game.backend.kernels import kill_ninja, load_world, observe_object, run_world, step_world, trace_world
 from ninja_game.backend.plain import PlainWorlds
+from ninja_game.backend.self_test import check_self_test
 from ninja_game.backend.worlds import MemoryName, Worlds
 from ninja_game.budget import NO_LIMIT, PAGE_TICK_COST, PLAIN_WORK, tick_cost
 from ninja_game.errors import ArgumentError, LevelError, NinjaGameError
 from ninja_game.files.user_folder import install_hint
 from ninja_game.runtime import in_page_or_not
-from ninja_game.sim.digest import replay_digest
-from ninja_game.sim.inputs import MAX_TICKS, with_press_bits
-from ninja_game.sim.level import TILES, Level, ObjectSpec
+from ninja_game.sim.inputs import MAX_TICKS
+from ninja_game.sim.level import Level
 
 if TYPE_CHECKING:
     from ninja_game.backend.compiler import Compiler
@@ -118,8 +113,7 @@ def open_worlds(
         raise LevelError("too many objects for a page", found=found, expected=expected, hint="play it on a desktop")
     # The first time this imports Numba, which must come before NumPy.
     if not isinstance(memory, Plan):
-        begins = at_once and memory == "auto"
-        begins = begins and prefers_plain(memory, ticks * max(map(tick_cost, several), default=0))
+        begins = at_once and begin_plain(memory, ticks * max(map(tick_cost, several), default=0))
         memory = Plan("plain" if begins else _usable_memory(memory), "compiled", checked=False)
     if memory.first == "plain":
         return PlainWorlds(several, count, box=box)
@@ -129,23 +123,31 @@ def open_worlds(
 
 
 def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False) -> bool:
-    """Whether a run of so much work begins on the plain memory: it is little, or its kernels are still to be compiled.
-
-    Then a process in the background compiles them.
-    """
+    """Whether a run of so much work begins on the plain memory: it is little, or kernels are still to be compiled."""
     if memory != "auto" or not compiled_available():
         return False
     from ninja_game.backend import background_compiler
 
-    if not background_compiler.is_enabled():
+    if not background_compiler.is_enabled() or (load_world, checked or _ALL_CHECKED) in _KERNELS:
         return False
-    if (load_world, checked or _ALL_CHECKED) in _KERNELS:
-        return False
-    if _kernels_ready(checked=checked):
+    return _WORK[0] + work <= PLAIN_WORK or not _kernels_ready(checked=checked)
+
+
+def begin_plain(memory: str, work: int, *, checked: bool = False) -> bool:
+    """As ``prefers_plain``, of a run that begins now: its work counts, and a process compiles kernels that it lacks."""
+    plain = prefers_plain(memory, work, checked=checked)
+    if plain and not warm_up(checked=checked):
         _WORK[0] += work
-        return _WORK[0] <= PLAIN_WORK
-    background_compiler.start()
-    return True
+    return plain
+
+
+def warm_up(*, checked: bool = False) -> bool:
+    """Have a process in the background compile the kernels of a run, where they are still to be compiled."""
+    if missing := compiled_available() and not _kernels_ready(checked=checked):
+        from ninja_game.backend import background_compiler
+
+        background_compiler.start()
+    return missing
 
 
 def _kernels_ready(*, checked: bool) -> bool:
@@ -198,7 +200,7 @@ def proven_memory(memory: str, work: int = NO_LIMIT) -> Plan:
 
     Raises SelfTestError where it does not, and what ``choose_memory`` raises.
     """
-    begins = prefers_plain(memory, work, checked=True)
+    begins = begin_plain(memory, work, checked=True)
     if not begins and _usable_memory(memory, checked=True) == "compiled":
         return CHECKED
     _prove_plain()
@@ -264,59 +266,3 @@ def _unusable(what: str, error: Exception) -> MemoryUnavailableError:
     """The error that Numba cannot do this; the compiled memory is not tried again."""
     _FAILURES.append(f"Numba cannot {what} ({type(error).__name__}: {error!s:.200}); install another version")
     return MemoryUnavailableError(f"{_FAILURES[-1]}, or use the plain memory")
-
-
-DIGEST = "a9b523980fd14511af830676f2ff771f63e63377f06c53930c18638b709954e3"
-"""The digest of all runs, on every machine; `python3 tools/dev.py golden` writes it where a rule is meant to change."""
-
-RUNS = 8  # the last one by the box
-TICKS = 400  # of each, at most
-
-_OBJECTS = (
-    (5, 132, 156), (0, 468, 516), (0, 588, 180), (0, 228, 156), (1, 540, 396), (1, 636, 372), (1, 204, 204),
-    (2, 156, 348, 1, 0), (2, 684, 156, -1, 0), (2, 204, 204, 0, -1), (3, 372, 228), (4, 108, 132, 1),
-    (4, 372, 300, 1), (6, 588, 156, 1, 1, 2, 1), (6, 564, 396, 1, 0, 0, 2), (6, 540, 252, 0, 1, 2, 0),
-    (6, 492, 372, 1, 0, 1, 0), (7, 84, 372, 3), (7, 324, 180, 3), (7, 660, 252, 3), (8, 732, 444, 1),
-    (8, 228, 180, 2), (8, 636, 492, 1), (9, 612, 468, 0, 1, 9, 8, 0, 0, 0), (9, 84, 300, 1, 1, 5, 17, 0, 0, 0),
-    (9, 684, 156, 1, 0, 18, 8, 1, 0, 0), (10, 468, 396), (11, 492, 372, 180, 372), (11, 228, 396, 708, 276),
-    (12, 396, 228), (12, 228, 84),
-)  # fmt: skip
-"""Kind and values of each."""
-
-
-class SelfTestError(NinjaGameError):
-    """The known run ends otherwise: nothing that this process computes can be trusted."""
-
-
-def check_self_test(open_world: Callable[[Level, bool], Worlds], memory: str) -> None:
-    """Raises SelfTestError unless the known run ends as it must.
-
-    ``open_world``: a new world in a level, with the box or not; ``memory``: what messages call it.
-    """
-    found = self_test_digest(open_world)
-    if found != DIGEST:
-        raise SelfTestError(
-            f"the {memory} memory does not compute the world of N here, so nothing is judged: a known run gives "
-            f"{found[:12]}…, expected {DIGEST[:12]}…; empty the folder of compiled code, or choose another --memory"
-        )
-
-
-def self_test_digest(open_world: Callable[[Level, bool], Worlds]) -> str:
-    """The digest of the known runs: of the ninja's places, and of all that the worlds show at the end."""
-    level = Level(tuple(n % 34 * (n % 7 == 0) for n in range(TILES)), tuple(ObjectSpec(k, (*v,)) for k, *v in _OBJECTS))
-    digest = sha256()
-    for number in range(RUNS):
-        world = open_world(level, number == RUNS - 1)
-        places = world.run(_keys(number)).places
-        digest.update(struct.pack(f"<{len(places)}d", *places))
-        digest.update(replay_digest(world.world()).encode())
-    return digest.hexdigest()
-
-
-def _keys(number: int) -> bytes:
-    """The keys of a run: all sorts, each held for 1 to 20 ticks."""
-    found = bytearray()
-    while len(found) < TICKS:
-        number = (number * 1103515245 + 12345) % 2**31
-        found += bytes([b"\0\1\2\1\2\3\5\6\4\6\5\6"[(number >> 16) % 12]] * (1 + (number >> 20) % 20))
-    return with_press_bits(bytes(found[:TICKS]))

@@ -14,10 +14,6 @@ Kernel: TypeAlias = Callable[..., R]
 """An entry point, or its compiled twin."""
 
 MemoryName = Literal["plain", "compiled"]
-Body = Literal["circle", "box"]
-
-BODIES: tuple[Body, ...] = ("circle", "box")
-"""The shapes that the ninja can have: the circle of the classic rules, and a box of the same size."""
 
 
 class RunPath(NamedTuple):
@@ -29,7 +25,10 @@ class RunPath(NamedTuple):
 
 TRACED_FLOATS = ("x", "y", "prev_x", "prev_y", "wall_x", "floor_x", "floor_y")
 TRACED_INTS = ("state", "gold", "jump_timer", "in_air", "near_wall", "floor_contacts", "outcome")
-"""What a trace records of the ninja and the run: the schema's fields, seven of each sort."""
+"""What a trace records of the ninja and the run: the schema's fields, seven of each sort.
+
+``trace_world`` writes them in this order.
+"""
 
 
 class TraceArrays(NamedTuple):

@@ -34,7 +34,7 @@ class Commands(click.Group):
             return None
         command = getattr(import_module(f"ninja_game.cli.{COMMANDS[cmd_name].module}"), cmd_name)
         assert isinstance(command, click.Command)  # noqa: S101 - for the type checker
-        if "compiles" in COMMANDS[cmd_name].flags:
+        if COMMANDS[cmd_name].compiles:
             _announce_compiling()
         raising.set()
         return command
@@ -47,7 +47,8 @@ class Commands(click.Group):
         if near:
             ctx.fail(f"No such command {args[0]!r}; did you mean '{near[0]}'?")
         found = super().resolve_command(ctx, args)
-        protect_inputs(found[0] not in COMMANDS or "in-place" not in COMMANDS[found[0]].flags)
+        command = COMMANDS.get(found[0] or "")
+        protect_inputs(not (command and command.in_place))
         return found
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

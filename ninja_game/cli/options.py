@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
     from ninja_game.formats.replay.text import Replay
     from ninja_game.runs.recording_reader import Unreadable
-    from ninja_game.search.solve import Progress, Task
+    from ninja_game.search.task import Progress, Task
     from ninja_game.sim.level import Level
 
 T = TypeVar("T")

@@ -72,7 +72,8 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
       ninja-game solve 00-0-first-steps -o first.replay.txt
       ninja-game solve userlevels.txt --record 17 --gold all --seconds 300 -o gold.replay.txt
     """
-    from ninja_game.search.solve import Task, solve
+    from ninja_game.search.solve import solve
+    from ninja_game.search.task import Task
 
     chosen = options.choose_level(level, record)
     output = output or free_path(Path(), level.stem, REPLAY_SUFFIX)
@@ -128,7 +129,8 @@ def improve(
     from ninja_game.formats.load import load_replays
     from ninja_game.runs.run import run_level
     from ninja_game.search.formula.methods import to_exit
-    from ninja_game.search.solve import Task, solve
+    from ninja_game.search.solve import solve
+    from ninja_game.search.task import Task
 
     earlier = load_replays(output) if resume and output.exists() else []
     protect_inputs(on=True)  # what was read of the output may be replaced

@@ -127,15 +127,20 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
             server.serve_forever()
 
 
-class _Board(click.Command):
+class _Board(click.Group):
+    """A command with an argument, and with commands below it: their names come before the argument."""
+
+    allow_extra_args = False
+    allow_interspersed_args = True
+
     def make_context(self, info_name: Any, args: list[str], parent: Any = None, **extra: Any) -> click.Context:
-        """Of the command that is meant: ``board``, or ``board ask``, which a group with an argument could not have."""
-        if args[:1] == ["ask"]:
-            return ask.make_context(f"{info_name} ask", args[1:], parent, **extra)
+        """Of the command that is meant: one of those below, or this one."""
+        if args and args[0] in self.commands:
+            return self.commands[args[0]].make_context(f"{info_name} {args[0]}", args[1:], parent, **extra)
         return super().make_context(info_name, args, parent, **extra)
 
 
-@click.command(cls=_Board, epilog="ninja-game board ask answers questions about a level, and about players on it.")
+@click.group(cls=_Board, invoke_without_command=True, no_args_is_help=False, subcommand_metavar="")
 @click.argument("folder", type=OLD_FOLDER)
 @levels_option
 @click.option(
@@ -183,7 +188,7 @@ def board(
     other levels, with another body, under other rules, practice runs, copies and whatever says something that is not
     so are kept out, with the reason. What was simulated is remembered in your own cache folder, by all that it depends
     on, and not simulated again. `ninja-game site OUT` puts the page with the game next to the board, which shows each
-    run. How to keep a board in a repository: docs/board.md.
+    run. How to keep a board in a repository: docs/board.md. A folder that is named ask is given as ./ask.
 
     \b
     Examples:
@@ -282,7 +287,7 @@ TYPED = (
 )
 
 
-@click.command()
+@board.command()
 @click.argument("folder", type=OLD_FOLDER)
 @click.argument("what", type=click.Choice(QUESTIONS))
 @click.argument("level")
@@ -439,8 +444,7 @@ def _row(ranked: Ranked, category: Category) -> dict[str, Any]:
 def _inputs(inputs: bytes) -> dict[str, int | str]:
     """Ticks with each key down, and spans of the same keys; and the inputs as text."""
     from ninja_game.formats.replay.notations import write_inputs
-    from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN
-    from ninja_game.ui.input.bindings import MOVES
+    from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, MOVES
 
     counts = {name: sum(bool(each & key) for each in inputs) for name, key in MOVES}
     spans = [len(list(span)) for _, span in groupby(each & KEYS_DOWN for each in inputs)]

@@ -149,8 +149,8 @@ class Solver:
             return
         self.at_work = search
         try:
-            from ninja_game.search.solve import Task, solve
-            from ninja_game.search.task import obstacle
+            from ninja_game.search.solve import solve
+            from ninja_game.search.task import Task, obstacle
 
             task, report = Task(search.level, seconds=search.seconds), partial(setattr, search, "progress")
             found = solve(task, report=report, on_better=search.take, stop=search.stopping)

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
-from ninja_game.backend.worlds import Body
 from ninja_game.errors import DemoError, ReplayError
 from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.formats.n14.demo import parse_demo, write_demo
@@ -19,7 +18,7 @@ from ninja_game.formats.replay.notations import in_our_notation
 from ninja_game.formats.replay.provenance import with_provenance, without_provenance
 from ninja_game.formats.replay.text import Replay, episode_key, lifetimes, parse_episode, parse_replay
 from ninja_game.sim.inputs import Demo, fit_demo
-from ninja_game.sim.level import Level
+from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import LIFETIME
 
 MOST_LEGACY_TICKS = 20_000_000

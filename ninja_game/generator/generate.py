@@ -22,7 +22,8 @@ from ninja_game.generator.scene import Point, Scene
 from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import UnverifiedRunError, verified_run
-from ninja_game.search.solve import Task, solve
+from ninja_game.search.solve import solve
+from ninja_game.search.task import Task
 from ninja_game.sim.level import Level
 
 # Difficulties that can be asked for.

@@ -31,9 +31,8 @@ from ninja_game.learn.single import NinjaEnv
 from ninja_game.learn.worlds import TaskSettings
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, KEYS_DOWN
-from ninja_game.sim.level import Level
+from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.simulation import Body
 
 _BOTH = KEY_LEFT + KEY_RIGHT
 _ACTION_OF_KEYS = np.array(

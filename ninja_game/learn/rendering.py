@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from ninja_game.errors import ArgumentError
 from ninja_game.levels.picture import level_picture
 from ninja_game.sim.kinds import EXIT, GOLD, KINDS, MINE, NINJA
-from ninja_game.sim.level import Level, ObjectSpec, makes_object
+from ninja_game.sim.level import Body, Level, ObjectSpec, makes_object
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.simulation import Body, Simulation
+from ninja_game.simulation import Simulation
 
 if TYPE_CHECKING:
     from ninja_game.play.window import Window

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game.backend.memories import prefers_plain
+from ninja_game.backend.memories import warm_up
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.links import is_link, read_link, recordings_of
@@ -20,8 +20,8 @@ from ninja_game.play.app import App, Screen, TasEditorOpener, build_app
 from ninja_game.play.window import Window, save_picture
 from ninja_game.player.playthrough import FileRun
 from ninja_game.runtime import run_in_background
-from ninja_game.sim.level import Level
-from ninja_game.simulation import Body, Simulation
+from ninja_game.sim.level import Body, Level
+from ninja_game.simulation import Simulation
 
 
 def main(
@@ -70,7 +70,7 @@ def run_app(
         try:
             app.push(first(app))
             # Who certifies or searches later does not wait for the compiler then.
-            run_in_background(prefers_plain, lambda _: None)
+            run_in_background(warm_up, lambda _: None)
             # What is there now stays: to look through all of it for garbage took 9 ms in the middle of play.
             gc.freeze()
             app.run(frames)

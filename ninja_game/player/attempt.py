@@ -14,10 +14,10 @@ from ninja_game.runs.run import record_replay
 from ninja_game.sim.events import DIED
 from ninja_game.sim.inputs import with_press_bit
 from ninja_game.sim.kinds import INERT
-from ninja_game.sim.level import Level
+from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import CELEBRATING, DEAD, EXPLOSIVE, FALL, HARD_BULLET, OUTCOME_DEAD
-from ninja_game.simulation import Body, SaveState, Simulation
+from ninja_game.simulation import SaveState, Simulation
 
 AttemptState = tuple[SaveState, bytes, int, int, bool]
 """A save-state with the inputs, the lifetime, the tick of the end, whether the player gave up."""
@@ -72,7 +72,7 @@ class Attempt:
 
     @property
     def killer(self) -> str:
-        """What killed the ninja, one of ``records.KILLERS``: asked right after the tick of its death."""
+        """What killed the ninja, one of ``deaths.KILLERS``: asked right after the tick of its death."""
         return SELF if self.self_inflicted else killer_of(self.simulation.world)
 
     def tick(self, held: int, *, invincible: bool = False) -> None:

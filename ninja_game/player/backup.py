@@ -20,7 +20,6 @@ from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from ninja_game.backend.worlds import BODIES
 from ninja_game.budget import PAGE_BUDGET
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import SUFFIXES, files_in, read_bytes
@@ -41,6 +40,7 @@ from ninja_game.player.settings import read_settings
 from ninja_game.player.store import Store
 from ninja_game.runs.deaths import KILLERS
 from ninja_game.runs.verify import verify_recording
+from ninja_game.sim.level import BODIES
 
 MOST_FILES = 4096
 MOST_BYTES = 256 * 2**20  # of all files, unpacked

@@ -8,7 +8,6 @@ from datetime import UTC, datetime
 from functools import lru_cache
 from typing import NamedTuple, get_type_hints
 
-from ninja_game.backend.worlds import BODIES
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.replay.provenance import names_of_text, parse_provenance
@@ -16,6 +15,7 @@ from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.formats.run_time import level_score
 from ninja_game.player.store import Store
 from ninja_game.runs.deaths import KILLERS
+from ninja_game.sim.level import BODIES
 
 NEWEST_SHOWN = 500  # replays listed at most, the newest first
 

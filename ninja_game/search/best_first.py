@@ -140,7 +140,7 @@ def expand(
                 elif w.tick < LIFETIME + GOLD_BONUS * w.gold:
                     keep_child(index, action, played, start, arrays, goal, backed_up, resolution)
             elif w.outcome == OUTCOME_EXIT and w.gold >= goal.gold:
-                update_certificates(index, action, played, w.tick, arrays, known)
+                note_exit(index, action, played, w.tick, arrays, known)
     return MORE
 
 
@@ -189,9 +189,7 @@ def macro_of(ninja: Ninja, choice: int, counters: Counters, resolution: Resoluti
 
 
 @fast
-def update_certificates(
-    parent: int, action: int, played: int, tick: int, arrays: SearchArrays, known: KnownRun | None
-) -> None:
+def note_exit(parent: int, action: int, played: int, tick: int, arrays: SearchArrays, known: KnownRun | None) -> None:
     """Note that a node leads to the exit; keep the run if it is the shortest."""
     counters = arrays.counters[0]
     if known is None:

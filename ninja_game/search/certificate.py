@@ -22,8 +22,7 @@ from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.run import record_replay, run_level
 from ninja_game.sim.digest import state_digest
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
-from ninja_game.sim.level import Level
-from ninja_game.simulation import Body
+from ninja_game.sim.level import Body, Level
 
 
 class UnverifiedRunError(NinjaGameError):

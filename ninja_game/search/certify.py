@@ -15,7 +15,8 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.replay.text import Replay
 from ninja_game.search.certificate import UnverifiedRunError, read_certificate, write_certificate
-from ninja_game.search.solve import Progress, Task, solve
+from ninja_game.search.solve import solve
+from ninja_game.search.task import Progress, Task
 
 
 @dataclass(frozen=True)

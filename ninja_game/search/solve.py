@@ -32,15 +32,12 @@ from ninja_game.search.task import (
     OTHER_ROUTES,
     SEARCH_COST,
     SLICE,
-    Progress,
     Report,
     SharedProgress,
     Task,
     WorkPlan,
     find_order,
 )
-
-__all__ = ["Progress", "Task", "compile_solver", "solve"]
 
 
 class _Job:

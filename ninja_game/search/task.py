@@ -17,8 +17,7 @@ from ninja_game.levels.warnings import object_name
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.nodes import Resolution
 from ninja_game.sim.kinds import EXIT, GOLD
-from ninja_game.sim.level import Level, makes_object
-from ninja_game.simulation import Body
+from ninja_game.sim.level import Body, Level, makes_object
 
 CANDIDATES = 4  # runs that are remembered for local searches
 

@@ -109,14 +109,14 @@ def differences(ours: World, theirs: World) -> Iterator[tuple[str, Any, Any]]:
     yield from _unequal("world", _WORLD, ours, theirs)
     for slot in range(1, min(ours.slots_used, theirs.slots_used)):
         mine, other = ours.objects[slot], theirs.objects[slot]
-        yield from _unequal(object_name(mine), _OBJECTS[mine.kind], mine, other)
+        yield from _unequal(_report_name(mine), _OBJECTS[mine.kind], mine, other)
     for name in ("heads", "edges"):
         for index, (mine, other) in enumerate(zip(getattr(ours, name), getattr(theirs, name), strict=True)):
             if mine != other:
                 yield f"{name}[{index}]", mine, other
 
 
-def object_name(o: Object) -> str:
+def _report_name(o: Object) -> str:
     """An object as reports call it: "object 12 (drone)"."""
     name = KIND_OF[o.kind].name
     return f"object {o.id} ({name})" if o.id >= 0 else f"{name} at ({o.x}, {o.y})"

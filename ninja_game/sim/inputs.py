@@ -23,6 +23,9 @@ class Input(IntFlag):
 KEY_LEFT, KEY_RIGHT, JUMP_HELD, JUMP_PRESSED = (int(key) for key in Input)
 """The flags of ``Input`` as plain numbers, which rules compile."""
 
+MOVES = (("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD))
+"""The three keys by name."""
+
 ALL_KEYS = KEY_LEFT + KEY_RIGHT + JUMP_HELD + JUMP_PRESSED
 KEYS_DOWN = KEY_LEFT + KEY_RIGHT + JUMP_HELD
 _VALID = bytes(range(ALL_KEYS + 1))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from ninja_game.sim.kinds import GOLD, VALUE_COUNTS
 
@@ -11,6 +11,11 @@ COLUMNS = 31
 ROWS = 23
 TILES = COLUMNS * ROWS
 NOT_A_NUMBER = float("nan")
+
+Body = Literal["circle", "box"]
+
+BODIES: tuple[Body, ...] = ("circle", "box")
+"""The shapes that the ninja can have: the circle of the classic rules, and a box of the same size."""
 
 
 class ObjectSpec(NamedTuple):

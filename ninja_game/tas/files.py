@@ -26,8 +26,7 @@ from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, writ
 from ninja_game.runs.conversion import on_level
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import MAX_TICKS
-from ninja_game.sim.level import Level
-from ninja_game.simulation import Body
+from ninja_game.sim.level import Body, Level
 from ninja_game.tas.timeline import AFTERMATH
 from ninja_game.tas.tracks import Branches, InputTrack, branches_of_json
 

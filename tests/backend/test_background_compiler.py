@@ -15,16 +15,14 @@ from ninja_game.backend.compiled import compiled_copy
 from ninja_game.backend.kernel_cache import are_cached, code_folder
 from ninja_game.backend.kernels import run_world
 from ninja_game.backend.memories import (
-    _OBJECTS,
     CHECKED,
     CHECKED_LATER,
-    RUNS,
-    _keys,
     compiled_available,
     open_worlds,
     proven_memory,
     switch_to_compiled,
 )
+from ninja_game.backend.self_test import LEVEL as ALL_KINDS, RUNS, known_keys
 from ninja_game.budget import PLAIN_WORK, tick_cost
 from ninja_game.errors import FileError
 from ninja_game.formats.load import load_replays
@@ -32,7 +30,6 @@ from ninja_game.runs.run import run_level
 from ninja_game.runs.trace import trace_level
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.digest import differences
-from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.simulation import Simulation
 from ninja_game.tas.timeline import Timeline
 from tests.support.own_pack import PACK
@@ -40,7 +37,6 @@ from tests.support.slow import the_rest_is_slow
 
 pytestmark = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 
-ALL_KINDS = Level(tuple(n % 34 * (n % 7 == 0) for n in range(TILES)), tuple(ObjectSpec(k, (*v,)) for k, *v in _OBJECTS))
 NAMES = ("00-4-locksmith", "01-0-springtime", "01-1-night-shift", "01-2-the-works")
 
 
@@ -49,7 +45,7 @@ class Compiler:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.asked, self.ready_after = 0, 10**9
-        monkeypatch.setattr(memories, "prefers_plain", lambda memory, *_, **__: memory == "auto")
+        monkeypatch.setattr(memories, "begin_plain", lambda memory, *_, **__: memory == "auto")
         monkeypatch.setattr(memories, "_kernels_ready", self.are_there)
         monkeypatch.setattr(background_compiler, "is_compiling", lambda: True)
         for module in ("backend.memories", "runs.run", "runs.trace"):
@@ -67,7 +63,7 @@ def compiler(monkeypatch: pytest.MonkeyPatch) -> Compiler:
 
 @pytest.mark.parametrize("number", range(RUNS))
 def test_a_world_with_every_kind_of_object_goes_on_alike_from_every_tick(number: int) -> None:
-    keys = _keys(number)
+    keys = known_keys(number)
     plain, end = (open_worlds("plain", ALL_KINDS, box=number == RUNS - 1) for _ in range(2))
     end.run(keys)
     while plain.tick() < end.tick():
@@ -140,7 +136,7 @@ def test_where_nobody_compiles_whoever_has_much_work_does(compiler: Compiler, mo
 
 
 def test_a_run_under_edit_goes_over_too(compiler: Compiler) -> None:
-    keys = _keys(1)
+    keys = known_keys(1)
     timeline, expected = Timeline(ALL_KINDS, keys), Timeline(ALL_KINDS, keys, memory="compiled")
     used: list[str] = []
     for compiler.ready_after in (10**9, 0):
@@ -197,15 +193,25 @@ def test_the_first_run_on_a_machine_starts_one_process_that_compiles(
 def test_who_names_a_memory_gets_it_and_starts_nothing(
     memory: str, started: list[tuple[list[str], dict[str, Any]]]
 ) -> None:
-    assert not memories.prefers_plain(memory)
+    assert not memories.begin_plain(memory, 0)
     assert not started
+
+
+def test_whether_a_run_begins_on_the_plain_memory_may_be_asked_without_a_process(
+    started: list[tuple[list[str], dict[str, Any]]],
+) -> None:
+    assert memories.prefers_plain()
+    assert not started
+    assert memories.warm_up()
+    assert len(started) == 1
 
 
 def test_switched_off_it_is_not_started(
     started: list[tuple[list[str], dict[str, Any]]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(background_compiler.VARIABLE, "0")
-    assert not memories.prefers_plain("auto")
+    assert not memories.begin_plain("auto", 0)
+    memories.warm_up()
     background_compiler.start()
     assert not started
     assert not background_compiler.is_compiling()

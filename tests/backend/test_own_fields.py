@@ -69,9 +69,10 @@ def test_observations_rewards_and_the_distance_to_the_goal(memory: str) -> None:
 @needs_numba
 def test_the_solver_finds_what_it_finds_anyway(monkeypatch: pytest.MonkeyPatch) -> None:
     from ninja_game.search import solve as solving
+    from ninja_game.search.task import Task
 
     monkeypatch.setattr(solving, "compile_solver", lambda: None)
-    run = solving.solve(solving.Task(LOCKED, gold=-1, work=9_000))
+    run = solving.solve(Task(LOCKED, gold=-1, work=9_000))
     assert run is not None
     assert run.gold == 1
 

@@ -7,17 +7,9 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.backend import memories
-from ninja_game.backend.memories import (
-    CHECKED,
-    DIGEST,
-    Plan,
-    SelfTestError,
-    compiled_available,
-    open_worlds,
-    proven_memory,
-    self_test_digest,
-)
+from ninja_game.backend import memories, self_test
+from ninja_game.backend.memories import CHECKED, Plan, compiled_available, open_worlds, proven_memory
+from ninja_game.backend.self_test import DIGEST, LEVEL, SelfTestError, self_test_digest
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError
 from ninja_game.runs import verify
@@ -42,7 +34,7 @@ def test_the_known_run_has_its_digest_on_every_memory(memory: str | Plan) -> Non
 
 
 def test_the_known_run_has_every_kind_of_object() -> None:
-    assert {kind for kind, *_ in memories._OBJECTS} == set(range(len(VALUE_COUNTS)))
+    assert {spec.kind for spec in LEVEL.objects} == set(range(len(VALUE_COUNTS)))
 
 
 @pytest.mark.usefixtures("as_at_the_start")
@@ -60,7 +52,7 @@ def test_a_command_that_cannot_be_sure_says_so_and_ends(
 ) -> None:
     if (word, memory) == ("trace", "plain"):
         pytest.skip("nothing is proved for a trace by plain Python")
-    monkeypatch.setattr(memories, "DIGEST", "0" * 64)
+    monkeypatch.setattr(self_test, "DIGEST", "0" * 64)
     path = write_records(tmp_path / "walk.txt", *[("Walk", WALK, running(WALK_END))] * 3)
     result = CliRunner().invoke(cli, [word, str(path), "--memory", memory])
     assert result.exit_code == 2

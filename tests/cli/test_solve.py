@@ -325,7 +325,7 @@ def test_improving_keeps_name_and_author_and_says_when_nothing_was_found(tmp_pat
 
 
 def test_the_line_of_progress_fits_eighty_columns() -> None:
-    from ninja_game.search.solve import Progress
+    from ninja_game.search.task import Progress
 
     text = progress_text(Progress(best=99_999, ticks=10**11, seconds=9_999.0, doing="shortening"))
     assert len(text) <= 70, "a clock stands before it"

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.backend.worlds import Body
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.levels.episodes import Entry
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.progress import Mark, has_all_gold, medal_of, tally, worst_medal
+from ninja_game.sim.level import Body
 from tests.support.players import EXIT_TICK, deadly_level, entry, played, player_data, short_level
 
 PARS = Pars("", "", EXIT_TICK)

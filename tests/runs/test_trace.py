@@ -15,11 +15,25 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from ninja_game.backend import kernels
+from ninja_game.backend.memories import open_worlds
+from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS
 from ninja_game.errors import FormatError
-from ninja_game.runs.trace import NINJA_RECORD, OBJECT_RECORD, RunTrace, first_difference, rows, trace_digests
+from ninja_game.formats.load import parse_level
+from ninja_game.runs.trace import (
+    NINJA_RECORD,
+    OBJECT_RECORD,
+    RunTrace,
+    first_difference,
+    ninja_columns,
+    rows,
+    trace_digests,
+)
 from ninja_game.runs.trace_files import COLUMNS, MOST_BYTES, FiledTrace, read_csv, read_traces, write_csv, write_npz
 from ninja_game.sim.inputs import MAX_TICKS
+from ninja_game.sim.memory.schema import TileMap, World
 from tests.support.reference import scene_traces, scenes
+from tests.support.samples import WALK
 
 
 def a_trace() -> RunTrace:
@@ -53,6 +67,20 @@ def test_digests_are_over_the_records_in_order() -> None:
     assert digests.ninja_sha256 == sha256(ninja.tobytes()).hexdigest()
     assert digests.run_sha256 == sha256(whole).hexdigest()
     assert digests.objects[4] == sha256(b"".join(objects[k, 1].tobytes() for k in range(3))).hexdigest()[:8]
+
+
+def test_every_field_stands_under_its_own_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    values = {name: number for number, name in enumerate((*TRACED_FLOATS, *TRACED_INTS), 1)}
+
+    def step(_: TileMap, w: World, __: int) -> None:
+        for name, value in values.items():
+            setattr(w if name in ("gold", "outcome") else w.ninja, name, value)
+
+    monkeypatch.setattr(kernels, "step", step)
+    record = open_worlds("plain", parse_level(WALK), box=False).trace(bytes(2), [], events=False)
+    assert {name: column.tolist() for name, column in ninja_columns(record).items()} == {
+        name: [value] * 2 for name, value in values.items()
+    }
 
 
 def test_digests_of_the_reference_scenes() -> None:

@@ -27,8 +27,8 @@ from ninja_game.search.legs import UNBOUNDED, Checkpoint, Frontier, Leg
 from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.route import Route
 from ninja_game.search.searching import Search
-from ninja_game.search.solve import Progress, Task, solve
-from ninja_game.search.task import obstacle
+from ninja_game.search.solve import solve
+from ninja_game.search.task import Progress, Task, obstacle
 
 COLUMN = 23
 FLOOR = 566

@@ -29,8 +29,8 @@ from ninja_game.search.certificate import (
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.nodes import open_start
 from ninja_game.search.searching import Search
-from ninja_game.search.solve import Progress, Task, solve
-from ninja_game.search.task import FIND, find_order
+from ninja_game.search.solve import solve
+from ninja_game.search.task import FIND, Progress, Task, find_order
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED
 from tests.support.reference import levels, require_reference
 

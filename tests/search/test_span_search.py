@@ -64,12 +64,15 @@ def test_results_show_while_it_goes_on_and_stay_after_the_end() -> None:
 
 
 def test_it_ends_by_itself_after_its_time_or_when_all_is_tried() -> None:
-    for search in (SpanSearch(task(), seconds=0.05), SpanSearch(task(last=12, goal=""), "exhaustive", every=12)):
+    timed = SpanSearch(task(), seconds=0.05)
+    untimed = SpanSearch(task(last=12, goal=""), "exhaustive", every=12)
+    for search in (timed, untimed):
         search.start()
         search.start()
         search.finish(LONGEST)
-        assert search.done
-        assert search.found or search._limit
+        assert (search.done, search.problem) == (True, "")
+    assert timed.seconds >= 0.05
+    assert [each.ticks for each in untimed.found] == [12], "nobody ended it, and it has no limit"
 
 
 def test_what_cannot_be_searched_is_said() -> None:

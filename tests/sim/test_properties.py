@@ -12,9 +12,9 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import LevelError
 from ninja_game.sim.digest import OVERWRITTEN, differences, state_digest
 from ninja_game.sim.kinds import DRONE, GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS
-from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.level import BODIES, Body, Level, ObjectSpec
 from ninja_game.sim.states import JUMPING, PSEUDO_RANDOM
-from ninja_game.simulation import BODIES, Body, Simulation
+from ninja_game.simulation import Simulation
 from tests.support.crowded import crowded_inputs, crowded_level
 from tests.support.memories import BOTH
 

@@ -11,8 +11,8 @@ from ninja_game.formats.replay.headers import Waypoint
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.sim.inputs import Demo
+from ninja_game.sim.level import Body
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.simulation import Body
 from tests.support.legacy_demos import write_legacy_demo
 from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk
 

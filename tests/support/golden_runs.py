@@ -18,14 +18,14 @@ from zipfile import ZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import DIGEST, self_test_digest
 from ninja_game.backend.plain import PlainWorlds
+from ninja_game.backend.self_test import DIGEST, self_test_digest
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay
 from ninja_game.runs.trace import first_difference, trace_digests, trace_level
-from ninja_game.sim.level import Level
-from ninja_game.simulation import Body, Simulation
+from ninja_game.sim.level import Body, Level
+from ninja_game.simulation import Simulation
 from tests.support.crowded import TICKS, crowded_inputs, crowded_level
 from tests.support.own_pack import PACK
 from tests.support.own_scenes import SCENES
@@ -202,7 +202,7 @@ def write_golden_files() -> None:
             path.write_text(write_replay(new), "utf-8")
     digest = self_test_digest(lambda level, box: PlainWorlds([level], box=box))
     if digest != DIGEST:
-        module = ROOT / "ninja_game" / "backend" / "memories.py"
+        module = ROOT / "ninja_game" / "backend" / "self_test.py"
         module.write_text(module.read_text("utf-8").replace(DIGEST, digest), "utf-8")
     for name, runs in FILES.items():
         with (GOLDEN / f"{name}.tsv").open("w", encoding="utf-8", newline="") as out:

@@ -1,4 +1,4 @@
-"""What a release keeps: names and signatures of the public API, commands and options, versions of the formats."""
+"""What a release keeps: the public API, commands and options, exit codes, versions of the formats."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from pathlib import Path
 import click
 
 import ninja_game
+from ninja_game.cli import commands
 from ninja_game.cli.main import cli
 from ninja_game.errors import FormatError
 from ninja_game.formats import links
@@ -39,6 +40,8 @@ VERSIONS = {
     "board ledger": report.VERSION,
 }
 
+EXIT_CODES = ("FAILED", "BAD_INPUT", "INTERNAL_ERROR", "INTERRUPTED", "BROKEN_PIPE", "TERMINATED")
+
 
 def promised() -> str:
     """All of it as lines, sorted within their part."""
@@ -46,6 +49,7 @@ def promised() -> str:
     parts = {
         "Python": sorted(api),
         "Commands": list(_command(cli, "ninja-game")),
+        "Exit codes": [f"{name}: {getattr(commands, name)}" for name in EXIT_CODES],
         "Formats": [f"{name}: {version}" for name, version in VERSIONS.items()],
     }
     return "\n".join(f"# {title}\n\n" + "\n".join(lines) + "\n" for title, lines in parts.items())

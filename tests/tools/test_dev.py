@@ -103,7 +103,7 @@ def test_run_installs_what_its_command_uses(installed: list[tuple[str, ...]]) ->
 
 
 def test_a_command_that_compiles_gets_numba() -> None:
-    assert all("fast" in command.extras for command in COMMANDS.values() if "compiles" in command.flags)
+    assert all("fast" in command.extras for command in COMMANDS.values() if command.compiles)
 
 
 def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(

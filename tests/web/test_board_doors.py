@@ -506,3 +506,15 @@ def test_a_slower_run_leaves_for_a_faster_one_with_all_that_it_shares() -> None:
     assert courses.near(moved)(every) == ([2], "16 of 16 presses and releases are at the ticks of")
     beyond = replace(one, presses=frozenset(each + 8 for each in moved.presses))
     assert courses.near(beyond)(every)[0] == []
+
+
+def test_a_folder_may_have_the_name_of_the_command_below(
+    levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(tmp_path / "ask", "a.txt", slow_walk(author="Ann"))
+    monkeypatch.chdir(tmp_path)
+    code, text = board(Path("ask"), levels)
+    assert (code, "board ask --help" in text) == (2, True), text
+    result = CliRunner().invoke(cli, ["board", "./ask", "--levels", str(levels), "--jobs", "1"])
+    assert result.exit_code == 0, result.output
+    assert "1 run" in result.output

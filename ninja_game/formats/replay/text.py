@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, Self
 
-from ninja_game.backend.worlds import BODIES, Body
 from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.lines import Line, header_text, numbered_lines
@@ -24,7 +23,7 @@ from ninja_game.formats.replay.input_text import include_reader, read_inputs
 from ninja_game.formats.replay.notations import Marker, is_marker_name, write_inputs
 from ninja_game.formats.replay.provenance import UNKNOWN, Provenance, can_be_written
 from ninja_game.sim.inputs import MAX_TICKS, Demo, fit_inputs
-from ninja_game.sim.level import Level
+from ninja_game.sim.level import BODIES, Body, Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICKS_PER_SECOND
 
 MAGIC = "ninja-game replay"

@@ -8,7 +8,6 @@ from math import cos, sin
 from typing import NamedTuple
 
 from ninja_game.backend.plain import restore_plain, save_plain
-from ninja_game.backend.worlds import BODIES as BODY_NAMES
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.play.lab.cells import BODIES
@@ -18,6 +17,7 @@ from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_index
+from ninja_game.sim.level import BODIES as BODY_NAMES
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import RADIUS
 from ninja_game.simulation import Simulation

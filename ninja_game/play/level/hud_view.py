@@ -16,10 +16,10 @@ from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
 from ninja_game.player.playthrough import Navigation
 from ninja_game.player.progress import NO_MEDAL, Mark, next_par
 from ninja_game.runs.deaths import SELF
+from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.ui.input.bindings import MOVES
 
 FADE_TICKS = 8  # in which the panel of an ended run fades in
 SHINE_TICKS = 20  # in which light sweeps over its medal

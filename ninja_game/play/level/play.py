@@ -95,7 +95,7 @@ class LevelPlay:
     """One level of a context, tried again and again.
 
     ``view`` shows every tick. ``tries``: the failed ones, inputs. ``after_end``: ticks since the exit contact or death;
-    ``killer``: what killed, one of ``records.KILLERS``, ``crushed`` whether by being crushed. ``keys``: those of the
+    ``killer``: what killed, one of ``deaths.KILLERS``, ``crushed`` whether by being crushed. ``keys``: those of the
     last tick. ``things``: what a text of the level is not to cover; ``about``: where the ninja was when the present
     text came, or the run ended; None for the text of the start. ``notices``: what a pass has brought. ``next_par``: in
     words, while it waits at the start. ``changed``: more than a tick has happened, so that everything has to be drawn

@@ -18,10 +18,11 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.rooms import room_level
 from ninja_game.play.workspace import Command, key_text
+from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.ui.input.bindings import ACTIONS, MOVES
+from ninja_game.ui.input.bindings import ACTIONS
 from ninja_game.ui.input.gamepad import pad_label
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.scenery import draw_scenery

@@ -9,10 +9,10 @@ import pygame
 from ninja_game.budget import TURN_WORK, tick_cost
 from ninja_game.runs.save_states import SPACING, SaveStates
 from ninja_game.sim.inputs import MAX_TICKS
-from ninja_game.sim.level import Level
+from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.sim.states import CELEBRATING, DEAD
-from ninja_game.simulation import Body, SaveState, Simulation
+from ninja_game.simulation import SaveState, Simulation
 from ninja_game.ui.canvas import Point
 from ninja_game.ui.theme import Palette
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation

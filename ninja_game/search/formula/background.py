@@ -142,7 +142,7 @@ class RunSearch(SpanSearch):
     def __init__(
         self, task: SpanTask, jobs: int | None = None, *, gold: int = 0, others: tuple[bytes, ...] = ()
     ) -> None:
-        from ninja_game.search.solve import Task  # few searches are of a whole run
+        from ninja_game.search.task import Task
 
         super().__init__(task)
         self._wanted = Task(

@@ -25,10 +25,9 @@ from ninja_game.search.formula.task import (
 )
 from ninja_game.search.local_search import mutate
 from ninja_game.search.nodes import RandomState, random_below, zeroed
-from ninja_game.sim.level import Level
+from ninja_game.sim.level import Body, Level
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.states import OUTCOME_RUNNING
-from ninja_game.simulation import Body
 
 METHODS = ("local", "beam", "exhaustive")
 

@@ -15,9 +15,8 @@ from ninja_game.search.certificate import without_idle_keys
 from ninja_game.search.formula.language import UNTRUE, Formula, FormulaError, Values, parse_number, parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES, UNREACHABLE, difference_from, distance_views, view_of
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
-from ninja_game.sim.level import Level
+from ninja_game.sim.level import Body, Level
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
-from ninja_game.simulation import Body
 
 Keys = NDArray[np.uint8]
 """Keys that are down, a sum of left, right and jump."""

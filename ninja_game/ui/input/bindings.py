@@ -11,14 +11,12 @@ import pygame
 
 from ninja_game.files.user_folder import asset_rows
 from ninja_game.runtime import in_page_or_not
-from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
+from ninja_game.sim.inputs import JUMP_HELD, MOVES
 from ninja_game.ui.input.gamepad import Gamepads, pad_label
 from ninja_game.ui.input.keys import key_label, key_name, learn_label, scancode_named, scancode_of
 
 TAP_SECONDS = 0.15
 """A move that went down and up between two ticks counts in the next one, if it is not older: longer than any tick."""
-
-MOVES = (("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD))
 
 Inputs = Mapping[str, tuple[str, ...]]  # names of inputs by action
 

@@ -23,9 +23,8 @@ from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.verify import NOT_RUN, Verdict
-from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, fit_demo, with_press_bits
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, MOVES, fit_demo, with_press_bits
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.ui.input.bindings import MOVES
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import without_copies
 from ninja_game.web.board.players import Players, folded
