@@ -52,6 +52,8 @@ _NO_LEVELS = (
     "Make ready then certifies all, and gives you a zip and a link to share.",
 )
 
+_CAN = "preview, name, copy, find or delete packs"
+
 _STOPS = "It can be stopped at any time: what was found is kept."
 
 Edit = Callable[[Entry, Finding | None], object]
@@ -74,6 +76,7 @@ class PackScreen(ThumbnailScreen):
         self.sets: list[EpisodeSet] = []
         self.beside = "none"
         self.held: Cell | None = None
+        self.chosen: Widget | None = None
         self.pointer: tuple[float, float] | None = None
         self.packer = packer_of(app)
         self.packer.desk = self
@@ -133,9 +136,11 @@ class PackScreen(ThumbnailScreen):
     def build(self) -> Sequence[Widget]:
         names = [(each.pack.index.title if each.pack and each.received else each.name, each.key) for each in self.mine]
         have = self.pack and self.pack.pack
-        chosen = Choice((36, 60, 164, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
+        area, key = (36, 60, 164, 28), self.pack.key if self.pack else ""
+        chosen = self.chosen = Choice(area, "", names, lambda: key, self._choose_pack, more=self._about)
         received = bool(self.pack and self.pack.received)
-        chosen.hint = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
+        whose = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
+        chosen.hint = f"{whose}. Enter, or a click on the name: {_CAN}"
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
         beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
@@ -148,7 +153,7 @@ class PackScreen(ThumbnailScreen):
         new = Button((256, 60, 76, 28), "New pack...", self._new_pack, size=10)
         paste = Button((338, 60, 68, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
-        about = Button((412, 60, 68, 28), "About it...", self._about, size=10, hint="Play, name, copy or delete it")
+        about = Button((412, 60, 68, 28), "More...", self._about, size=10, hint=_CAN.capitalize())
         view = self.view = Button((486, 60, 60, 28), "Play" if received else "Preview", self._view, size=10)
         view.hint = f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
         if received and have:
@@ -252,14 +257,25 @@ class PackScreen(ThumbnailScreen):
                 raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
             pack = Pack(Path(f"#{text.partition('#')[2]}"))
             if there := next((each for each in self.mine if each.pack and packs.same_pack(pack, each.pack)), None):
-                self._show(there)
-                raise NinjaGameError(f"{shown_text(there.name)} is among your packs already")
-            self._read(packs.copy_pack(pack, self.folder, pack.name, received=True))
-            self.app.notify(f"{shown_text(pack.name)} is among your packs now: Enter plays it")
+                self._read(there.path)
+                rows: list[Row] = [
+                    ("Play it", self._view, "") if there.received else ("Show it as received", self._view, PREVIEW),
+                    ("Receive it once more", partial(receive, pack), "Beside this one"),
+                    CANCEL,
+                ]
+                self.app.push(Menu(self.app, f"{shown_text(there.name)} is among your packs already", rows))
+            else:
+                receive(pack)
 
-        self.do(take, "Paste link")
-        if self.pack and self.pack.received:
+        def receive(pack: Pack) -> None:
+            def copy() -> None:
+                self._read(packs.copy_pack(pack, self.folder, pack.name, received=True))
+                self.app.notify(f"{shown_text(pack.name)} is among your packs now: Enter plays it")
+
+            self.do(copy, "Paste link")
             self.focus_on(self.view)
+
+        self.do(take)
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
@@ -289,14 +305,28 @@ class PackScreen(ThumbnailScreen):
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
         grid = partial(EpisodeGrid, self.app, self.pack.key if self.pack else "")
+        without, find = "No episode has levels" * empty, partial(ask_text, self.app, "Find a pack", "Part of its name")
+        shown: list[Row] = [("Show it as received", None if empty else self._view, without or PREVIEW)]
+        finds: list[Row] = [("Find a pack...", lambda: find("", "OK", self._find), "By name or author")]
         rows: list[Row] = [
-            ("Play it", None if empty else lambda: self.app.push(grid()), "No episode has levels" * empty),
+            ("Play it", None if empty else lambda: self.app.push(grid()), without),
+            *shown * (not (self.pack and self.pack.received)),
             ("Name, author, version...", self._form, ""),
             ("Copy of the pack", lambda: self._copy(copied), ""),
             ("Delete the pack...", None if busy else self._delete, gone),
+            *finds * (len(self.mine) > 1),
             CANCEL,
         ]
         self.app.push(Menu(self.app, index.name, rows))
+
+    def _find(self, text: str) -> None:
+        """Show the next pack that is called so."""
+        at = next((k for k, each in enumerate(self.mine) if each is self.pack), 0) + 1
+        for each in [*self.mine[at:], *self.mine[:at]]:
+            if each.pack and text.casefold() in f"{each.name} {each.pack.index.title}".casefold():
+                self.do(partial(self._read, each.path))
+                return
+        self.app.notify(f"No pack is called {shown_text(text)}")
 
     def _delete(self) -> None:
         name, path = self.pack.name if self.pack else "", self.path
@@ -460,6 +490,17 @@ class PackScreen(ThumbnailScreen):
             packs.place(target, name, number, Path(behind[0].named.file).name if behind else "")
 
     def _handle_mouse(self, event: pygame.Event) -> None:
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_RIGHT and not self.held:
+            x, y = self.theme.canvas.logical(event.pos)
+            widget = self._at(x, y)
+            if widget is self.chosen:
+                self._about()
+                return
+            if isinstance(widget, Rack) and (index := widget.at(x, y)) is not None:
+                self.focus_on(widget)
+                widget.index = index
+                self._choose(widget.cells[index])
+                return
         dragged = self._dragged
         super()._handle_mouse(event)
         if event.type == pygame.MOUSEBUTTONUP and isinstance(dragged, Rack):

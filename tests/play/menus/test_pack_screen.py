@@ -214,14 +214,14 @@ def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path) 
             assert "episode 1 is full" in driver.app.notice
         else:
             typed(driver, text)
-    driver.choose("About it...")
+    driver.choose("More...")
     driver.choose("Name, author, version...")
     driver.shown(FormPanel).texts[2] = "2"
     driver.choose("OK")
     pack = Pack(path)
     assert (pack.index.version, pack.index.episodes[0].name) == ("2", "Falls")
     assert pack.levels["00-0-first-steps.txt"].name == "Early steps"
-    driver.choose("About it...")
+    driver.choose("More...")
     driver.choose("Copy of the pack")
     assert [each.name for each in screen.mine] == ["Laundry", "Laundry copy"]
 
@@ -340,7 +340,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
     first = opened(driver)
     driver.choose("Make ready")
-    driver.choose("About it...")
+    driver.choose("More...")
     assert not driver.button("Delete the pack...").enabled
     driver.press("escape", "escape")
     driver.shown(Browser)
@@ -539,7 +539,7 @@ def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Pat
     screen = opened(driver)
     screen.packer.path, screen.packer.saved, screen.packer.text = path, path.with_suffix(".zip"), "Saved: laundry.zip"
     for answer, there in (("Cancel", True), ("Delete it", False)):
-        driver.choose("About it...")
+        driver.choose("More...")
         driver.choose("Delete the pack...")
         driver.choose(answer)
         assert (path.exists(), bool(screen.mine)) == (there, there)
@@ -583,7 +583,7 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     driver.choose("Packs")
     screen = driver.shown(PackScreen)
     screen._read(path)
-    driver.choose("About it...")
+    driver.choose("More...")
     driver.choose("Delete the pack...")
     assert driver.shown(MenuScreen).title == "Delete Laundry with its 9 levels?"
     assert "All goes to the folder deleted; Undo brings it back" in drawn(driver.app)
@@ -628,12 +628,59 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
         assert len(screen.mine) == 1
-        assert "Laundry is among your packs already" in driver.app.notice
+        assert driver.shown(MenuScreen).title == "Laundry is among your packs already"
+        driver.choose("Play it")
+        assert driver.shown(EpisodeGrid).player is driver.player
+        driver.press("escape")
         packs.rename_episode(screen.path, 0, "Other")
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
         assert len(screen.mine) == 2, "it never goes over what is there"
     assert layout(screen.path) == first
+
+
+def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    with patch("pygame.scrap.get_text", Pack(path).files.link):
+        driver.choose("Paste link")
+        driver.choose("Show it as received")
+        assert driver.shown(EpisodeGrid).previews
+        driver.press("escape")
+        driver.choose("Paste link")
+        driver.choose("Receive it once more")
+    assert [bool(pack.received) for pack in screen.mine] == [False, True]
+    assert (screen.pack and screen.pack.received, screen.focus) == (True, screen.view)
+
+
+def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(driver: MenuDriver, path: Path) -> None:
+    shutil.copytree(path, path.with_name("soap"))
+    packs.describe(path.with_name("soap"), {"name": "Soap"})
+    screen = opened(driver)
+    assert screen.chosen
+
+    def right_click(area: Area) -> MenuScreen:
+        place = screen.theme.canvas.point(area[0] + area[2] / 2, area[1] + area[3] / 2)
+        pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=place, button=3, touch=False))
+        driver.frames()
+        return driver.shown(MenuScreen)
+
+    for opens in (lambda area: driver.mouse(area[0] + area[2] / 2, area[1] + 9), right_click):
+        opens(screen.chosen.area)
+        assert driver.shown(MenuScreen).title == "Laundry"
+        driver.choose("Cancel")
+    x, y, w, _ = screen.chosen.area
+    driver.mouse(x + w - 9, y + 9)
+    assert (screen.pack and screen.pack.name) == "Soap", "an arrow shows the next one"
+    driver.press("return")
+    driver.choose("Find a pack...")
+    typed(driver, "laun")
+    assert (screen.pack and screen.pack.name) == "Laundry"
+    assert right_click(screen.shelves.row_area(1)).title == "First Steps"
+    driver.choose("Cancel")
+    assert right_click(screen.shelves.row_area(0)).title == "Learning to fall"
+    driver.choose("Cancel")
+    right_click((400, 20, 2, 2))
+    assert driver.top() is not screen, "elsewhere it leads back"
 
 
 def linked(*names: str) -> str:
@@ -678,14 +725,14 @@ def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: 
 
 def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
-    driver.choose("About it...")
+    driver.choose("More...")
     driver.choose("Play it")
     assert driver.shown(EpisodeGrid).pack.key == "Laundry"
     driver.press("escape")
     assert driver.top() is screen
     packs.new_pack(path.parent, "Empty", "me")
     screen._read(path.parent / "empty")
-    driver.choose("About it...")
+    driver.choose("More...")
     assert not driver.button("Play it").enabled
 
 
