@@ -143,14 +143,14 @@ class Choice(Widget, Generic[T]):
 
     def __init__(
         self, area: Area, text: str, options: Sequence[tuple[str, T]], get: Callable[[], T],
-        put: Callable[[T], object], *, hint: str = "", more: Callable[[], object] | None = None,
+        put: Callable[[T], object], *, hint: str = "",
     ) -> None:  # fmt: skip
         super().__init__(area, hint=hint)
         self.text = text
         self.options = options
         self.get = get
         self.put = put
-        self.more = more
+        self.more: Callable[[], object] | None = None
 
     @property
     def index(self) -> int:
@@ -163,17 +163,16 @@ class Choice(Widget, Generic[T]):
         return True
 
     def confirm(self) -> bool:
-        if self.more is None:
-            return self._step(1)
-        self.more()
-        return True
+        if self.more:
+            self.more()
+        return bool(self.more) or self._step(1)
 
     def nudge(self, action: str) -> bool:
         return self._step(-1 if action == "left" else 1) if action in ("left", "right") else False
 
     def click(self, x: float, y: float) -> bool:
         left, width = self._values()
-        if left + 24 <= x < left + width - 24:
+        if self.more and left + 24 <= x < left + width - 24:
             return self.confirm()
         return self._step(-1 if left <= x < left + 24 else 1)
 

@@ -16,6 +16,7 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
+from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.files import ascii_text
 from ninja_game.editor.packs import Obstacles, ReadyPack, Say
 from ninja_game.files.user_folder import short_path
@@ -29,6 +30,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
+from ninja_game.play.menus.pack_shelves import Cell
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
@@ -37,6 +39,7 @@ from ninja_game.runs.packs import lint
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Task
 from ninja_game.sim.inputs import with_press_bits
+from ninja_game.sim.level import Level
 from ninja_game.ui.input.gamepad import BUTTONS
 from ninja_game.ui.theme import Area
 from tests.support.draw_log import drawn
@@ -47,7 +50,8 @@ from tests.support.waiting import LONGEST
 
 
 @pytest.fixture(name="path")
-def pack_of_the_player(driver: MenuDriver) -> Path:
+def pack_of_the_player(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(SOLVER, "stopped", set())
     path = driver.player.folder / "levels" / "laundry"
     shutil.copytree(PACK, path, ignore=shutil.ignore_patterns("gallery", "README.md"))
     index = path / "pack.toml"
@@ -140,8 +144,10 @@ def test_ones_own_level_with_its_certificate_is_certified(driver: MenuDriver, pa
     for index, said in enumerate(("Certified: 3.900 s", "Not passed yet")):
         driver.shown(Browser).list.index = index
         assert said in re.findall("text '(.*?)' at 436,408", drawn(driver.app))
+    assert drawn(driver.app).count("text 'certified' at") == 7, "of the eight rows"
     driver.app.change_settings(name="Ida")
     assert driver.player.reached(driver.shown(Browser).shown[0], None) == "Not passed yet"
+    assert "text 'certified' at" not in drawn(driver.app)
 
 
 def test_a_full_episode_says_so(driver: MenuDriver, path: Path) -> None:
@@ -304,6 +310,7 @@ def test_a_pack_is_made_ready_in_the_background(
     assert screen.status.counts() == "8 levels in 2 episodes. Make ready will look for all gold in 8 levels. 0 problems"
     assert screen.status.counts()[:30] in drawn(driver.app)
     assert "laundry-1.zip" in drawn(driver.app), "it stays"
+    assert "Send either" in drawn(driver.app)
     assert driver.button("Make ready")
     opened_folders: list[str] = []
     monkeypatch.setattr("webbrowser.open", opened_folders.append)
@@ -312,6 +319,7 @@ def test_a_pack_is_made_ready_in_the_background(
     assert screen.packer.text == saved, "the clipboard may hold something else by now"
     driver.carry(screen.shelves.row_area(2), half(screen, 8))
     assert screen.packer.text == "Changed since laundry-1.zip"
+    assert "Send either" not in drawn(driver.app)
     driver.choose("Undo")
     assert screen.packer.text == saved
     copied: list[str] = []
@@ -434,11 +442,14 @@ def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: py
             say("Certifying", 0.5)
 
     monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", endless)
+    (path / "certificates" / "00-0-first-steps.exit.replay.txt").unlink()
     screen = opened(driver)
+    assert "text 'no run yet' at" in drawn(driver.app)
     driver.choose("Make ready")
     driver.wait(lambda: screen.packer.text == "Certifying")
     driver.choose("Stop")
     driver.wait(lambda: "Stopped" in screen.packer.text)
+    assert drawn(driver.app).count("text 'stopped' at") == 1, "the others are certified"
     driver.choose("Make ready")
     driver.app.run(1)
     driver.wait(lambda: screen.packer._job.idle, "it ends with the program")
@@ -800,6 +811,23 @@ def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(driver: MenuD
     assert folder_texts(received) == before
 
 
+def test_a_level_that_was_received_is_edited_only_if_that_is_meant(driver: MenuDriver, path: Path) -> None:
+    (path / "received").touch()
+    before = folder_texts(path)
+    driver.open("Levels")
+    browser = driver.shown(Browser)
+    for answer, file in ("Copy it, to change that", None), ("Change it all the same", path / "00-0-first-steps.txt"):
+        driver.choose("Edit")
+        assert driver.shown(MenuScreen).title == "Received: Laundry"
+        assert folder_texts(path) == before
+        driver.choose(answer)
+        assert driver.shown(EditorScreen).session.source.path == file
+        driver.shown(EditorScreen).session.close()
+        driver.app.pop()
+        assert driver.top() is browser
+    assert not (path / "received").exists()
+
+
 def test_an_empty_place_says_what_it_is_for(driver: MenuDriver, path: Path) -> None:
     packs.new_episode(path, "Empty", 0)
     screen = opened(driver)
@@ -816,6 +844,34 @@ def test_a_card_says_how_hard_its_level_is(driver: MenuDriver, path: Path) -> No
     opened(driver)
     seen = drawn(driver.app)
     assert [seen.count(f"text '{grade}' at") for grade in ("very hard", "medium", "easy")] == [1, 1, 6]
+
+
+def test_a_card_has_room_for_a_long_name_and_no_gold_where_there_is_none(driver: MenuDriver, path: Path) -> None:
+    packs.rename_level(path / "00-0-first-steps.txt", "The Locked Door of Noon")
+    packs.rename_episode(path, 1, "Episode 2")
+    screen = opened(driver)
+    seen = drawn(driver.app)
+    assert "text 'The Locked' at" in seen
+    assert "text 'Door of Noon' at" in seen
+    assert seen.count("text 'Episode 2' at") == 1
+    assert seen.count("text 'Episode 1' at") == 1, "beside its name"
+    level = screen.shelves.cells[1].level
+    assert level
+    assert level.pars
+    rich = replace(level, pars=replace(level.pars, gold=level.pars.exit))
+    screen.shelves.show([Cell(None, each) for each in (rich, replace(rich, named=replace(rich.named, level=Level())))])
+    with patch("ninja_game.play.menus.pack_shelves.draw_all_gold") as mark:
+        drawn(driver.app)
+    assert mark.call_count == 1
+
+
+def test_a_pack_needs_no_author(driver: MenuDriver) -> None:
+    screen = opened(driver)
+    driver.choose("New pack...")
+    assert "empty: unknown" in drawn(driver.app)
+    typed(driver, "Walls")
+    assert Pack(screen.path).index.author == "unknown"
+    assert driver.player.settings.name == ""
 
 
 def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver) -> None:
