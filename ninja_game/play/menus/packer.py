@@ -74,7 +74,8 @@ class Packer(Aside):
         """Stop; what was found is on the disk already."""
         self._stopped = True
         with suppress(NinjaGameError, OSError):
-            SOLVER.stopped.update(each.level for each in Pack(self.path).levels.values())
+            pack = Pack(self.path)
+            SOLVER.stopped.update(e.level for file, e in pack.levels.items() if not pack.certificate(file, "exit"))
 
     def _say(self, text: str, share: float | None) -> None:
         if self._stopped:
