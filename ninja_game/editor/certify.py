@@ -137,10 +137,12 @@ class Solver:
     """The solver in its own thread: searches one after the other. What it has made ready once stays so.
 
     ``left``: searches of levels that were left, which go on. ``at_work``: the one that was begun last.
+    ``stopped``: levels whose search somebody has ended before it had a run.
     """
 
     def __init__(self) -> None:
         self.left: list[Search] = []
+        self.stopped: set[Level] = set()
         self.at_work = Search(end=STOPPED)
         self.job: NewestJob[Search, None] = NewestJob(self._work, every=True)
 
@@ -223,6 +225,7 @@ class Certifier:
         for run in (before.run, before.full) if before.level == level else ():
             if run:
                 self.search.take(run)
+        self.solver.stopped.discard(level)
         self.solver.job.ask(self.search)
 
     def adopt(self, found: Search) -> None:
@@ -237,6 +240,7 @@ class Certifier:
         """End the search; what was found stays. Nobody waits: a solver that is being compiled ends when it is ready."""
         if self.busy:
             self.search.end = STOPPED
+            self.solver.stopped |= {self.search.level} if self.search.level and not self.search.run else set()
             self.search.stopping.set()
 
     def leave(self, then: Callable[[Search], object] | None) -> None:

@@ -76,7 +76,8 @@ def obstacle(level: Level, gold: int, progress: Progress) -> Finding:
 
     def at(code: str, ids: Iterable[int]) -> Finding:
         names = [object_name(level.objects[numbers[id_]], id_) for id_ in ids]
-        never = f"never {', '.join(names)}" if names else "each piece now and then"
+        few = f"never {', '.join(names)}" if names else "each piece now and then"
+        never = f"{len(names)} of {level.gold} pieces were never reached" if len(names) > 1 else few
         records = tuple(numbers[id_] for id_ in ids) or tuple(n for n in numbers if level.objects[n].kind == GOLD)
         finding = level_finding(code, records, most=progress.gold, never=never)
         return finding if code == "gold-left" else finding._replace(names=", ".join(names))

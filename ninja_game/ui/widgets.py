@@ -136,7 +136,10 @@ class Button(Widget):
 
 
 class Choice(Widget, Generic[T]):
-    """One of several values: left and right change it, confirm takes the next. A switch has the values on and off."""
+    """One of several values: left and right change it, confirm takes the next. A switch has the values on and off.
+
+    ``more``: what to confirm and a click between the arrows do instead.
+    """
 
     def __init__(
         self, area: Area, text: str, options: Sequence[tuple[str, T]], get: Callable[[], T],
@@ -147,6 +150,7 @@ class Choice(Widget, Generic[T]):
         self.options = options
         self.get = get
         self.put = put
+        self.more: Callable[[], object] | None = None
 
     @property
     def index(self) -> int:
@@ -159,13 +163,17 @@ class Choice(Widget, Generic[T]):
         return True
 
     def confirm(self) -> bool:
-        return self._step(1)
+        if self.more:
+            self.more()
+        return bool(self.more) or self._step(1)
 
     def nudge(self, action: str) -> bool:
         return self._step(-1 if action == "left" else 1) if action in ("left", "right") else False
 
     def click(self, x: float, y: float) -> bool:
-        left, _ = self._values()
+        left, width = self._values()
+        if self.more and left + 24 <= x < left + width - 24:
+            return self.confirm()
         return self._step(-1 if left <= x < left + 24 else 1)
 
     def _values(self) -> tuple[float, float]:

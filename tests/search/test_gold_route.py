@@ -174,6 +174,10 @@ def test_gold_that_was_never_collected_is_told() -> None:
     why = obstacle(WALLED_IN, WALLED_IN.gold, progress[-1])
     assert why.sentence == "1 at most were collected at once, never gold at 29,12 (700,300px, object 3)"
     assert [WALLED_IN.objects[number].kind for number in why.records] == [GOLD]
+    both = tuple(number for number, spec in enumerate(WALLED_IN.objects) if spec.kind == GOLD)
+    several = obstacle(WALLED_IN, WALLED_IN.gold, replace(progress[-1], gold=0, untaken=both))
+    assert several.sentence == "0 at most were collected at once, 2 of 2 pieces were never reached"
+    assert several.records == both
     every = obstacle(WALLED_IN, WALLED_IN.gold, replace(progress[-1], untaken=()))
     assert every.sentence == "1 at most were collected at once, each piece now and then"
     assert [WALLED_IN.objects[number].kind for number in every.records] == [GOLD, GOLD]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pygame
@@ -13,6 +14,7 @@ from ninja_game.files.shown_text import name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
+from ninja_game.formats.pack.pack import RECEIVED
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.episodes import GAME, YOURS, Entry, author_name
@@ -20,7 +22,7 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import draw_look
-from ninja_game.play.menus.menu_screen import Action
+from ninja_game.play.menus.menu_screen import Action, ask_received
 from ninja_game.play.menus.problems import Problem, of_files, problems_button
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
@@ -196,8 +198,19 @@ class Browser(ThumbnailScreen):
             self.message = self.player.lock_of(entry) or play_level(self.app, entry, practice=practice, following=rest)
 
     def _change(self) -> None:
-        if self._edit is not None and self.selected is not None:
-            self._edit(self.selected)
+        edit, entry = self._edit, self.selected
+        if edit is None or entry is None:
+            return
+        folder = Path(entry.named.file).parent
+
+        def own() -> None:
+            Tree(folder).remove(RECEIVED)
+            edit(entry)
+
+        if (folder / RECEIVED).is_file():
+            ask_received(self.app, entry.source, lambda: edit(replace(entry, source=GAME)), own)
+        else:
+            edit(entry)
 
     def _copy_link(self) -> None:
         if self.selected is not None:
@@ -257,6 +270,8 @@ class Browser(ThumbnailScreen):
         if mark:
             time = f"{seconds_text(mark.fastest)} s"
             theme.text(surface, time, x + w - 8, y + 11, size=12, colour=palette.good, align="right", width=100)
+        elif self.player.reached(entry, None).startswith("Certified"):
+            theme.text(surface, "certified", x + w - 8, y + 11, size=10, colour=palette.good, align="right", width=100)
         all_gold_and_medal(surface, theme, entry, mark, x + w - 16, y + 37)
 
 

@@ -280,7 +280,9 @@ class EpisodeGrid(ThumbnailScreen):
     def _draw_total(self, surface: pygame.Surface, theme: Theme, y: float) -> None:
         levels = self.pack.levels
         total = tally(levels, self.marks, self.passed)
-        theme.text(surface, f"{total.passed} of {total.levels} levels passed", LEFT, y, size=11, bold=True)
+        whose = f" by {shown_text(self.player.settings.name)}" * bool(self.player.settings.name)
+        passed = f"{total.passed} of {total.levels} levels passed{whose}"
+        theme.text(surface, passed, LEFT, y, size=11, bold=True, width=WIDE)
         x = LEFT + 8.0
         if any(entry.pars for entry in levels):
             for medal in MEDALS:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
+from ninja_game.files.shown_text import shown_text
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.app import CALM, App, Screen
 from ninja_game.player.player_data import PlayerData
@@ -367,6 +368,16 @@ class Menu(Panel):
 
     def rows(self) -> list[Row]:
         return self._rows
+
+
+def ask_received(app: App, pack: str, copy: Action, change: Action) -> None:
+    """Ask whether a copy is changed of what came by a link, or that itself."""
+    rows: list[Row] = [
+        ("Copy it, to change that", copy, "What was received stays as it is"),
+        ("Change it all the same", change, "It is yours from now on"),
+        CANCEL,
+    ]
+    app.push(Menu(app, f"Received: {shown_text(pack)}", rows))
 
 
 class Question(Menu):

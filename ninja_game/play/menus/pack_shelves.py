@@ -15,7 +15,7 @@ from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND, PackStatus
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.ui.list_view import BAR, ListView
 from ninja_game.ui.medals import draw_all_gold
-from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.theme import Area, Theme, wrapped
 
 WIDE, HIGH = 93, 106
 
@@ -95,14 +95,16 @@ class Rack(ListView):
         canvas, palette, state, right = theme.canvas, theme.palette, self.status.state(level), x + WIDE - 12
         self.thumbnails.draw(surface, level, x, y, WIDE - 12)
         pars = level.pars if state not in NOT_CERTIFIED else None
-        gold = pars is not None and pars.gold is not None
-        theme.text(surface, shown_text(level.title), x, y + 67, size=9.5, width=w - 12 * gold)
+        gold = pars is not None and pars.gold is not None and level.all_gold > 0
+        title, room = shown_text(level.title), w - 12 * gold
+        top = y + (63 if len(wrapped(theme, title, room, 9.5)) > 1 else 69)
+        theme.paragraph(surface, [title], (x, top, room, 22), 9.5, 10.5)
         colour = palette.good if pars else palette.bad if state in ("changed", NOT_FOUND) else palette.faint
-        theme.text(surface, state, x, y + 82, size=8.5, colour=colour, width=w - 40 if pars else w)
+        theme.text(surface, state, x, y + 86, size=8.5, colour=colour, width=w - 40 if pars else w)
         if gold:
             draw_all_gold(surface, theme, x + w - 5, y + 73, 8)
         if pars:
-            theme.text(surface, pars.grade, x + w, y + 82, size=8.5, align="right", width=40)
+            theme.text(surface, pars.grade, x + w, y + 86, size=8.5, align="right", width=40)
         if self.status.checked and level.named.file in self.status.checked.places:
             canvas.circle(surface, palette.panel, (right - 9, y + 9), 8)
             theme.text(surface, "!", right - 9, y + 3, size=11, bold=True, colour=palette.bad, align="centre")
@@ -116,8 +118,10 @@ class Rack(ListView):
         number = cell.episode.number
         column = number // EPISODES_PER_COLUMN
         names = self.status.pack.columns if self.status.pack else ()
-        theme.text(surface, f"Episode {number + 1}", x + 6, y + 6, size=9, colour=theme.palette.faint, width=w - 12)
+        place, faint = f"Episode {number + 1}", theme.palette.faint
+        if place != cell.episode.name:
+            theme.text(surface, place, x + 6, y + 6, size=9, colour=faint, width=w - 12)
         theme.paragraph(surface, [shown_text(cell.episode.name)], (x + 6, y + 21, w - 12, 42), 11, 14)
         if column < len(names):
-            place, faint = (x + 6, y + 72, w - 12, 26), theme.palette.faint
-            theme.paragraph(surface, [f"in {shown_text(names[column])}"], place, 9, 12, colour=faint)
+            below = x + 6, y + 72, w - 12, 26
+            theme.paragraph(surface, [f"in {shown_text(names[column])}"], below, 9, 12, colour=faint)

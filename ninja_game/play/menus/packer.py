@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from time import monotonic
 from typing import NamedTuple
 
+from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, Steps, make_ready, obstacle_of, problems_of
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
@@ -28,7 +30,7 @@ SECONDS, LONGER = 20.0, 300.0
 NOT_FOUND = "no run found"
 """The state of a level that was searched in vain."""
 
-NOT_CERTIFIED = ("changed", "no run yet")
+NOT_CERTIFIED = ("changed", "no run yet", "stopped")
 """States of levels of which nobody knows whether they can be passed as they are."""
 
 
@@ -71,6 +73,9 @@ class Packer(Aside):
     def end(self) -> None:
         """Stop; what was found is on the disk already."""
         self._stopped = True
+        with suppress(NinjaGameError, OSError):
+            pack = Pack(self.path)
+            SOLVER.stopped.update(e.level for file, e in pack.levels.items() if not pack.certificate(file, "exit"))
 
     def _say(self, text: str, share: float | None) -> None:
         if self._stopped:
@@ -197,7 +202,9 @@ class PackStatus:
             else:
                 run = self.catalogue.author_run(level)
                 vain = (level.named.level, "exit") in self.packer.obstacles
-                known = "certified" if run else NOT_FOUND if vain else "changed" if beside else "no run yet"
+                stopped = level.named.level in SOLVER.stopped and not self.packer.busy
+                untried = "stopped" if stopped else "changed" if beside else "no run yet"
+                known = "certified" if run else NOT_FOUND if vain else untried
             self._states[id(level)] = known
         return known
 

@@ -26,7 +26,7 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
-from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_text
+from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_received, ask_text
 from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Cell, Rack
 from ninja_game.play.menus.packer import PackStatus, packer_of
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
@@ -52,6 +52,10 @@ _NO_LEVELS = (
     "Make ready then certifies all, and gives you a zip and a link to share.",
 )
 
+_SHARE = "Send either: a link is pasted in Levels > Packs, a zip is dropped on Levels"
+
+_CAN = "Preview, name, copy, find or delete packs"
+
 _STOPS = "It can be stopped at any time: what was found is kept."
 
 Edit = Callable[[Entry, Finding | None], object]
@@ -74,6 +78,7 @@ class PackScreen(ThumbnailScreen):
         self.sets: list[EpisodeSet] = []
         self.beside = "none"
         self.held: Cell | None = None
+        self.chosen: Widget | None = None
         self.pointer: tuple[float, float] | None = None
         self.packer = packer_of(app)
         self.packer.desk = self
@@ -133,9 +138,12 @@ class PackScreen(ThumbnailScreen):
     def build(self) -> Sequence[Widget]:
         names = [(each.pack.index.title if each.pack and each.received else each.name, each.key) for each in self.mine]
         have = self.pack and self.pack.pack
-        chosen = Choice((36, 60, 164, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
+        key = self.pack.key if self.pack else ""
+        chosen = self.chosen = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
+        chosen.more = self._about
         received = bool(self.pack and self.pack.received)
-        chosen.hint = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
+        whose = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
+        chosen.hint = f"{whose}. Enter, or a click on the name: what can be done with it"
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
         beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
@@ -148,7 +156,7 @@ class PackScreen(ThumbnailScreen):
         new = Button((256, 60, 76, 28), "New pack...", self._new_pack, size=10)
         paste = Button((338, 60, 68, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
-        about = Button((412, 60, 68, 28), "About it...", self._about, size=10, hint="Play, name, copy or delete it")
+        about = Button((412, 60, 68, 28), "More...", self._about, size=10, hint=_CAN)
         view = self.view = Button((486, 60, 60, 28), "Play" if received else "Preview", self._view, size=10)
         view.hint = f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
         if received and have:
@@ -213,12 +221,7 @@ class PackScreen(ThumbnailScreen):
             packs.make_own(pack.files.path)
             action()
 
-        rows: list[Row] = [
-            ("Copy it, to change that", partial(self._copy, pack), "What was received stays as it is"),
-            ("Change it all the same", lambda: self.do(own, what), "It is yours from now on"),
-            CANCEL,
-        ]
-        self.app.push(Menu(self.app, f"Received: {shown_text(pack.index.title)}", rows))
+        ask_received(self.app, pack.index.title, partial(self._copy, pack), lambda: self.do(own, what))
 
     def _copy(self, pack: Pack) -> None:
         def copy() -> None:
@@ -237,11 +240,11 @@ class PackScreen(ThumbnailScreen):
     def _new_pack(self) -> None:
         def make(name: str, author: str = self.player.settings.name) -> None:
             self.app.know_author("", author)
-            path = packs.new_pack(self.folder, name, author)
+            path = packs.new_pack(self.folder, name, author.strip() or "unknown")
             self.beside = "yours" if self.player.catalogue.own() else "none"
             self._read(path)
 
-        fields = [("Name", "My pack", 60), ("Author", "", 40)][: 1 if self.player.settings.name else 2]
+        fields = [("Name", "My pack", 60), ("Author (empty: unknown)", "", 40)][: 1 if self.player.settings.name else 2]
         step = "New pack"
         self.app.push(FormPanel(self.app, step, fields, "OK", lambda texts: self.do(lambda: make(*texts), step)))
 
@@ -252,14 +255,25 @@ class PackScreen(ThumbnailScreen):
                 raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
             pack = Pack(Path(f"#{text.partition('#')[2]}"))
             if there := next((each for each in self.mine if each.pack and packs.same_pack(pack, each.pack)), None):
-                self._show(there)
-                raise NinjaGameError(f"{shown_text(there.name)} is among your packs already")
-            self._read(packs.copy_pack(pack, self.folder, pack.name, received=True))
-            self.app.notify(f"{shown_text(pack.name)} is among your packs now: Enter plays it")
+                self._read(there.path)
+                rows: list[Row] = [
+                    ("Play it", self._view, "") if there.received else ("Show it as received", self._view, PREVIEW),
+                    ("Receive it once more", partial(receive, pack), "Beside this one"),
+                    CANCEL,
+                ]
+                self.app.push(Menu(self.app, f"{shown_text(there.name)} is among your packs already", rows))
+            else:
+                receive(pack)
 
-        self.do(take, "Paste link")
-        if self.pack and self.pack.received:
+        def receive(pack: Pack) -> None:
+            def copy() -> None:
+                self._read(packs.copy_pack(pack, self.folder, pack.name, received=True))
+                self.app.notify(f"{shown_text(pack.name)} is among your packs now: Enter plays it")
+
+            self.do(copy, "Paste link")
             self.focus_on(self.view)
+
+        self.do(take)
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
@@ -288,15 +302,25 @@ class PackScreen(ThumbnailScreen):
         index, empty = copied.index, not copied.episodes
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
-        grid = partial(EpisodeGrid, self.app, self.pack.key if self.pack else "")
+        key, own = (self.pack.key, not self.pack.received) if self.pack else ("", True)
+        find = partial(ask_text, self.app, "Find a pack", "Part of its name", "", "OK", self._find)
+        without = "No episode has levels" * empty
         rows: list[Row] = [
-            ("Play it", None if empty else lambda: self.app.push(grid()), "No episode has levels" * empty),
+            ("Play it", None if empty else lambda: self.app.push(EpisodeGrid(self.app, key)), without),
+            *[("Show it as received", None if empty else self._view, without or PREVIEW)] * own,
             ("Name, author, version...", self._form, ""),
             ("Copy of the pack", lambda: self._copy(copied), ""),
             ("Delete the pack...", None if busy else self._delete, gone),
+            *[("Find a pack...", find, "By its name")] * (len(self.mine) > 1),
             CANCEL,
         ]
         self.app.push(Menu(self.app, index.name, rows))
+
+    def _find(self, text: str) -> None:
+        found = [each for each in self.mine if text.casefold() in each.name.casefold()]
+        if found:
+            self._choose_pack(found[0].key)
+        self.app.notify(f"No pack is called {shown_text(text)}" * (not found))
 
     def _delete(self) -> None:
         name, path = self.pack.name if self.pack else "", self.path
@@ -460,6 +484,13 @@ class PackScreen(ThumbnailScreen):
             packs.place(target, name, number, Path(behind[0].named.file).name if behind else "")
 
     def _handle_mouse(self, event: pygame.Event) -> None:
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_RIGHT and not self.held:
+            place = self.theme.canvas.logical(event.pos)
+            widget = self._at(*place)
+            if widget and (widget is self.chosen or (isinstance(widget, Rack) and widget.click(*place))):
+                self.focus_on(widget)
+                widget.confirm()
+                return
         dragged = self._dragged
         super()._handle_mouse(event)
         if event.type == pygame.MOUSEBUTTONUP and isinstance(dragged, Rack):
@@ -570,6 +601,7 @@ class PackScreen(ThumbnailScreen):
         whose = f"{shown_text(packer.path.name)}: " * bool(packer.text and packer.path != self.path)
         texts = [whose + packer.text or self.status.counts()]
         texts += [self.status.counts()] * bool(packer.text and not (whose or packer.busy))
+        texts += [_SHARE] * bool(self._saved and packer.text.startswith("Saved"))
         place = (36, 524, 720 if packer.busy else 516, 41)
         theme.paragraph(surface, texts, place, 10, 13.5, colour=faint)
         if packer.busy and packer.share is not None:

@@ -16,6 +16,7 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
+from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.files import ascii_text
 from ninja_game.editor.packs import Obstacles, ReadyPack, Say
 from ninja_game.files.user_folder import short_path
@@ -29,6 +30,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
+from ninja_game.play.menus.pack_shelves import Cell
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
@@ -37,6 +39,7 @@ from ninja_game.runs.packs import lint
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Task
 from ninja_game.sim.inputs import with_press_bits
+from ninja_game.sim.level import Level
 from ninja_game.ui.input.gamepad import BUTTONS
 from ninja_game.ui.theme import Area
 from tests.support.draw_log import drawn
@@ -47,7 +50,8 @@ from tests.support.waiting import LONGEST
 
 
 @pytest.fixture(name="path")
-def pack_of_the_player(driver: MenuDriver) -> Path:
+def pack_of_the_player(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(SOLVER, "stopped", set())
     path = driver.player.folder / "levels" / "laundry"
     shutil.copytree(PACK, path, ignore=shutil.ignore_patterns("gallery", "README.md"))
     index = path / "pack.toml"
@@ -140,8 +144,10 @@ def test_ones_own_level_with_its_certificate_is_certified(driver: MenuDriver, pa
     for index, said in enumerate(("Certified: 3.900 s", "Not passed yet")):
         driver.shown(Browser).list.index = index
         assert said in re.findall("text '(.*?)' at 436,408", drawn(driver.app))
+    assert drawn(driver.app).count("text 'certified' at") == 7, "of the eight rows"
     driver.app.change_settings(name="Ida")
     assert driver.player.reached(driver.shown(Browser).shown[0], None) == "Not passed yet"
+    assert "text 'certified' at" not in drawn(driver.app)
 
 
 def test_a_full_episode_says_so(driver: MenuDriver, path: Path) -> None:
@@ -214,14 +220,14 @@ def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path) 
             assert "episode 1 is full" in driver.app.notice
         else:
             typed(driver, text)
-    driver.choose("About it...")
+    driver.choose("More...")
     driver.choose("Name, author, version...")
     driver.shown(FormPanel).texts[2] = "2"
     driver.choose("OK")
     pack = Pack(path)
     assert (pack.index.version, pack.index.episodes[0].name) == ("2", "Falls")
     assert pack.levels["00-0-first-steps.txt"].name == "Early steps"
-    driver.choose("About it...")
+    driver.choose("More...")
     driver.choose("Copy of the pack")
     assert [each.name for each in screen.mine] == ["Laundry", "Laundry copy"]
 
@@ -304,6 +310,7 @@ def test_a_pack_is_made_ready_in_the_background(
     assert screen.status.counts() == "8 levels in 2 episodes. Make ready will look for all gold in 8 levels. 0 problems"
     assert screen.status.counts()[:30] in drawn(driver.app)
     assert "laundry-1.zip" in drawn(driver.app), "it stays"
+    assert "Send either" in drawn(driver.app)
     assert driver.button("Make ready")
     opened_folders: list[str] = []
     monkeypatch.setattr("webbrowser.open", opened_folders.append)
@@ -312,6 +319,7 @@ def test_a_pack_is_made_ready_in_the_background(
     assert screen.packer.text == saved, "the clipboard may hold something else by now"
     driver.carry(screen.shelves.row_area(2), half(screen, 8))
     assert screen.packer.text == "Changed since laundry-1.zip"
+    assert "Send either" not in drawn(driver.app)
     driver.choose("Undo")
     assert screen.packer.text == saved
     copied: list[str] = []
@@ -340,7 +348,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
     first = opened(driver)
     driver.choose("Make ready")
-    driver.choose("About it...")
+    driver.choose("More...")
     assert not driver.button("Delete the pack...").enabled
     driver.press("escape", "escape")
     driver.shown(Browser)
@@ -434,11 +442,14 @@ def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: py
             say("Certifying", 0.5)
 
     monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", endless)
+    (path / "certificates" / "00-0-first-steps.exit.replay.txt").unlink()
     screen = opened(driver)
+    assert "text 'no run yet' at" in drawn(driver.app)
     driver.choose("Make ready")
     driver.wait(lambda: screen.packer.text == "Certifying")
     driver.choose("Stop")
     driver.wait(lambda: "Stopped" in screen.packer.text)
+    assert drawn(driver.app).count("text 'stopped' at") == 1, "the others are certified"
     driver.choose("Make ready")
     driver.app.run(1)
     driver.wait(lambda: screen.packer._job.idle, "it ends with the program")
@@ -539,7 +550,7 @@ def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Pat
     screen = opened(driver)
     screen.packer.path, screen.packer.saved, screen.packer.text = path, path.with_suffix(".zip"), "Saved: laundry.zip"
     for answer, there in (("Cancel", True), ("Delete it", False)):
-        driver.choose("About it...")
+        driver.choose("More...")
         driver.choose("Delete the pack...")
         driver.choose(answer)
         assert (path.exists(), bool(screen.mine)) == (there, there)
@@ -583,7 +594,7 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     driver.choose("Packs")
     screen = driver.shown(PackScreen)
     screen._read(path)
-    driver.choose("About it...")
+    driver.choose("More...")
     driver.choose("Delete the pack...")
     assert driver.shown(MenuScreen).title == "Delete Laundry with its 9 levels?"
     assert "All goes to the folder deleted; Undo brings it back" in drawn(driver.app)
@@ -628,12 +639,59 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
         assert len(screen.mine) == 1
-        assert "Laundry is among your packs already" in driver.app.notice
+        assert driver.shown(MenuScreen).title == "Laundry is among your packs already"
+        driver.choose("Play it")
+        assert driver.shown(EpisodeGrid).player is driver.player
+        driver.press("escape")
         packs.rename_episode(screen.path, 0, "Other")
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
         assert len(screen.mine) == 2, "it never goes over what is there"
     assert layout(screen.path) == first
+
+
+def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    with patch("pygame.scrap.get_text", Pack(path).files.link):
+        driver.choose("Paste link")
+        driver.choose("Show it as received")
+        assert driver.shown(EpisodeGrid).previews
+        driver.press("escape")
+        driver.choose("Paste link")
+        driver.choose("Receive it once more")
+    assert [bool(pack.received) for pack in screen.mine] == [False, True]
+    assert (screen.pack and screen.pack.received, screen.focus) == (True, screen.view)
+
+
+def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(driver: MenuDriver, path: Path) -> None:
+    shutil.copytree(path, path.with_name("soap"))
+    packs.describe(path.with_name("soap"), {"name": "Soap"})
+    screen = opened(driver)
+    assert screen.chosen
+
+    def right_click(area: Area) -> MenuScreen:
+        place = screen.theme.canvas.point(area[0] + area[2] / 2, area[1] + area[3] / 2)
+        pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=place, button=3, touch=False))
+        driver.frames()
+        return driver.shown(MenuScreen)
+
+    for opens in (lambda area: driver.mouse(area[0] + area[2] / 2, area[1] + 9), right_click):
+        opens(screen.chosen.area)
+        assert driver.shown(MenuScreen).title == "Laundry"
+        driver.choose("Cancel")
+    x, y, w, _ = screen.chosen.area
+    driver.mouse(x + w - 9, y + 9)
+    assert (screen.pack and screen.pack.name) == "Soap", "an arrow shows the next one"
+    driver.press("return")
+    driver.choose("Find a pack...")
+    typed(driver, "laun")
+    assert (screen.pack and screen.pack.name) == "Laundry"
+    assert right_click(screen.shelves.row_area(1)).title == "First Steps"
+    driver.choose("Cancel")
+    assert right_click(screen.shelves.row_area(0)).title == "Learning to fall"
+    driver.choose("Cancel")
+    right_click((400, 20, 2, 2))
+    assert driver.top() is not screen, "elsewhere it leads back"
 
 
 def linked(*names: str) -> str:
@@ -678,14 +736,14 @@ def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: 
 
 def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
-    driver.choose("About it...")
+    driver.choose("More...")
     driver.choose("Play it")
     assert driver.shown(EpisodeGrid).pack.key == "Laundry"
     driver.press("escape")
     assert driver.top() is screen
     packs.new_pack(path.parent, "Empty", "me")
     screen._read(path.parent / "empty")
-    driver.choose("About it...")
+    driver.choose("More...")
     assert not driver.button("Play it").enabled
 
 
@@ -753,6 +811,23 @@ def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(driver: MenuD
     assert folder_texts(received) == before
 
 
+def test_a_level_that_was_received_is_edited_only_if_that_is_meant(driver: MenuDriver, path: Path) -> None:
+    (path / "received").touch()
+    before = folder_texts(path)
+    driver.open("Levels")
+    browser = driver.shown(Browser)
+    for answer, file in ("Copy it, to change that", None), ("Change it all the same", path / "00-0-first-steps.txt"):
+        driver.choose("Edit")
+        assert driver.shown(MenuScreen).title == "Received: Laundry"
+        assert folder_texts(path) == before
+        driver.choose(answer)
+        assert driver.shown(EditorScreen).session.source.path == file
+        driver.shown(EditorScreen).session.close()
+        driver.app.pop()
+        assert driver.top() is browser
+    assert not (path / "received").exists()
+
+
 def test_an_empty_place_says_what_it_is_for(driver: MenuDriver, path: Path) -> None:
     packs.new_episode(path, "Empty", 0)
     screen = opened(driver)
@@ -769,6 +844,34 @@ def test_a_card_says_how_hard_its_level_is(driver: MenuDriver, path: Path) -> No
     opened(driver)
     seen = drawn(driver.app)
     assert [seen.count(f"text '{grade}' at") for grade in ("very hard", "medium", "easy")] == [1, 1, 6]
+
+
+def test_a_card_has_room_for_a_long_name_and_no_gold_where_there_is_none(driver: MenuDriver, path: Path) -> None:
+    packs.rename_level(path / "00-0-first-steps.txt", "The Locked Door of Noon")
+    packs.rename_episode(path, 1, "Episode 2")
+    screen = opened(driver)
+    seen = drawn(driver.app)
+    assert "text 'The Locked' at" in seen
+    assert "text 'Door of Noon' at" in seen
+    assert seen.count("text 'Episode 2' at") == 1
+    assert seen.count("text 'Episode 1' at") == 1, "beside its name"
+    level = screen.shelves.cells[1].level
+    assert level
+    assert level.pars
+    rich = replace(level, pars=replace(level.pars, gold=level.pars.exit))
+    screen.shelves.show([Cell(None, each) for each in (rich, replace(rich, named=replace(rich.named, level=Level())))])
+    with patch("ninja_game.play.menus.pack_shelves.draw_all_gold") as mark:
+        drawn(driver.app)
+    assert mark.call_count == 1
+
+
+def test_a_pack_needs_no_author(driver: MenuDriver) -> None:
+    screen = opened(driver)
+    driver.choose("New pack...")
+    assert "empty: unknown" in drawn(driver.app)
+    typed(driver, "Walls")
+    assert Pack(screen.path).index.author == "unknown"
+    assert driver.player.settings.name == ""
 
 
 def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver) -> None:

@@ -128,6 +128,9 @@ def test_a_pack_says_who_made_it_and_where_more_come_from(driver: MenuDriver) ->
     driver.press("up", "right")
     assert "'Other by Ida. Small rooms, one idea each.'" in drawn(driver.app)
     assert "Levels > Packs > Paste link takes in more" in drawn(driver.app)
+    assert "levels passed by" not in drawn(driver.app)
+    driver.app.change_settings(name="Bob")
+    assert "levels passed by Bob" in drawn(driver.app), "it says whose records these are"
 
 
 def test_levels_of_days_are_not_counted_among_those_of_the_game(driver: MenuDriver) -> None:
