@@ -61,7 +61,7 @@ class LevelSheet:
         self.look(canvas)
 
     def look(self, canvas: Canvas) -> None:
-        """Show another part of the level; grid lines and marks are to be shown again."""
+        """Show another part of the level; grid lines, and at another scale marks, are to be shown again."""
         book = shared_book(canvas.scale, self.palette.base)
         self.canvas, self.surface = canvas, pygame.Surface(canvas.size)
         self._seen = self.surface.get_rect().move(-canvas.origin[0], -canvas.origin[1])

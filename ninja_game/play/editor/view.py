@@ -246,7 +246,8 @@ class EditorView(Part):
             self.sheet.show(self.session.draft)
         self.overlay = Overlay(self.sheet, self._rect.topleft)
         self.sheet.show_grid(self.grid.lines())
-        self._marked = ()
+        if before[:3] != self._laid_out[:3]:
+            self._marked = ()
 
     def _point(self) -> None:
         """Have the pointer where the mouse is in the level."""

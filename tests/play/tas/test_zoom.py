@@ -6,8 +6,7 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.ui.canvas import LARGEST_SCALE
-from ninja_game.ui.canvas import Point
+from ninja_game.ui.canvas import LARGEST_SCALE, Point
 from tests.support.tas_driver import TasDriver
 
 
