@@ -151,13 +151,13 @@ class Camera:
     """Which part of a level is seen in a picture of some size (``window``, px); the mouse zooms and moves it.
 
     ``zoom``: 1: all of the level; one notch of the wheel multiplies it by ``step``, up to ``most``, 0: to
-    LARGEST_SCALE. ``centre``: what is in the middle, px of the level. ``held``: whether the mouse has hold of it,
-    ``moved``: and has moved since.
+    LARGEST_SCALE. ``centre``: what is in the middle, px of the level. ``held``: where the mouse has hold of it, px;
+    ``moved``: it has moved since.
     """
 
     def __init__(self, step: float = 1.25, most: float = 0.0) -> None:
         self._step, self._most = step, most
-        self._grabbed: tuple[int, int] | None = None
+        self.held: tuple[int, int] | None = None
         self.moved = False
         self.show_all()
 
@@ -191,24 +191,17 @@ class Camera:
         scale = self.canvas(window).scale
         self._look_at(window, self.centre[0] - dx / scale, self.centre[1] - dy / scale)
 
-    @property
-    def held(self) -> bool:
-        return self._grabbed is not None
-
     def grab(self, px: tuple[int, int]) -> None:
-        self._grabbed, self.moved = px, False
+        self.held, self.moved = px, False
 
     def drag(self, window: tuple[int, int], px: tuple[int, int]) -> None:
         """The mouse is there: what it has hold of goes along, once it has moved more than a hand trembles."""
-        if self._grabbed is not None:
-            dx, dy = px[0] - self._grabbed[0], px[1] - self._grabbed[1]
+        if self.held:
+            dx, dy = px[0] - self.held[0], px[1] - self.held[1]
             self.moved = self.moved or max(abs(dx), abs(dy)) > _STILL
             if self.moved:
                 self.move(window, dx, dy)
-                self._grabbed = px
-
-    def release(self) -> None:
-        self._grabbed = None
+                self.held = px
 
     def follow(self, window: tuple[int, int], x: float, y: float) -> None:
         """Have a place of the level well inside of the picture."""

@@ -324,11 +324,12 @@ class EditorView(Part):
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         camera, button = self.camera, getattr(event, "button", 0)
         if event.type == pygame.MOUSEBUTTONUP:
-            if button == pygame.BUTTON_MIDDLE and camera.held and not camera.moved:
-                self.press(pick=True)
-            if button != pygame.BUTTON_MIDDLE or not camera.moved:
+            if button != pygame.BUTTON_MIDDLE:
                 self.release()
-            camera.release()
+            elif camera.held and not camera.moved:
+                self.press(pick=True)
+                self.release()
+            camera.held = None
             return True
         self._mouse = self.app.canvas.point(x, y)
         self.hovering, self.by_keys = self._rect.collidepoint(self._mouse), False

@@ -263,11 +263,10 @@ class LevelPointer:
     @property
     def busy(self) -> bool:
         """Whether it goes along the run, or moves the picture."""
-        return self._goes or self._camera.held
+        return self._goes or self._camera.held is not None
 
     def release(self) -> None:
-        self._goes = False
-        self._camera.release()
+        self._goes, self._camera.held = False, None
 
     def handle_mouse(self, event: pygame.Event, x: float, y: float) -> None:
         """A mouse event at logical px of the window."""
