@@ -45,7 +45,7 @@ class Looker:
         self.drag(*(self.px(middle_of(cell)) for cell in cells), button=button)
 
     def is_as_drawn_at_once(self) -> bool:
-        """Whether the picture, repaired and moved, is that of a sheet that is drawn anew."""
+        """Whether the picture, repaired and moved, is that of a sheet that is drawn again."""
         self.room.frames(1)
         before = self.room.app.surface.copy()
         self.view._laid_out = ()
@@ -187,7 +187,8 @@ def test_all_that_lies_over_the_level_is_repaired_wherever_it_was_moved_to(room:
     near.view.show_grid(GRIDS[3])
     near.tools.symmetry = "both"
     room.editor.session.last_try = tuple((60.0 + k, 500.0 - k / 3) for k in range(400))
-    near.view.zoom(int(zoom == 4))
+    if zoom == 4:
+        near.view.zoom(1)
     near.view._signs = list  # type: ignore[method-assign]  # they come when the level has been examined
     area = near.view.overlay.area
     for step in ((-200, 90), (-333, 41), (120, -60), (-5000, -5000)):
