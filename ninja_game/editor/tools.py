@@ -117,6 +117,11 @@ class EditorTools:
         """Whether what is chosen follows the pointer."""
         return self._doing == "drag"
 
+    @property
+    def busy(self) -> bool:
+        """Whether anything is being drawn or dragged."""
+        return bool(self._doing)
+
     def load(self, draft: Draft) -> None:
         """Work on another level: the first tile is in hand again, and what is drawn has no images."""
         self.finish()
@@ -285,11 +290,11 @@ class EditorTools:
         self._change(stamps.Stamp({}, tuple(self.placed(*place, snap) for place in places)), self.history.began)
 
     def bend(self, steps: int) -> bool:
-        """Bend the line that is being drawn to its right; whether anything is being drawn or dragged."""
+        """Bend the line that is being drawn to its right; whether it is busy."""
         if self._doing == "line":
             self._bend += BEND * steps
             self._draw_shape()
-        return bool(self._doing)
+        return self.busy
 
     def _drop(self) -> None:
         spec = self.placed(*self.pointer)

@@ -49,8 +49,8 @@ HELP = """\
 A first level: draw a floor with the left mouse button. Take the ninja from the objects at the right and click where \
 it begins; take the exit, click where it is, then where its switch is. Test plays the level, Certify lets the solver \
 look for a run, Save (in File) puts it into the menu Levels.
-The right button erases, the middle one picks. Doors go to the nearest side of a cell, \
-or to the one chosen; then click where the switch is. \
+The right button erases, the middle one picks; the wheel zooms, then the middle one drags the level. \
+Doors go to the nearest side of a cell, or to the one chosen; then click where the switch is. \
 Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette shows; \
 W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move what is selected."""
 
@@ -105,6 +105,7 @@ class EditorCommands(DocumentCommands):
             "turn": lambda: view.turn(CLOCKWISE),
             "symmetry": lambda: self.mirror(following(list(SYMMETRIES), tools.symmetry)),
             "grid": lambda: view.show_grid(following(GRIDS, view.grid)),
+            "zoom_in": lambda: view.zoom(1), "zoom_out": lambda: view.zoom(-1), "zoom": lambda: view.zoom(0),
             "slopes": self.switch_slopes,
             "list": lambda: setattr(view, "listing", not view.listing),
             "lines": lambda: setattr(view, "lines", not view.lines),
@@ -176,6 +177,7 @@ class EditorCommands(DocumentCommands):
             tools.tool = "select"
         if places:
             tools.pointer = places[0]
+            self.view.follow(*places[0])
             self.view.hovering = True
         self.view.hint = finding.advice
 

@@ -10,7 +10,7 @@ import pygame
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
-from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, word
+from ninja_game.editor.specs import BODY, SWITCH, carried, has_switch, object_type_name, points, properties, word
 from ninja_game.editor.tools import (
     CURVES,
     NEAREST,
@@ -241,7 +241,8 @@ class ToolButton(Button):
         theme.row(surface, self.area, chosen=lit, focused=lit, radius=3)
         self.enabled = {"undo": tools.history.can_undo, "redo": tools.history.can_redo}.get(self.name, True)
         grid, certify = self.view.grid.name, self.view.session.certify_text
-        text = self.text.format(symmetry=tools.symmetry, grid=grid, snap=tools.snap, certify=certify)
+        zoom = f"{self.view.camera.zoom:g}x".replace("1x", "fit")
+        text = self.text.format(symmetry=tools.symmetry, grid=grid, snap=tools.snap, certify=certify, zoom=zoom)
         colour = theme.palette.text if self.enabled else theme.palette.faint
         bold, place = lit or focused, (x + w / 2, y + (h - 9) / 2)
         theme.text(surface, text, *place, size=9, colour=colour, align="centre", bold=bold, width=w)
@@ -308,7 +309,9 @@ class PalettePart(EditorPart):
         used = super().mouse(event, x, y)
         if used:
             self._palette.hover(x, y)
-        return used
+        elif event.type == pygame.MOUSEWHEEL:
+            self._palette.step(-event.y)
+        return used or event.type == pygame.MOUSEWHEEL
 
     def mouse_left(self) -> None:
         self._palette.hovered = None
@@ -416,6 +419,11 @@ class FilePart(EditorPart):
 class StatusLine(EditorPart):
     area = LAYOUT.status
 
+    def __init__(self, view: EditorView, run: Callable[[str], object]) -> None:
+        super().__init__(view)
+        x, y, w, _ = self.area
+        self.widgets = [ToolButton((x + w - 62, y + 2, 58, 17), "zoom", "Zoom: {zoom}", run, view)]
+
     def _text(self) -> str:
         tools = self.session.tools
         if tools.placing_switch:
@@ -427,7 +435,7 @@ class StatusLine(EditorPart):
         return self.view.hint or _TOOL_HINTS[tools.effective_tool]
 
     def render_key(self) -> tuple[object, ...]:
-        return self.session.tools.pointer, self._text()
+        return self.session.tools.pointer, self._text(), self.view.camera.zoom
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
@@ -435,11 +443,11 @@ class StatusLine(EditorPart):
         (column, row), (x, y) = tools.cell, tools.pointer
         theme.text(surface, f"{column},{row}", 8, top, size=9.5, colour=colour)
         theme.text(surface, f"{x:.0f},{y:.0f} px", 58, top, size=9.5, colour=colour)
-        theme.text(surface, self._text(), 140, top, size=9.5, colour=colour, width=640)
+        theme.text(surface, self._text(), 140, top, size=9.5, colour=colour, width=584)
 
 
 _TOOL_HINTS = {
-    "brush": "Left button draws, right erases, middle picks; wheel: next in the palette. F1: help",
+    "brush": "Left button draws, right erases, middle picks; wheel zooms, middle drag moves. F1: help",
     "rectangle": "Drag a rectangle; right button erases. F1: help",
     "line": "Drag a line; the wheel bends it meanwhile; objects lie along it. F1: help",
     "ellipse": "Drag an ellipse; tiles fill it, objects lie along it. F1: help",
@@ -532,7 +540,9 @@ class ObjectList(EditorPart):
     def _choose(self, place: int) -> None:
         tools = self.session.tools
         number = self.shown[place]
-        parts = frozenset((number, part) for part in points(tools.draft.objects[number]))
+        places = points(tools.draft.objects[number])
+        parts = frozenset((number, part) for part in places)
+        self.view.follow(*places.get(BODY, tools.pointer))
         tools.choose(parts ^ tools.selection.parts if _shift() else parts)
         tools.tool = "select"
 

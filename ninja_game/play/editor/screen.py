@@ -35,13 +35,13 @@ class EditorScreen(WorkspaceScreen):
         self.session = EditorSession(app, source)
         x, y, w, h = LAYOUT.palette
         self.palette = PaletteView((x + 6, y + 4, w - 10, h - 19), self.session.tools)
-        self.view = EditorView(app, self.session, self.palette.step)
+        self.view = EditorView(app, self.session)
         self.commands = EditorCommands(app, self.session, self.view, self.palette)
         self.properties = Properties(self.view)
         self.sides: tuple[Part, Part] = PalettePart(self.view, self.palette, self.run), ObjectList(self.view, self.run)
         self._parts: list[Part] = [
             self.view, Toolbar(self.view, self.commands.choose), self.properties,
-            Findings(self.view, self.commands.go_to_finding), FilePart(self.view), StatusLine(self.view),
+            Findings(self.view, self.commands.go_to_finding), FilePart(self.view), StatusLine(self.view, self.run),
         ]  # fmt: skip
         self._dragged_to: InputEvent | None = None
         self._entered = not offers_recovered
@@ -121,6 +121,7 @@ class EditorScreen(WorkspaceScreen):
         step = SNAPS[snap]
         self.view.hovering = self.view.by_keys = True
         tools.move(*snapped(x + dx * step, y + dy * step, snap))
+        self.view.follow(*tools.pointer)
 
     def _choose_by_key(self, key: str) -> bool:
         """Keys that choose a tile, an object, a direction; Shift and arrows move what is selected."""

@@ -25,9 +25,9 @@ from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import CELL, STRIDE
-from ninja_game.ui.canvas import Canvas, Colour, Point
+from ninja_game.ui.canvas import Canvas, Colour, Lens, Point
 from ninja_game.ui.theme import Palette
-from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook, is_near
+from ninja_game.view.sprites.drawing import DrawTarget, is_near, shared_book
 from ninja_game.view.sprites.tile_sheet import TileSheet
 
 _FRONT = {kinds.GOLD: 1, kinds.MINE: 1, kinds.NINJA: 3} | {kind.number: 2 for kind in kinds.KINDS if kind.moves}
@@ -43,24 +43,37 @@ COVERED_ALPHA = 4
 class LevelSheet:
     """``surface``: the picture, without what follows the mouse. ``canvas``: from px of the level to px of the sheet.
 
+    ``flat``: to px from the level's own corner, which stay where another part is seen; those of marks are such.
     What is shown is drawn by the next ``paint``.
     """
 
-    def __init__(self, size: tuple[int, int], palette: Palette) -> None:
-        self.canvas = Canvas(size)
+    def __init__(self, canvas: Canvas, palette: Palette) -> None:
         self.palette = palette
-        self.surface = pygame.Surface(self.canvas.size)
-        self.book = SpriteBook(self.canvas.scale, palette)
-        self.target = DrawTarget(self.canvas, palette, self.book)
-        self.pictures = ObjectPictures(self.target)
+        self.flat = Lens(canvas.window, canvas.scale, (0, 0))
+        self.pictures = ObjectPictures(DrawTarget(self.flat, palette, shared_book(canvas.scale, palette.base)))
         self.draft: Draft | None = None
-        self._tiles = TileSheet(self.canvas, palette.tile)
         self._looks: dict[ObjectSpec, ObjectSprites] = {}
         self._order: list[ObjectSprites] = []
         self._rects: list[pygame.Rect] = []
         self.marks: dict[Hashable, LevelMark] = {}
         self._grid: pygame.Surface | None = None
         self._dirty: list[pygame.Rect] = []
+        self.look(canvas)
+
+    def look(self, canvas: Canvas) -> None:
+        """Show another part of the level; grid lines, and at another scale marks, are to be shown again."""
+        book = shared_book(canvas.scale, self.palette.base)
+        self.canvas, self.surface = canvas, pygame.Surface(canvas.size)
+        self._seen = self.surface.get_rect().move(-canvas.origin[0], -canvas.origin[1])
+        self.target = DrawTarget(canvas, self.palette, book)
+        self._tiles = TileSheet(canvas, self.palette.tile)
+        if canvas.scale != self.flat.scale:
+            self.flat = Lens(canvas.window, canvas.scale, (0, 0))
+            self.pictures.target = DrawTarget(self.flat, self.palette, book)
+            self.marks, self._looks = {}, {}
+        draft, self.draft = self.draft, None
+        if draft:
+            self.show(draft)
 
     def show(self, draft: Draft) -> None:
         before, self.draft = self.draft, draft
@@ -68,7 +81,7 @@ class LevelSheet:
             static = TileMap()
             static.tiles = grid_tiles(draft.level)
             self._tiles.show(static)
-            self._dirty.append(self.surface.get_rect())
+            self._dirty.append(self._seen)
         else:
             self._change_tiles(before, draft)
         if before is None or before.objects != draft.objects:
@@ -79,7 +92,7 @@ class LevelSheet:
         grid = grid_tiles(draft.level) if changed else []
         for column, row in changed:
             self._tiles.draw(column, row, grid[(row + 1) * STRIDE + column + 1])
-            self._dirty.append(self._tiles.cell(column, row))
+            self._dirty.append(self.flat.rect(CELL * column, CELL * row, CELL, CELL))
 
     def _change_objects(self, draft: Draft) -> None:
         before = self._looks
@@ -105,23 +118,23 @@ class LevelSheet:
             colour = (*self.palette.accent[:3], 150) if middle else (*self.palette.text[:3], 60)
             ends = ((at, CELL), (at, CELL * (ROWS + 1))) if upright else ((CELL, at), (CELL * (COLUMNS + 1), at))
             pygame.draw.line(self._grid, colour, self.canvas.point(*ends[0]), self.canvas.point(*ends[1]))
-        self._dirty.append(self.surface.get_rect())
+        self._dirty.append(self._seen)
 
     def paint(self) -> list[pygame.Rect]:
-        """Draw what is shown now and was not before; the px that changed."""
-        dirty, self._dirty = joined(self._dirty), []
+        """Draw what is shown now and was not before; the px of the sheet that changed."""
+        dirty, self._dirty = joined(area.clip(self._seen) for area in self._dirty), []
         for area in dirty:
-            self._repaint_area(area.clip(self.surface.get_rect()))
-        return dirty
+            self._repaint_area(area)
+        return [area.move(self.canvas.origin) for area in dirty]
 
-    def _repaint_area(self, area: pygame.Rect) -> None:
-        surface, target = self.surface, self.target
-        if not area.width or self.draft is None:
+    def _repaint_area(self, flat: pygame.Rect) -> None:
+        surface, target, area = self.surface, self.target, flat.move(self.canvas.origin)
+        if self.draft is None:
             return
         surface.set_clip(area)
         surface.fill(self.palette.background)
         target.begin(surface)
-        near = area.collidelistall(self._rects)
+        near = flat.collidelistall(self._rects)
         for number in near:
             self._order[number].draw(target)
         if self._tiles.on_tiles([area]):
@@ -132,7 +145,7 @@ class LevelSheet:
         if self._grid is not None:
             surface.blit(self._grid, area, area)
         for mark in self.marks.values():
-            if area.collidelist(mark.rects) >= 0:
+            if flat.collidelist(mark.rects) >= 0:
                 mark.draw(target)
         surface.set_clip(None)
 
@@ -189,9 +202,9 @@ GRIDS = (
 
 
 class LevelMark(NamedTuple):
-    """Something drawn over the level: a line, a sign. ``rects``: the px that it may cover."""
+    """Something drawn over the level: a line, a sign. ``rects``: the flat px that it may cover."""
 
-    draw: Callable[[DrawTarget], None]
+    draw: Callable[[DrawTarget], object]
     rects: tuple[pygame.Rect, ...]
 
 
@@ -220,8 +233,8 @@ def route_mark(canvas: Canvas, colour: Colour, route: Route) -> LevelMark:
         target.disc(colour, *shown[-1], 3.0)
 
     x, y = [point[0] for point in shown], [point[1] for point in shown]
-    box = canvas.rect(min(x), min(y), max(x) - min(x), max(y) - min(y))
-    return LevelMark(draw, (box.inflate(20, 20),))
+    box = canvas.rect(min(x) - 5, min(y) - 5, max(x) - min(x) + 10, max(y) - min(y) + 10)
+    return LevelMark(draw, (box.inflate(8, 8),))
 
 
 def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
@@ -259,10 +272,9 @@ def said_places(says: str) -> list[Point]:
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:
-    rect = canvas.rect(CELL * cell[0], CELL * cell[1], CELL, CELL)
-    veil = pygame.Surface(rect.size, pygame.SRCALPHA)
-    veil.fill((*palette.accent[:3], round(40 + 140 * share)))
-    return LevelMark(lambda target: target.covered.append(target.surface.blit(veil, rect)), (rect,))
+    area, (r, g, b, _) = (CELL * cell[0], CELL * cell[1], CELL, CELL), palette.accent
+    colour = r, g, b, round(40 + 140 * share)
+    return LevelMark(lambda target: target.canvas.fill_rect(target.surface, colour, *area), (canvas.rect(*area),))
 
 
 def death_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:

@@ -31,7 +31,7 @@ from ninja_game.play.workspace import Part
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
-from ninja_game.ui.canvas import Canvas, Colour, Point
+from ninja_game.ui.canvas import Camera, Colour, Lens, Point
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Area, Palette, Theme
 from ninja_game.ui.widgets import Widget
@@ -42,6 +42,8 @@ GHOST = 5
 """Eighths as solid as what is there is what would be drawn."""
 NEAR_SWITCH_PX = 1.0
 """A switch so near, px, would not be seen under the next exit: nothing is drawn over one that was just placed."""
+EDGE_SPEED = 0.3
+"""What is dragged beyond an edge of the level moves the picture by so many logical px a ms."""
 
 
 @drawing(13)
@@ -51,28 +53,26 @@ def _ring(s: Sketch, p: Palette, colour: str) -> None:
 
 
 class Overlay:
-    """Draws over a sheet that is shown with its upper left corner at ``origin``, px of the window."""
+    """Draws over a sheet that is shown with its upper left corner at ``corner``, px of the window.
 
-    def __init__(self, sheet: LevelSheet, origin: tuple[int, int]) -> None:
+    ``area``: of the sheet; ``canvas``: from px of the level, both px of the window.
+    """
+
+    def __init__(self, sheet: LevelSheet, corner: tuple[int, int]) -> None:
         self.sheet = sheet
-        self.canvas = Canvas(sheet.canvas.size)
-        self.canvas.origin = origin
-        self.target = DrawTarget(self.canvas, sheet.palette, sheet.book)
+        self.area = sheet.surface.get_rect(topleft=corner)
+        (x, y), seen = corner, sheet.canvas
+        self.canvas = Lens(seen.window, seen.scale, (x + seen.origin[0], y + seen.origin[1]))
+        self.target = DrawTarget(self.canvas, sheet.palette, sheet.target.book)
         self._reach: Reach | None = None
         self._reached, self._seen = pygame.Surface((1, 1)), pygame.Rect(0, 0, 0, 0)
 
-    @property
-    def area(self) -> pygame.Rect:
-        """The px of the level in the window."""
-        return pygame.Rect(self.canvas.origin, self.canvas.size)
-
     def restore(self, surface: pygame.Surface, rects: list[pygame.Rect]) -> list[pygame.Rect]:
         """Show the sheet where these px of it have changed, and where the overlay was; the px of the window."""
-        origin = self.canvas.origin
-        changed = joined([rect.move(origin) for rect in rects] + self.target.covered)
+        x, y = self.area.topleft
+        changed = joined(rect.clip(self.area) for rect in [each.move(x, y) for each in rects] + self.target.covered)
         for rect in changed:
-            shown = rect.clip(self.area)
-            surface.blit(self.sheet.surface, shown, shown.move(-origin[0], -origin[1]))
+            surface.blit(self.sheet.surface, rect, rect.move(-x, -y))
         return changed
 
     def draw(
@@ -107,7 +107,7 @@ class Overlay:
             found = [(reach.spans, palette.good, 70), (reach.deaths, palette.bad, 255)]
             squares = [((*c[:3], a), canvas.rect(x, y, w, SQUARE)) for spans, c, a in found for x, y, w in spans]
             rects = [rect for _, rect in squares] or [pygame.Rect(canvas.origin, (1, 1))]
-            self._seen = rects[0].unionall(rects)
+            self._seen = rects[0].unionall(rects).clip(self.area)
             self._reached = pygame.Surface(self._seen.size, pygame.SRCALPHA)
             for paint, rect in squares:
                 self._reached.fill(paint, rect.move(-self._seen.x, -self._seen.y))
@@ -204,11 +204,12 @@ class EditorView(Part):
     ``taker``: gets the cell of the next press in the level, which draws nothing then; None where it is given up.
     ``open_message``: called with the cell of a message that is clicked twice.
     ``listing``: the list of objects is shown in the place of the palette; ``tests``: the map of the tests is shown.
+    ``camera``: the part of the level that is seen.
     """
 
     area = LAYOUT.level
 
-    def __init__(self, app: App, session: EditorSession, step_palette: Callable[[int], object]) -> None:
+    def __init__(self, app: App, session: EditorSession) -> None:
         self.app = app
         self.session = session
         self.hovering = self.by_keys = False
@@ -219,23 +220,64 @@ class EditorView(Part):
         self.taker: Callable[[Cell | None], None] | None = None
         self.open_message: Callable[[Cell], object] = lambda _: None
         self._pressed: tuple[Cell, int, Draft] | None = None
-        self._step_palette = step_palette
+        self.camera = Camera(2.0, 4.0)
+        self._mouse = (0, 0)
         self._held = False
         self._marked: tuple[object, ...] = ()
+        self._laid_out: tuple[object, ...] = ()
+        self.sheet: LevelSheet
         self._lay_out()
 
     def _layout_key(self) -> tuple[object, ...]:
-        return self.app.canvas, self.app.theme.palette.name
+        return self.app.canvas, self.app.theme.palette.name, *self.camera.render_key
+
+    @property
+    def _rect(self) -> pygame.Rect:
+        return self.app.canvas.rect(*self.area)
 
     def _lay_out(self) -> None:
-        canvas = self.app.canvas
-        x, y, w, h = self.area
-        self.sheet = LevelSheet(canvas.rect(x, y, w, h).size, self.app.theme.palette)
-        self.overlay = Overlay(self.sheet, canvas.point(x, y))
-        self.sheet.show(self.session.draft)
+        """Have the window's size, the palette, and what the camera shows."""
+        before, self._laid_out = self._laid_out, self._layout_key()
+        seen = self.camera.canvas(self._rect.size)
+        if before[:2] == self._laid_out[:2]:
+            self.sheet.look(seen)
+        else:
+            self.sheet = LevelSheet(seen, self.app.theme.palette)
+            self.sheet.show(self.session.draft)
+        self.overlay = Overlay(self.sheet, self._rect.topleft)
         self.sheet.show_grid(self.grid.lines())
-        self._laid_out = self._layout_key()
-        self._marked = ()
+        if before[:3] != self._laid_out[:3]:
+            self._marked = ()
+
+    def _point(self) -> None:
+        """Have the pointer where the mouse is in the level."""
+        (left, top), size = self._rect.topleft, self._rect.size
+        seen = self.camera.canvas(size)
+        self.session.tools.move(*seen.logical((self._mouse[0] - left, self._mouse[1] - top)))
+
+    def zoom(self, steps: int) -> None:
+        """Show the level larger or smaller about the pointer; 0: all of it, or twice as large where all is seen."""
+        camera, size = self.camera, self._rect.size
+        if not steps and camera.zoom > 1:
+            camera.show_all()
+        else:
+            camera.zoom_at(size, camera.canvas(size).point(*self.session.tools.pointer), steps or 1)
+        if self.hovering and not self.by_keys:
+            self._point()
+
+    def follow(self, x: float, y: float) -> None:
+        """Have a place of the level in the picture."""
+        if is_near(x, y):
+            self.camera.follow(self._rect.size, x, y)
+
+    def update(self, real_ms: int) -> None:
+        """What is dragged beyond an edge takes the picture along."""
+        rect, (x, y) = self._rect, self._mouse
+        if self.session.tools.busy and not (self.by_keys or self.camera.zoom == 1 or rect.collidepoint(x, y)):
+            way = real_ms * EDGE_SPEED * self.app.canvas.scale
+            dx, dy = (x < rect.left) - (x >= rect.right), (y < rect.top) - (y >= rect.bottom)
+            self.camera.move(rect.size, way * dx, way * dy)
+            self._point()
 
     def show_grid(self, grid: Grid) -> None:
         self.grid = grid
@@ -280,18 +322,27 @@ class EditorView(Part):
         return held
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        if event.type == pygame.MOUSEWHEEL:
-            self._step_palette(-event.y)
-            return True
+        camera, button = self.camera, getattr(event, "button", 0)
         if event.type == pygame.MOUSEBUTTONUP:
-            self.release()
+            if button != pygame.BUTTON_MIDDLE:
+                self.release()
+            elif camera.held and not camera.moved:
+                self.press(pick=True)
+                self.release()
+            camera.held = None
             return True
-        self.session.tools.move(*self.overlay.canvas.logical(event.pos))
-        self.hovering, self.by_keys = self.overlay.area.collidepoint(event.pos), False
-        if event.type == pygame.MOUSEBUTTONDOWN:
+        self._mouse = self.app.canvas.point(x, y)
+        self.hovering, self.by_keys = self._rect.collidepoint(self._mouse), False
+        if event.type == pygame.MOUSEMOTION and event.buttons[1]:
+            camera.drag(self._rect.size, self._mouse)
+        self._point()
+        if event.type == pygame.MOUSEWHEEL and not self.session.tools.bend(-event.y):
+            self.zoom(event.y)
+        elif button == pygame.BUTTON_MIDDLE:
+            camera.grab(self._mouse)
+        elif button:
             add = bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
-            right, middle = event.button == pygame.BUTTON_RIGHT, event.button == pygame.BUTTON_MIDDLE
-            self.press(erase=right, pick=middle, add=add)
+            self.press(erase=button == pygame.BUTTON_RIGHT, add=add)
         return True
 
     def mouse_left(self) -> None:

@@ -34,8 +34,6 @@ _LEAP = 40.0
 
 LINE = 13.0  # height of what is written below the level, logical px
 
-_STILL = 3  # the mouse that moves less, px, clicks
-
 Px = tuple[int, int]
 
 
@@ -259,17 +257,16 @@ class LevelPointer:
         self._part = part
         self._editor = part.editor
         self._goes = False
-        self._grabbed: Px | None = None
+        self._camera = part.picture.camera
         self._button = 0
-        self._moved = False
 
     @property
     def busy(self) -> bool:
         """Whether it goes along the run, or moves the picture."""
-        return self._goes or self._grabbed is not None
+        return self._goes or self._camera.held is not None
 
     def release(self) -> None:
-        self._goes, self._grabbed = False, None
+        self._goes, self._camera.held = False, None
 
     def handle_mouse(self, event: pygame.Event, x: float, y: float) -> None:
         """A mouse event at logical px of the window."""
@@ -281,10 +278,11 @@ class LevelPointer:
         if event.type == pygame.MOUSEWHEEL:
             self._wheel(event.y, rect.size, at)
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button in (pygame.BUTTON_MIDDLE, pygame.BUTTON_RIGHT):
-            self._grabbed, self._button, self._moved = at, event.button, False
-        elif event.type == pygame.MOUSEMOTION and self._grabbed is not None:
-            self._drag(rect.size, at)
-        elif event.type == pygame.MOUSEBUTTONUP and self._grabbed is None:
+            self._camera.grab(at)
+            self._button = event.button
+        elif event.type == pygame.MOUSEMOTION and self._camera.held:
+            self._camera.drag(rect.size, at)
+        elif event.type == pygame.MOUSEBUTTONUP and not self._camera.held:
             self.release()
         elif event.type == pygame.MOUSEBUTTONUP and event.button == self._button:
             self._click()
@@ -294,26 +292,17 @@ class LevelPointer:
     def _wheel(self, notches: float, size: Px, at: Px) -> None:
         part = self._part
         if not pygame.key.get_mods() & pygame.KMOD_CTRL:
-            part.picture.camera.zoom_at(size, at, notches)
+            self._camera.zoom_at(size, at, notches)
         elif not part.take_over.on:
             part.playing.step(-round(notches))
 
-    def _drag(self, size: Px, at: Px) -> None:
-        if self._grabbed is None:
-            return
-        dx, dy = at[0] - self._grabbed[0], at[1] - self._grabbed[1]
-        self._moved = self._moved or max(abs(dx), abs(dy)) > _STILL
-        if self._moved:
-            self._part.picture.camera.move(size, dx, dy)
-            self._grabbed = at
-
     def _click(self) -> None:
-        part, moved = self._part, self._moved
+        part = self._part
         self.release()
-        if moved or part.take_over.on:
+        if self._camera.moved or part.take_over.on:
             return
         if self._button == pygame.BUTTON_MIDDLE:
-            part.picture.camera.show_all()
+            self._camera.show_all()
         elif part.pointed is not None:
             part.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
 
@@ -332,7 +321,7 @@ class LevelPointer:
         part.point_at(tick, None if dragged else object_at(part.picture.run, *place))
         found = part.pointed
         words = f"{found.kind} {found.id}; right button: watch it; " if found else ""
-        zoomed = part.picture.camera.zoom > 1
+        zoomed = self._camera.zoom > 1
         click = f"Click: to tick {tick}; " * (tick is not None)
         editor.hint = f"{words}{click}wheel: zoom{', right button: move, 0: all' if zoomed else ''}"
         self._goes = tick is not None and (dragged or pressed)

@@ -32,8 +32,10 @@ class TileSheet:
         self._rows = [0] * GRID_ROWS
 
     def show(self, level: TileMap) -> None:
-        for row in range(GRID_ROWS):
-            for column in range(GRID_COLUMNS):
+        seen, logical = self.canvas.stage, self.canvas.logical
+        (left, top), (right, bottom) = logical(seen.topleft), logical(seen.bottomright)
+        for row in range(GRID_ROWS)[int((top - 1) / 24) : int(bottom / 24) + 1]:
+            for column in range(GRID_COLUMNS)[int((left - 1) / 24) : int(right / 24) + 1]:
                 self.draw(column, row, level.tiles[(row + 1) * STRIDE + column + 1])
 
     def cell(self, column: int, row: int) -> pygame.Rect:
