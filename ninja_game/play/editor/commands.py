@@ -137,8 +137,7 @@ class EditorCommands(DocumentCommands):
 
     def switch_slopes(self) -> None:
         tools = self.session.tools
-        tools.slopes = not tools.slopes
-        self.app.change_settings(slopes=tools.slopes)
+        self.session.set_slopes(not tools.slopes)
         how = "set themselves where full tiles are drawn or erased" if tools.slopes else "stay as drawn"
         self.view.hint = f"Slopes {how}"
 

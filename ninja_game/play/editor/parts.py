@@ -99,15 +99,16 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
             rows.append(partial(Label, text="Then click where its switch is", size=9.5, faint=True))
         elif tools.effective_tool in CURVES:
             words = [(f"one every {spacing:.0f} px", spacing) for spacing in SPACINGS]
-            rows.append(lambda area: _setting(area, tools, "spacing", words, "How far apart they lie along it"))
+            put, hint = partial(setattr, tools, "spacing"), "How far apart they lie along it"
+            rows.append(lambda area: Choice(area, "", words, lambda: tools.spacing, put, hint=hint))
     else:
         title = f"Draw: {tile_name(tools.tile)}"
         first = FIRST_STEPS if tools.draft.level == Level() else ()
         rows += [partial(Label, text=text, size=9.5) for text in first]
         texts = ["1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn"]
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
-        words = [("slopes: by hand", False), ("slopes: by themselves", True)]
-        rows.append(lambda area: _setting(area, tools, "slopes", words, TABLE.hint("slopes")))
+        words, put = [("slopes: by hand", False), ("slopes: by themselves", True)], view.session.set_slopes
+        rows.append(lambda area: Choice(area, "", words, lambda: tools.slopes, put, hint=TABLE.hint("slopes")))
     head = Label((x, y, w, 15), title, size=10)
     made = [make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows)]
     return [head, *(each for widgets in made for each in (widgets if isinstance(widgets, Sequence) else [widgets]))]
@@ -161,10 +162,6 @@ def _ask_kind(view: EditorView) -> None:
     change = view.session.tools.change_each
     rows: list[Row] = [(each.capitalize(), partial(change, partial(remade, name=each)), "") for each in OTHER_KINDS]
     view.app.push(Menu(view.app, "Selected objects become", [*rows, CANCEL]))
-
-
-def _setting(area: Area, tools: EditorTools, name: str, words: Sequence[tuple[str, object]], hint: str) -> Widget:
-    return Choice(area, "", words, lambda: getattr(tools, name), partial(setattr, tools, name), hint=hint)
 
 
 def _common(specs: Sequence[ObjectSpec]) -> list[str]:
@@ -424,7 +421,8 @@ class StatusLine(EditorPart):
             return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc gives up"
         if self.view.hovering and tools.draft.says and tools.cell in said_cells(tools.draft.says):
             return "A message near this place: a double click opens it, dragging it with Select moves it"
-        return self.view.hint or _TOOL_HINTS[tools.effective_tool]
+        slopes = "Slopes by themselves. " * (tools.slopes and not tools.objects and tools.tool not in ("select", "pick"))
+        return self.view.hint or slopes + _TOOL_HINTS[tools.effective_tool]
 
     def render_key(self) -> tuple[object, ...]:
         return self.session.tools.pointer, self._text()

@@ -141,6 +141,11 @@ class EditorSession:
         path = self.source.path
         return Entry(NamedLevel(self.name, "", "", self.draft.level, str(path)), YOURS) if path else None
 
+    def set_slopes(self, slopes: bool) -> None:
+        """Whether slopes set themselves, in this editor and all later ones."""
+        self.tools.slopes = slopes
+        self.app.change_settings(slopes=slopes)
+
     @property
     def draft(self) -> Draft:
         return self.tools.draft
