@@ -147,6 +147,12 @@ class EditorSession:
         self.app.change_settings(slopes=slopes)
 
     @property
+    def way(self) -> bytes:
+        """The inputs of the run that certifies the level as it is; none without one."""
+        run = self.certifier.search.run
+        return run.inputs if run and not self.certifier.is_stale(self.draft.level) else b""
+
+    @property
     def draft(self) -> Draft:
         return self.tools.draft
 
@@ -193,6 +199,8 @@ class EditorSession:
         known, self._known_runs.result = self._known_runs.result, None
         if known and known.level == self.draft.level:
             self.certifier.adopt(known)
+        if self.certifier.waits and self.certifier.is_stale(self.draft.level) and not self.tools.history.in_stroke:
+            self.certifier.start(self.draft.level)
         if not self.certifier.busy:
             self.certify_file()
         self.autosave.poll(self.draft, self.source)

@@ -33,8 +33,9 @@ def find_field(room: Maker) -> tuple[float, float]:
 
 def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> None:
     session = room.editor.session
-    room.press("m", "y", "f3")
+    room.press("m", "y")
     room.chord("s", pygame.KMOD_LSHIFT)
+    room.press("f3")
     room.mouse(*find_field(room))
     room.type("exit")
     listed = room.editor.sides[1]
@@ -46,7 +47,7 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     room.frames()
     assert (listed._find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
     assert (session.tools.symmetry, session.start, session.tools.slopes) == ("left-right", "standing", True)
-    room.editor.focus = None
+    room.press("escape")
     room.press("grave", "6", "a", "r")
     session.begin(Source(ROOM))
     room.frames()
