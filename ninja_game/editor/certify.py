@@ -98,7 +98,7 @@ class Search:
 
     ``progress``: the newest one, None until the solver is ready. ``end``: why it is over, "" as long as it is not, and
     ``failed``: whether by an error; ``obstacles``: what kept it from a run in all its ``seconds``. ``then``: called at
-    the end, in the solver's thread. ``stopping``: set to end it. With a run ``obstacles`` are the doors that it passes by.
+    the end, in the solver's thread. ``stopping``: set to end it. Obstacles of a run are the doors that it passes by.
     """
 
     level: Level | None = None

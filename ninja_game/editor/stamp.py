@@ -354,7 +354,7 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
         found: list[tuple[float, tuple[_Stretch, ...]]] = [(inf, ())]
         for stretch in _STRETCHES:
             x, y = at[0] + stretch.right, at[1] - stretch.up
-            # It ends flat in a middle column, begins upright in a middle row, and has no first or last cells of no size.
+            # It begins upright in a middle row and ends flat in a middle column; no cell at its ends stays empty.
             last = x == wide and stretch.up and (columns % 2 or not stretch.right)
             first = at[1] == high and stretch.right and (rows % 2 or not stretch.up)
             if x <= wide and y >= 0 and stretch.begins <= heading and not (first or last):

@@ -143,9 +143,8 @@ class EditorCommands(DocumentCommands):
         self.view.hint = f"Slopes {how}"
 
     def switch(self, name: str, what: str) -> None:
-        shown = not getattr(self.view, name)
-        setattr(self.view, name, shown)
-        self.view.hint = f"{what} are {'shown' if shown else 'hidden'}. Key {key_text(TABLE.by_name[name])}"
+        setattr(self.view, name, not getattr(self.view, name))
+        self.view.hint = f"{what} are {'shown' if getattr(self.view, name) else 'hidden'}"
 
     def switch_tests(self) -> None:
         """Show where all tests of this session came and died, or no more."""

@@ -440,7 +440,9 @@ class StatusLine(EditorPart):
         if self.view.hovering and tools.draft.says and tools.cell in (cells := said_cells(tools.draft.says)):
             text = parse_messages(tools.draft.says)[cells.index(tools.cell)].text
             return f"Double click opens the message, Select drags it: {text}"
-        slopes = "Slopes by themselves. " * (tools.slopes and not tools.objects and tools.tool not in ("select", "pick"))
+        slopes = "Slopes by themselves. " * (
+            tools.slopes and not tools.objects and tools.tool not in ("select", "pick")
+        )
         return self.view.hint or slopes + _TOOL_HINTS[tools.effective_tool]
 
     def render_key(self) -> tuple[object, ...]:

@@ -677,10 +677,9 @@ def test_what_is_pasted_has_its_buttons_and_esc_leads_back_to_what_was_selected(
     room.chord("c", pygame.KMOD_LCTRL)
     room.chord("v", pygame.KMOD_LCTRL)
     assert room.editor.properties.widgets[0].text == "A click pastes: 8 cells, 2 objects"  # type: ignore[attr-defined]
-    ninja = next(spec for spec in (tools.ghost or tools.clipboard or pytest.fail()).objects if spec.kind == NINJA)
+    before_turn = tools.ghost
     room.choose("Mirror")
-    assert tools.ghost
-    assert ninja not in tools.ghost.objects
+    assert tools.ghost not in (None, before_turn)
     room.press("escape")
     assert not tools.ghost
     assert (tools.selection, tools.tool) == (before, "select")
@@ -706,7 +705,7 @@ def test_find_has_the_keys_from_the_start_until_it_is_left(room: Maker) -> None:
 
 def test_the_line_to_its_switch_is_drawn_for_what_is_selected_though_lines_are_hidden(room: Maker) -> None:
     room.press("t", "v")
-    assert "are hidden. Key T" in room.editor.view.hint
+    assert "are hidden" in room.editor.view.hint
     assert "beam accent" not in drawn(room.app)
     room.drag((180, 540))
     assert "beam accent" in drawn(room.app)
