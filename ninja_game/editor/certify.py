@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from itertools import takewhile
@@ -16,18 +16,22 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ninja_game.backend.memories import compiled_available, open_worlds
 from ninja_game.editor.brush import object_of_type, placed
 from ninja_game.editor.draft import Draft
+from ninja_game.editor.specs import object_type_name
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.files.user_folder import install_hint
 from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
-from ninja_game.levels.findings import Finding
+from ninja_game.levels.findings import Finding, level_finding
+from ninja_game.levels.warnings import object_name
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.runtime import NewestJob
+from ninja_game.sim.events import LOCK_OPENED
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import MOVING_ENEMIES
-from ninja_game.sim.level import Level
+from ninja_game.sim.level import Level, makes_object
 from ninja_game.sim.rules import TICKS_PER_SECOND, TOP_SPEED, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import FALLING, JUMPING, OUTCOME_DEAD
+from ninja_game.simulation import Simulation
 
 if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
@@ -94,7 +98,7 @@ class Search:
 
     ``progress``: the newest one, None until the solver is ready. ``end``: why it is over, "" as long as it is not, and
     ``failed``: whether by an error; ``obstacles``: what kept it from a run in all its ``seconds``. ``then``: called at
-    the end, in the solver's thread. ``stopping``: set to end it.
+    the end, in the solver's thread. ``stopping``: set to end it. Obstacles of a run are the doors that it passes by.
     """
 
     level: Level | None = None
@@ -113,15 +117,34 @@ class Search:
     def take(self, run: Replay) -> None:
         """A run of the level is kept if it is the fastest, or the fastest with all gold."""
         assert self.level is not None  # noqa: S101 - for the type checker
-        self.obstacles = ()
         if self.run is None or run.end_tick < self.run.end_tick:
             self.run, self.route = run, route_of(self.level, run.inputs)
         if run.gold >= self.level.gold and (self.full is None or run.end_tick < self.full.end_tick):
             self.full = run
+        self.obstacles = passed_by(self.level, [each.inputs for each in (self.run, self.full) if each])
 
     @property
     def share(self) -> float:
         return min(1.0, self.progress.seconds / self.seconds) if self.progress else 0.0
+
+
+def passed_by(level: Level, runs: Sequence[bytes]) -> tuple[Finding, ...]:
+    """The locked doors whose switches none of these runs touches."""
+    made = [number for number, spec in enumerate(level.objects) if makes_object(spec)]
+    names = [object_type_name(level.objects[number]) for number in made]
+    opened: set[tuple[float, float]] = set()
+    for inputs in runs if "locked door" in names else ():
+        way = Simulation(level)
+        for keys in inputs:
+            way.step_keys(keys)
+            events = way.world.events[: way.world.event_count]
+            opened.update((event.x, event.y) for event in events if event.kind == LOCK_OPENED)
+    found = []
+    for id_, (number, name) in enumerate(zip(made, names, strict=True)):
+        spec = level.objects[number]
+        if name == "locked door" and spec.values[:2] not in opened:
+            found.append(level_finding("unneeded-door", (number,))._replace(names=object_name(spec, id_)))
+    return tuple(found)
 
 
 def search_of(level: Level, run: Replay) -> Search:
@@ -209,6 +232,11 @@ class Certifier:
     def busy(self) -> bool:
         return self.search.level is not None and not self.search.end
 
+    @property
+    def waits(self) -> bool:
+        """Whether the search has begun with nothing yet."""
+        return self.busy and self.search.progress is None and self.search.run is None
+
     def is_stale(self, level: Level) -> bool:
         """Whether there is a result, but of another level than this one."""
         return self.search.level is not None and level != self.search.level
@@ -217,7 +245,7 @@ class Certifier:
         """Begin with a level, for twice as long as a time that found nothing; known runs of this level stay."""
         self.stop()
         before = self.search
-        longer = 2 * self.search.seconds if self.search.obstacles and self.search.level == level else self.seconds
+        longer = 2 * before.seconds if before.obstacles and not before.run and before.level == level else self.seconds
         if not compiled_available():
             self.search = Search(end=f"Certifying needs Numba: {install_hint('fast')}")
             return

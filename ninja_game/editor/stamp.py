@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from itertools import accumulate, pairwise
-from math import cos, dist, hypot, pi, sin
+from math import cos, dist, hypot, inf, pi, sin, sqrt
 from typing import NamedTuple
 
 from ninja_game.editor.brush import EMPTY, FAMILIES, FULL, QUARTERS, cells_between
@@ -15,11 +15,9 @@ from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import FLIP, MIRROR, Motion
 from ninja_game.editor.specs import Point, carried, points
 from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
-from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
-from ninja_game.sim.memory.schema import TileMap
-from ninja_game.sim.rules import CELL, HALF, STRIDE
+from ninja_game.sim.rules import CELL, HALF
 
 CellArea = tuple[int, int, int, int]
 """First column, first row, columns, rows."""
@@ -237,11 +235,27 @@ _OTHER_HALF = {
     for (dx, dy), quarter in _AIR.items()
 }
 """Where the other half of a slope of two tiles is, cells from it."""
-_ROUND = (EMPTY, FULL, *(tiles[3] for tiles in _SLOPES.values()))
+
+
+class _Stretch(NamedTuple):
+    """A piece of an edge of rock, so many cells to the right and up, its slope at both ends, degrees, and its tiles."""
+
+    right: int
+    up: int
+    begins: float
+    ends: float
+    tiles: tuple[int, ...] = ()
+
+
+_STRETCHES = (
+    _Stretch(1, 0, 0.0, 0.0), _Stretch(0, 1, 90.0, 90.0), _Stretch(1, 1, 90.0, 0.0, (FAMILIES[7].tiles[3],)),
+    _Stretch(1, 1, 45.0, 45.0, (_SLOPES["1"][3],)),
+    _Stretch(2, 1, 26.6, 26.6, (_SLOPES["3"][3], _SLOPES["7"][3])),
+    _Stretch(1, 2, 63.4, 63.4, (_SLOPES["2"][3], _SLOPES["6"][3])),
+)  # fmt: skip
 """What the left upper quarter of an ellipse is made of: full at its lower right."""
-_INSIDE = [(x + 0.5, y + 0.5) for x in range(0, 24, 2) for y in range(0, 24, 2)]
-_STEP, _SWEEPS = 4, 6
-"""Points of a cell, px from its corner; how much a step of a px weighs; how often all tiles are tried."""
+_TURN = 2e-4
+"""What a turn weighs, cells of area for a square of its degrees."""
 _LONGEST = 4
 """Steps that are longer, or end on both sides farther apart, are all alike."""
 
@@ -317,53 +331,49 @@ def sloped(before: Draft, after: Draft) -> Draft:
 
 @cache
 def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
-    """The full tiles and slopes, by column and row from 0 on, that are most like the ellipse of so many cells.
+    """The full tiles, slopes and round curves, by column and row from 0 on, most like the ellipse of so many cells.
 
-    Each tile of a quarter is the one whose solid part and edges differ least from the ellipse and from the tiles beside
-    it; the rest is its image.
+    The edge of its left upper quarter, from its left end up to its top, is the cheapest path of _STRETCHES over the
+    corners of cells: by the area between path and ellipse, and by the turns between stretches. The rest is its image.
     """
     wide, high = (columns + 1) // 2, (rows + 1) // 2
-    goal = {
-        (i, j): {
-            n
-            for n, (x, y) in enumerate(_INSIDE)
-            if hypot((i + x / 24) / columns - 0.5, (j + y / 24) / rows - 0.5) <= 0.5
-        }
-        for i, j in cells_of((0, 0, wide, high))
-    }
-    tiles = {cell: FULL if 2 * len(inside) > len(_INSIDE) else EMPTY for cell, inside in goal.items()}
 
-    def differs(tile: int, i: int, j: int) -> int:
-        beside = (-1, 0), (1, 0), (0, -1), (0, 1)
-        edges = [((x, y), tiles.get((i + x, j + y), EMPTY)) for x, y in beside if i + x < wide and j + y < high]
-        steps = sum(len(_solid(tile, x, y) ^ _solid(there, -x, -y)) for (x, y), there in edges)
-        return len(_solid(tile) ^ goal[i, j]) + _STEP * steps
+    @cache
+    def between(at: Cell, stretch: _Stretch) -> float:
+        """The area between a stretch from there and the ellipse, cells."""
+        shares = [(k + 0.5) / _PIECES for k in range(_PIECES)]
+        tops = [rows / 2 * (1 - sqrt(1 - (1 - 2 * (at[0] + stretch.right * s) / columns) ** 2)) for s in shares]
+        paths = [at[1] - stretch.up * (sqrt(s * (2 - s)) if stretch.ends != stretch.begins else s) for s in shares]
+        return stretch.right * sum(abs(a - b) for a, b in zip(tops, paths, strict=True)) / _PIECES
 
-    crossed = [cell for cell, inside in goal.items() if 0 < len(inside) < len(_INSIDE)]
-    for sweep in range(_SWEEPS):
-        for i, j in sorted(crossed, key=sum, reverse=sweep % 2 == 0):
-            middle = (columns % 2 and i == wide - 1) or (rows % 2 and j == high - 1)
-            choice = sorted(_ROUND[: 2 if middle else None], key=tiles[i, j].__ne__)
-            tiles[i, j] = min(choice, key=lambda tile: differs(tile, i, j))
-    halves = {cell: _OTHER_HALF[tile] for cell, tile in tiles.items() if tile in _OTHER_HALF}
-    for (i, j), (dx, dy) in halves.items():
-        # A slope of two tiles has both of them.
-        if halves.get((i + dx, j + dy)) != (-dx, -dy):
-            tiles[i, j] = FULL if dx + dy < 0 else EMPTY
-    for i, j in set(cells_of((0, 0, columns, rows))) - set(tiles):
-        tile = tiles[min(i, columns - 1 - i), min(j, rows - 1 - j)]
+    @cache
+    def cheapest(at: Cell, heading: float) -> tuple[float, tuple[_Stretch, ...]]:
+        """What the path from a corner of cells to the top costs, and the path; ``heading``: as it came, degrees."""
+        if at == (wide, 0):
+            return _TURN * heading**2, ()
+        found: list[tuple[float, tuple[_Stretch, ...]]] = [(inf, ())]
+        for stretch in _STRETCHES:
+            x, y = at[0] + stretch.right, at[1] - stretch.up
+            # It begins upright in a middle row and ends flat in a middle column; no cell at its ends stays empty.
+            last = x == wide and stretch.up and (columns % 2 or not stretch.right)
+            first = at[1] == high and stretch.right and (rows % 2 or not stretch.up)
+            if x <= wide and y >= 0 and stretch.begins <= heading and not (first or last):
+                cost, path = cheapest((x, y), stretch.ends)
+                found.append((cost + between(at, stretch) + _TURN * (stretch.begins - heading) ** 2, (stretch, *path)))
+        return min(found, key=lambda each: each[0])
+
+    tiles, (x, y) = dict[Cell, int](), (0, high)
+    for stretch in cheapest((0, high), 90.0)[1]:
+        tiles |= dict.fromkeys(((i, j) for i in range(x, x + stretch.right) for j in range(y, high)), FULL)
+        y -= stretch.up
+        boxed = cells_of((x, y, stretch.right, stretch.up))
+        tiles |= dict(zip(boxed, stretch.tiles, strict=True))
+        x += stretch.right
+    for i, j in cells_of((0, 0, columns, rows)):
+        tile = tiles.get((min(i, columns - 1 - i), min(j, rows - 1 - j)), EMPTY)
         tile = MIRROR.tile(tile) if i >= wide else tile
         tiles[i, j] = FLIP.tile(tile) if j >= high else tile
     return {cell: tile for cell, tile in tiles.items() if tile != EMPTY}
-
-
-@cache
-def _solid(tile: int, dx: int = 0, dy: int = 0) -> frozenset[int]:
-    """The numbers of those points of _INSIDE that are solid; ``dx``, ``dy``: of a point for each px of that side."""
-    level = TileMap()
-    level.tiles[STRIDE + 1] = tile
-    along = [(12 + 11.95 * dx if dx else k + 0.5, 12 + 11.95 * dy if dy else k + 0.5) for k in range(24)]
-    return frozenset(k for k, at in enumerate(along if dx or dy else _INSIDE) if solid_at(level, *at))
 
 
 def _corner(draft: Draft, cell: Cell, near: set[Cell]) -> Tiles:

@@ -31,7 +31,7 @@ NEAREST = "nearest"
 DRAGGED = PICK_REACH = 12.0
 """A press that moves farther than this is a drag; an object that is nearer is picked, px."""
 REACH = 17.32
-"""px within which an object is deleted (√300: game.md §6)."""
+"""px within which an object is deleted (√300: game.md §6), or selected by a click."""
 
 OTHER_KINDS = tuple(each.name for each in brush.OBJECT_TYPES if each.spec.kind not in (NINJA, EXIT, DOOR))
 """Types that an object can become: not those of which there is one, or which have a side or a switch."""
@@ -161,7 +161,9 @@ class EditorTools:
                 self.finish()
             return
         if self.ghost is not None:
-            if not erase:
+            if erase:
+                self.cancel()
+            else:
                 self._put_ghost()
             self.ghost = None
             return
@@ -197,7 +199,8 @@ class EditorTools:
                 self.finish()
             return
         if self._doing == "choose" and self.marquee is None and not self._chosen_before:
-            self.selection = stamps.Selection()
+            found = stamps.nearest(self.draft, *self.pointer, REACH)
+            self.selection = stamps.Selection(parts=frozenset({found} if found else ()))
         self._doing, self.marquee = "", None
         self.history.end()
 
@@ -207,12 +210,13 @@ class EditorTools:
         self.history.end()
 
     def cancel(self) -> bool:
-        """Give up what is half done, or the selection; whether there was any."""
+        """Give up what is half done, or the selection; whether there was any. What was copied stays selected."""
+        kept = self._chosen_before if self.ghost else stamps.Selection()
         busy = bool(self._doing or self.placing_switch or self.ghost or self.selection)
         if self._doing or self.placing_switch:
             self.history.abandon()
         self._switchless = self.ghost = None
-        self._doing, self.marquee, self.selection = "", None, stamps.Selection()
+        self._doing, self.marquee, self.selection = "", None, kept
         return busy
 
     def pick(self) -> None:
@@ -448,7 +452,7 @@ class EditorTools:
     def paste(self) -> bool:
         """Take what was copied in hand, for the next press to put it; whether anything was copied."""
         self.finish()
-        self.selection, self.ghost = stamps.Selection(), self.clipboard
+        self._chosen_before, self.selection, self.ghost = self.selection, stamps.Selection(), self.clipboard
         return self.ghost is not None
 
     @property

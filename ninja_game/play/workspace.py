@@ -297,9 +297,7 @@ class WorkspaceScreen(MenuScreen):
             self._grabbed = part
         elif raw.type == pygame.MOUSEBUTTONUP:
             self._grabbed = None
-        # A release may be that of the click which led here, from a menu for example.
-        pressed = raw.type not in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONUP)
-        if pressed and self.focus is not None and not (part and self.focus in part.widgets):
+        if raw.type == pygame.MOUSEBUTTONDOWN and self.focus is not None and not (part and self.focus in part.widgets):
             self.focus = None
             self.widgets_changed()
         if part is None or not part.mouse(raw, x, y):

@@ -83,6 +83,11 @@ class LevelContext:
     def level(self) -> Level:
         return self.entry.named.level
 
+    def beginning(self) -> tuple[Level, bytes]:
+        """The level as its players begin it, and the inputs of its author's run, if there is one: where texts lie."""
+        run = self.data.catalogue.author_run(self.entry)
+        return self.level, run.inputs if run else b""
+
     @property
     def pars(self) -> Pars | None:
         """The level's par times, which go by the classic body."""

@@ -385,7 +385,11 @@ def test_an_ellipse_is_round_where_slopes_set_themselves(tools: EditorTools) -> 
     assert picture(tools, range(2, 14), range(2, 8)) == upper
     tools.undo()
     drag(tools, (60, 60), (108, 108))
-    assert picture(tools, range(2, 5), range(2, 5)) == ["s#a", "###", "w#q"]
+    assert picture(tools, range(2, 5), range(2, 5)) == ["K#J", "###", "I#U"], "round curves"
+    tools.undo()
+    drag(tools, (60, 60), (204, 204))
+    upper = [".fF#Dd.", "h#####g", "H#####G", "#######"]
+    assert picture(tools, range(2, 9), range(2, 6)) == upper, "no cut diamond"
     tools.undo()
     tools.tool = "line"
     drag(tools, (36, 132), (204, 132))

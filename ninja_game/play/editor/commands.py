@@ -35,7 +35,7 @@ from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, R
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
-from ninja_game.sim.kinds import EXIT
+from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.canvas import Point
@@ -108,8 +108,8 @@ class EditorCommands(DocumentCommands):
             "zoom_in": lambda: view.zoom(1), "zoom_out": lambda: view.zoom(-1), "zoom": lambda: view.zoom(0),
             "slopes": self.switch_slopes,
             "list": lambda: setattr(view, "listing", not view.listing),
-            "lines": lambda: setattr(view, "lines", not view.lines),
-            "paths": lambda: setattr(view, "paths", not view.paths),
+            "lines": lambda: self.switch("lines", "Lines from doors and exits to their switches"),
+            "paths": lambda: self.switch("paths", "Paths of the last test and of the solver"),
             "tests": self.switch_tests,
             "reach": self.next_reach,
             "next_finding": lambda: self.go_to_finding(self._finding + 1),
@@ -128,7 +128,8 @@ class EditorCommands(DocumentCommands):
         rows: list[Row] = [(each[0].upper() + each[1:], do, "") for each, do in steps.get(name, {}).items()]
         if rows:
             title = {"symmetry": "Mirror", "grid": "Grid", "snap_next": "Snap"}[name]
-            self.app.push(Menu(self.app, title, [*rows, CANCEL]))
+            now = {"symmetry": tools.symmetry, "grid": view.grid.name, "snap_next": tools.snap}[name]
+            self.app.push(Menu(self.app, title, [*rows, CANCEL], at=list(steps[name]).index(now)))
         else:
             self.run(name)
 
@@ -138,10 +139,13 @@ class EditorCommands(DocumentCommands):
 
     def switch_slopes(self) -> None:
         tools = self.session.tools
-        tools.slopes = not tools.slopes
-        self.app.change_settings(slopes=tools.slopes)
+        self.session.set_slopes(not tools.slopes)
         how = "set themselves where full tiles are drawn or erased" if tools.slopes else "stay as drawn"
         self.view.hint = f"Slopes {how}"
+
+    def switch(self, name: str, what: str) -> None:
+        setattr(self.view, name, not getattr(self.view, name))
+        self.view.hint = f"{what} are {'shown' if getattr(self.view, name) else 'hidden'}"
 
     def switch_tests(self) -> None:
         """Show where all tests of this session came and died, or no more."""
@@ -341,11 +345,9 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        catalogue, entry = self.app.player.catalogue, self._entry()
-        run = catalogue.author_run(entry) if entry else None
-        way = run.inputs if run and run.level == tools.draft.level else b""
+        entry = self._entry()
         mood = entry.mood if entry else Mood()
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.test, mood, way, at))
+        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.test, mood, self.session.way, at))
 
     def _entry(self) -> Entry | None:
         """The level's file as it is played: in its place in a pack, or alone; None without a file."""
@@ -407,6 +409,11 @@ class TryContext(LevelContext):
 
     def _tried(self, attempt: Attempt, *, over: bool) -> None:
         self._session.tried(self.level, bytes(attempt.inputs), over=over)
+
+    def beginning(self) -> tuple[Level, bytes]:
+        """Of the level under edit, wherever the test begins: its texts lie where they will in play."""
+        level = self._session.draft.level
+        return (level if any(spec.kind == NINJA for spec in level.objects) else self.level), self._session.way
 
     def ghosts(self) -> list[PacedRun]:
         """None: nobody has a best on a level that is being made."""

@@ -155,7 +155,7 @@ class MessagesScreen(MenuScreen):
     """
 
     title = "Messages to the player"
-    offers_back = False
+    offers_back = says_full = False
 
     def __init__(
         self, app: App, draft: Draft, here: Cell, put: Callable[[str], object],
@@ -173,6 +173,7 @@ class MessagesScreen(MenuScreen):
         self._wanted = "{},{}".format(*at) if at else ""
         self._here, self._put, self._test = here, put, test
         self._row_widgets: list[list[Widget]] = []
+        self._refused = False
 
     @property
     def source(self) -> str:
@@ -225,7 +226,7 @@ class MessagesScreen(MenuScreen):
             self.enter()
 
         rows: list[Row] = [(name, partial(choose, when), about) for when, (name, about) in _WHEN.items()]
-        self.app.push(Menu(self.app, "When is it said?", [*rows, CANCEL]))
+        self.app.push(Menu(self.app, "When is it said?", [*rows, CANCEL], at=list(_WHEN).index(message.when)))
 
     @property
     def selected(self) -> Message | None:
@@ -262,13 +263,12 @@ class MessagesScreen(MenuScreen):
         self.enter()
 
     def _is_sound(self) -> bool:
-        """Else the focus goes to what is not."""
+        """Else the focus goes to what is not, and its row says why."""
         for number, message in enumerate(self.messages):
             about_detail, problem = message.problem
             if problem:
                 self.focus = self._row_widgets[number][1 if about_detail else -1]
-                self.app.notify(problem)
-                self.redraw = True
+                self._refused = self.redraw = True
                 return False
         return True
 
@@ -314,7 +314,8 @@ class MessagesScreen(MenuScreen):
             colour = theme.palette.faint if length < MOST_LETTERS else theme.palette.bad
             count = f"{length} of {MOST_LETTERS}"
             theme.text(surface, count, 36 + WIDE, row + 95, size=8.5, colour=colour, align="right")
-            wrong = f"There is no {message.unknown}: the words are at the right" if message.unknown else ""
+            wrong = message.problem[1] if self._refused else ""
+            wrong = f"There is no {message.unknown}: the words are at the right" if message.unknown else wrong
             colour = theme.palette.bad if wrong else theme.palette.faint
             theme.text(surface, wrong or self._turn_of(message), 36, row + 95, size=8.5, colour=colour, width=WIDE - 56)
             if self.focus in self._row_widgets[number]:

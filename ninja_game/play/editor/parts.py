@@ -26,6 +26,7 @@ from ninja_game.files.shown_text import counted
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.ascii.places import cell_of, place_text, read_place
 from ninja_game.formats.ascii.writer import best_form
+from ninja_game.formats.messages import parse_messages
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.commands import TABLE
 from ninja_game.play.editor.palette_view import PaletteView, live_changes
@@ -52,6 +53,8 @@ FIRST_STEPS = (
 
 def panel_key(tools: EditorTools) -> tuple[object, ...]:
     """What the panel is about: when it changes, the panel is rebuilt."""
+    if tools.ghost:
+        return len(tools.ghost.tiles), len(tools.ghost.objects), "pasted"
     if tools.selection:
         spec = tools.chosen
         kind = (object_type_name(spec), len(spec.values)) if spec else None
@@ -63,22 +66,35 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
             spec and tuple(points(spec).items()),
         )
     drawn = object_type_name(tools.spec) if tools.objects else tools.tile
-    return tools.draft.level == Level(), tools.objects, drawn, tools.effective_tool in CURVES
+    return tools.draft.level == Level(), tools.objects, drawn, tools.effective_tool in CURVES, _taking(tools)
+
+
+def _taking(tools: EditorTools) -> str:
+    """What a press does with what the panel is about."""
+    return "In hand" if tools.tool in ("select", "pick") else "Draw"
+
+
+def _title(verb: str, cells: int, objects: int) -> str:
+    return f"{verb}: {counted(cells, 'cell') + ', ' if cells else ''}{counted(objects, 'object')}"
+
+
+def _turning(view: EditorView) -> Callable[[Area], Sequence[Widget]]:
+    turns = {"mirror": MIRROR, "flip": FLIP, "turn": CLOCKWISE}
+    return _row([(name.capitalize(), partial(view.turn, turn), TABLE.hint(name)) for name, turn in turns.items()])
 
 
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     x, y, w, _ = area
     tools = view.session.tools
     rows: list[Callable[[Area], Widget | Sequence[Widget]]] = []
-    if tools.selection and tools.chosen is None:
-        count = len(tools.selection.numbers)
+    if tools.ghost:
+        title = _title("A click pastes", len(tools.ghost.tiles), len(tools.ghost.objects))
+        rows.append(_turning(view))
+    elif tools.selection and tools.chosen is None:
         cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
-        title = f"Selected: {counted(cells, 'cell') + ', ' if cells else ''}{counted(count, 'object')}"
+        title = _title("Selected", cells, len(tools.selection.numbers))
         rows += [_choice(tools, name) for name in _common(tools.subjects)]
-        turns = {"mirror": MIRROR, "flip": FLIP, "turn": CLOCKWISE}
-        rows.append(
-            _row([(name.capitalize(), partial(view.turn, turn), TABLE.hint(name)) for name, turn in turns.items()])
-        )
+        rows.append(_turning(view))
         rows += [_arranging(tools, head) for head in _ARRANGING]
         remake = partial(_ask_kind, view) if any(map(can_be_remade, tools.subjects)) else None
         last: list[Row] = [
@@ -89,7 +105,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         rows.append(_row(last))
     elif tools.selection or tools.objects:
         spec = tools.chosen or tools.spec
-        title = f"{'Selected' if tools.selection else 'Draw'}: {object_type_name(spec)}"
+        title = f"{'Selected' if tools.selection else _taking(tools)}: {object_type_name(spec)}"
         rows += [_choice(tools, name) for name in properties(spec)]
         texts = [f"{' '.join(letters).upper()}: {name}" for name, letters in live_changes(tools).items()]
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
@@ -99,15 +115,16 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
             rows.append(partial(Label, text="Then click where its switch is", size=9.5, faint=True))
         elif tools.effective_tool in CURVES:
             words = [(f"one every {spacing:.0f} px", spacing) for spacing in SPACINGS]
-            rows.append(lambda area: _setting(area, tools, "spacing", words, "How far apart they lie along it"))
+            put, hint = partial(setattr, tools, "spacing"), "How far apart they lie along it"
+            rows.append(lambda area: Choice(area, "", words, lambda: tools.spacing, put, hint=hint))
     else:
-        title = f"Draw: {tile_name(tools.tile)}"
+        title = f"{_taking(tools)}: {tile_name(tools.tile)}"
         first = FIRST_STEPS if tools.draft.level == Level() else ()
         rows += [partial(Label, text=text, size=9.5) for text in first]
         texts = ["1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn"]
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
-        words = [("slopes: by hand", False), ("slopes: by themselves", True)]
-        rows.append(lambda area: _setting(area, tools, "slopes", words, TABLE.hint("slopes")))
+        modes, set_slopes = [("slopes: by hand", False), ("slopes: by themselves", True)], view.session.set_slopes
+        rows.append(lambda area: Choice(area, "", modes, lambda: tools.slopes, set_slopes, hint=TABLE.hint("slopes")))
     head = Label((x, y, w, 15), title, size=10)
     made = [make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows)]
     return [head, *(each for widgets in made for each in (widgets if isinstance(widgets, Sequence) else [widgets]))]
@@ -161,10 +178,6 @@ def _ask_kind(view: EditorView) -> None:
     change = view.session.tools.change_each
     rows: list[Row] = [(each.capitalize(), partial(change, partial(remade, name=each)), "") for each in OTHER_KINDS]
     view.app.push(Menu(view.app, "Selected objects become", [*rows, CANCEL]))
-
-
-def _setting(area: Area, tools: EditorTools, name: str, words: Sequence[tuple[str, object]], hint: str) -> Widget:
-    return Choice(area, "", words, lambda: getattr(tools, name), partial(setattr, tools, name), hint=hint)
 
 
 def _common(specs: Sequence[ObjectSpec]) -> list[str]:
@@ -404,7 +417,9 @@ class FilePart(EditorPart):
         certifier = session.certifier
         stale, run = certifier.is_stale(session.draft.level), certifier.search.run
         text = certifier.text or "Not certified yet: F7 looks for a way through it"
-        if stale and not certifier.busy:
+        if stale and certifier.busy:
+            text = "The solver looks at the level before the last change. F7: at this one"
+        elif stale:
             text = f"{'Certified before' if run else 'Not certified since'} the last change: F7 again"
         elif run and not certifier.busy:
             text += f". {session.keeping}"
@@ -430,9 +445,13 @@ class StatusLine(EditorPart):
             return "Click where the switch is; Esc gives up"
         if tools.ghost:
             return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc gives up"
-        if self.view.hovering and tools.draft.says and tools.cell in said_cells(tools.draft.says):
-            return "A message near this place: a double click opens it, dragging it with Select moves it"
-        return self.view.hint or _TOOL_HINTS[tools.effective_tool]
+        if self.view.hovering and tools.draft.says and tools.cell in (cells := said_cells(tools.draft.says)):
+            text = parse_messages(tools.draft.says)[cells.index(tools.cell)].text
+            return f"Double click opens the message, Select drags it: {text}"
+        slopes = "Slopes by themselves. " * (
+            tools.slopes and not tools.objects and tools.tool not in ("select", "pick")
+        )
+        return self.view.hint or slopes + _TOOL_HINTS[tools.effective_tool]
 
     def render_key(self) -> tuple[object, ...]:
         return self.session.tools.pointer, self._text(), self.view.camera.zoom

@@ -141,6 +141,17 @@ class EditorSession:
         path = self.source.path
         return Entry(NamedLevel(self.name, "", "", self.draft.level, str(path)), YOURS) if path else None
 
+    def set_slopes(self, slopes: bool) -> None:
+        """Whether slopes set themselves, in this editor and all later ones."""
+        self.tools.slopes = slopes
+        self.app.change_settings(slopes=slopes)
+
+    @property
+    def way(self) -> bytes:
+        """The inputs of the run that certifies the level as it is; none without one."""
+        run = self.certifier.search.run
+        return run.inputs if run and not self.certifier.is_stale(self.draft.level) else b""
+
     @property
     def draft(self) -> Draft:
         return self.tools.draft
@@ -188,6 +199,8 @@ class EditorSession:
         known, self._known_runs.result = self._known_runs.result, None
         if known and known.level == self.draft.level:
             self.certifier.adopt(known)
+        if self.certifier.waits and self.certifier.is_stale(self.draft.level) and not self.tools.history.in_stroke:
+            self.certifier.start(self.draft.level)
         if not self.certifier.busy:
             self.certify_file()
         self.autosave.poll(self.draft, self.source)

@@ -86,9 +86,11 @@ class Overlay:
             self._frame(tools.selection.area, self.sheet.palette.accent)
         for number, part in tools.selection.parts:
             spec = tools.draft.objects[number] if number < len(tools.draft.objects) else None
-            place = points(spec).get(part) if spec else None
-            if place and is_near(*place):
-                self.target.sprite(_ring("accent"), *place)
+            found = points(spec) if spec else {}
+            if part in found and all(is_near(*place) for place in found.values()):
+                self.target.sprite(_ring("accent"), *found[part])
+                if SWITCH in found:
+                    self.target.line(self.sheet.palette.accent, *found[BODY], *found[SWITCH], 1.2)
         if tools.marquee:
             self._frame(area_between(*tools.marquee), self.sheet.palette.good)
         if hovering:

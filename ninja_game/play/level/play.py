@@ -110,9 +110,9 @@ class LevelPlay:
         self.attempt = Attempt(
             context.level, body=context.body, lifetime=context.lifetime, practice_mode=context.practice_mode
         )
-        run = context.data.catalogue.author_run(context.entry) if context.sayings() else None
-        world, texts = self.attempt.simulation.world, [each.text for each in context.sayings()]
-        self.things = things_at_start(context.level, world, texts, run.inputs if run else b"")
+        level, way = context.beginning() if context.sayings() else (context.level, b"")
+        world = self.attempt.simulation.world if level == context.level else Simulation(level).world
+        self.things = things_at_start(level, world, [each.text for each in context.sayings()], way)
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold

@@ -36,12 +36,13 @@ class MenuScreen(Screen):
 
     ``foot``: the line at the bottom, where the focused widget has no hint. ``offers_back``: whether the frame has a
     place for the mouse to go back; keys and pads have theirs, so it takes no focus. ``wraps``: up from the first widget
-    leads to the last.
+    leads to the last. ``says_full``: a notice tells that no more letters fit into a field.
     """
 
     title = ""
     offers_back = True
     wraps = True
+    says_full = True
     foot = "Arrows to move, Enter to choose, Esc to go back"
 
     def __init__(self, app: App) -> None:
@@ -104,7 +105,8 @@ class MenuScreen(Screen):
             self.widgets_changed()
         if isinstance(self.focus, TextEntry) and self.focus.edited.was_full:
             self.focus.edited.was_full = False
-            self.app.notify(f"At most {self.focus.edited.longest} letters")
+            if self.says_full:
+                self.app.notify(f"At most {self.focus.edited.longest} letters")
         return taken
 
     def handle(self, event: InputEvent) -> None:
@@ -348,12 +350,21 @@ class Panel(MenuScreen):
 
 
 class Menu(Panel):
-    """Some actions; each of them closes the panel first. ``then``: done when it is left by the key for back."""
+    """Some actions; each of them closes the panel first. ``then``: done when it is left by the key for back.
 
-    def __init__(self, app: App, title: str, rows: Sequence[Row], then: Action = nothing) -> None:
+    ``at``: the row that has the focus first.
+    """
+
+    def __init__(self, app: App, title: str, rows: Sequence[Row], then: Action = nothing, *, at: int = 0) -> None:
         super().__init__(app, title)
-        self._then = then
+        self._then, self._begins = then, at
         self._rows: list[Row] = [(text, action and self._closing(action), hint) for text, action, hint in rows]
+
+    def enter(self) -> None:
+        first = self.focus is None
+        super().enter()
+        if first and self._begins:
+            self.focus = self.widgets[self._begins]
 
     def back(self) -> None:
         super().back()

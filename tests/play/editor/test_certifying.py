@@ -10,7 +10,8 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
-from ninja_game.editor.certify import Search
+from ninja_game.editor.brush import object_of_type, placed, with_switch
+from ninja_game.editor.certify import Search, passed_by, search_of
 from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
@@ -113,9 +114,41 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(room: Maker)
             assert f"text 'Stop {progress.seconds:.0f} s'" in drawn(room.app)
         room.mouse(*next(each for each in room.editor.widgets if getattr(each, "name", "") == "certify").centre)
         assert (room.app.notice, session.certify_text) == (said, "Certify")
-    session.certifier.search = Search(room.draft.level)
+    session.certifier.search = Search(room.draft.level, seconds=20.0, progress=Progress(seconds=1.0))
     room.drag((300, 300))
     assert session.certify_text == "Certify", "it would search the level as it is now"
+    assert "The solver looks at" in drawn(room.app), "and so says the card"
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert (session.certify_text, "The solver looks at" in drawn(room.app)) == ("Stop 1 s", False)
+
+
+def test_a_search_that_waits_is_of_the_level_as_it_is_by_then(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
+    session, asked = room.editor.session, list[Search]()
+    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr(session.certifier.solver.job, "ask", asked.append)
+    monkeypatch.setattr(session.certifier.solver, "at_work", Search(ROOM.level))
+    room.press("f7")
+    room.drag((300, 300))
+    room.chord("z", pygame.KMOD_LCTRL)
+    room.drag((300, 300), (350, 300))
+    assert (asked[-1].level, asked[-1].end) == (room.draft.level, "")
+    assert {each.end for each in asked[:-1]} == {"Stopped"}
+    assert (session.certify_text, session.certifier.text[:36]) == ("Stop #1", "Another level's search comes first: ")
+    room.press("f7")
+    assert (session.certify_text, session.certifier.text) == ("Certify", "Stopped")
+    room.drag((400, 300))
+    assert session.certify_text == "Certify", "what was stopped stays so"
+
+
+def test_a_door_that_the_certified_run_passes_by_is_told_of() -> None:
+    switches = (130.0, 540.0), (300.0, 300.0)
+    door = placed(object_of_type("locked door"), 324.0, 540.0, "cell")
+    level = ROOM.with_objects((*ROOM.objects, *(with_switch(door, *at, "px") for at in switches))).level
+    run = verified_run(level, with_press_bits(bytes([2]) * 100))
+    (found,) = search_of(level, run).obstacles
+    assert (found.code, found.records) == ("unneeded-door", (3,)), "the other switch lies on its way"
+    assert found.sentence.startswith("locked door at 13,22"), "and it is named"
+    assert passed_by(ROOM.level, [run.inputs]) == ()
 
 
 def test_a_search_of_what_no_file_holds_ends_with_the_level(room: Maker) -> None:

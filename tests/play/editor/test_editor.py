@@ -42,6 +42,7 @@ from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import Choice, Label
+from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker
 from tests.support.waiting import LONGEST
 
@@ -272,6 +273,8 @@ def test_the_buttons_of_mirror_grid_and_snap_list_what_there_is(room: Maker, nam
     room.choose(chosen)
     tools, grid = room.editor.session.tools, room.editor.view.grid.name
     assert {"symmetry": tools.symmetry, "grid": grid, "snap_next": tools.snap}[name] == chosen.lower()
+    room.editor.commands.choose(name)
+    assert getattr(room.shown(Menu).focus, "text", "") == chosen, "what there is now has the focus"
 
 
 def test_every_command_runs_and_help_names_all_keys(room: Maker) -> None:
@@ -655,6 +658,57 @@ def test_the_panel_names_the_type_that_is_in_hand_or_selected(room: Maker) -> No
         room.frames()
         titles.append(room.editor.properties.widgets[0].text)  # type: ignore[attr-defined]
     assert titles == ["Draw: automatic door", "Draw: trap door", "Draw: locked door", "Draw: automatic door"]
+    room.press("7")
+    room.drag((300, 300))
+    room.press("v")
+    room.drag((500, 400))
+    said = []
+    for at in ((310, 310), (500, 400)):
+        room.drag(at)
+        said.append(room.editor.properties.widgets[0].text)  # type: ignore[attr-defined]
+    assert said == ["Selected: laser drone", "In hand: laser drone"], "a click in the corner of its cell takes it"
+
+
+def test_what_is_pasted_has_its_buttons_and_esc_leads_back_to_what_was_selected(room: Maker) -> None:
+    tools = room.editor.session.tools
+    room.press("v")
+    room.drag((48, 530), (200, 550))
+    before = tools.selection
+    room.chord("c", pygame.KMOD_LCTRL)
+    room.chord("v", pygame.KMOD_LCTRL)
+    assert room.editor.properties.widgets[0].text == "A click pastes: 8 cells, 2 objects"  # type: ignore[attr-defined]
+    before_turn = tools.ghost
+    room.choose("Mirror")
+    assert tools.ghost not in (None, before_turn)
+    room.press("escape")
+    assert not tools.ghost
+    assert (tools.selection, tools.tool) == (before, "select")
+
+
+def test_find_has_the_keys_from_the_start_until_it_is_left(room: Maker) -> None:
+    tools, view = room.editor.session.tools, room.editor.view
+    find = room.editor.sides[1].widgets[0]
+    for leave in ("return", "escape"):
+        room.press("f3")
+        room.mouse(500, 540, click=False)
+        room.wheel(1, 100, 540)
+        room.type("gol")
+        assert isinstance(find, TextEntry)
+        assert (find.text, tools.snap, tools.objects) == ("gol", "cell", False)
+        room.press(leave)
+        room.type("x")
+        assert (room.editor.focus, tools.snap, view.listing) == (None, "half", True)
+        tools.snap = "cell"
+        find.show("")
+        room.press("f3")
+
+
+def test_the_line_to_its_switch_is_drawn_for_what_is_selected_though_lines_are_hidden(room: Maker) -> None:
+    room.press("t", "v")
+    assert "are hidden" in room.editor.view.hint
+    assert "beam accent" not in drawn(room.app)
+    room.drag((180, 540))
+    assert "beam accent" in drawn(room.app)
 
 
 def test_the_wheel_changes_nothing_while_something_is_drawn(maker: Maker) -> None:
@@ -780,6 +834,7 @@ def test_f7_after_a_change_looks_at_the_level_as_it_is(room: Maker) -> None:
         patch("ninja_game.editor.certify.compiled_available", lambda: True),
     ):
         room.press("f7")
+        asked[0].progress = Progress()
         room.drag((300, 300))
         room.press("f7")
         assert [search.level for search in asked] == [ROOM.level, room.draft.level]

@@ -9,6 +9,7 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
+from ninja_game.editor.certify import search_of
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.formats.messages import MAX_MESSAGES, MOST_LETTERS, parse_messages
 from ninja_game.levels.episodes import Mood
@@ -20,14 +21,17 @@ from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.level.hud import Box, Hud
 from ninja_game.play.level.sayings import Sayings
 from ninja_game.play.menus.menu_screen import Menu
+from ninja_game.player.playthrough import LevelContext
+from ninja_game.search.certificate import verified_run
 from ninja_game.sim.events import LOCK_OPENED, TRAP_CLOSED
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.draw_log import drawn
-from tests.support.level_maker import Maker
+from tests.support.level_maker import ROOM, Maker
 
 ALL = "start: {jump} jumps | switch: Now the exit | death 3: Wait | at 12,5: Jump: here"
 
@@ -161,7 +165,9 @@ def test_what_is_wrong_keeps_the_focus_and_is_said(room: Maker, message: Message
     screen.enter()
     room.choose("OK")
     assert room.top() is screen
-    assert said in room.app.notice
+    words = said if message.unknown == "" else "There is no {fly}"
+    assert words in drawn(room.app)
+    assert not room.app.notice, "nothing lies over the buttons"
     field = screen.focus
     assert isinstance(field, TextEntry)
     assert field.text == (message.detail if in_detail else message.text)
@@ -222,7 +228,30 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
     screen.messages[0].text = ""
     room.choose("Test")
     assert room.top() is screen
-    assert "Type what is said" in room.app.notice
+    assert "Type what is said" in drawn(room.app)
+
+
+def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Maker) -> None:
+    session = room.editor.session
+    session.tools.history.change(replace(room.draft, says="at 21,19: A text that lies beside the place"))
+    run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
+    session.certifier.search = search_of(room.draft.level, run)
+    screen = opened(room)
+    drawn(room.app)
+    (shown,) = screen._kept.values()
+    assert len(shown) > 3, "the run's way too"
+    room.choose("Test")
+    trying = room.shown(TryScreen)
+    assert trying.attempt.simulation.ninja.x > 300
+    assert trying.play.things == shown
+    room.press("escape")
+    room.choose("Cancel")
+    session.save(room.app.player.folder / "levels" / "said.txt")
+    session.certify_file()
+    entry = session.entry
+    assert entry
+    _, way = LevelContext(room.app.player, entry).beginning()
+    assert way == session.way != b""
 
 
 def test_a_level_about_which_something_is_said_keeps_its_messages(room: Maker) -> None:
@@ -246,7 +275,8 @@ def test_the_selected_message_is_shown_as_the_level_says_it_with_its_letters_cou
     screen.enter()
     room.mouse(*screen._row_widgets[1][-1].centre)
     room.type("y")
-    assert room.app.notice == "At most 120 letters"
+    assert "'120 of 120'" in drawn(room.app)
+    assert not room.app.notice, "nothing lies over the buttons"
 
 
 def test_escape_asks_about_changed_messages(room: Maker) -> None:
@@ -270,6 +300,8 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
     room.editor.session.tools.history.change(replace(room.draft, says=ALL))
     room.frames()
     before = room.draft
+    room.mouse(*room.at(24 * 12 + 12, 24 * 5 + 12), click=False)
+    assert "Select drags it: Jump: here'" in drawn(room.app)
     room.drag((24 * 12 + 12, 24 * 5 + 12))
     room.drag((24 * 12 + 12, 24 * 5 + 12))
     screen = room.shown(MessagesScreen)

@@ -20,6 +20,7 @@ from ninja_game.play.editor.parts import FilePart, ObjectList
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.ui.widgets import Button
+from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
@@ -32,8 +33,9 @@ def find_field(room: Maker) -> tuple[float, float]:
 
 def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> None:
     session = room.editor.session
-    room.press("m", "y", "f3")
+    room.press("m", "y")
     room.chord("s", pygame.KMOD_LSHIFT)
+    room.press("f3")
     room.mouse(*find_field(room))
     room.type("exit")
     listed = room.editor.sides[1]
@@ -45,7 +47,7 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     room.frames()
     assert (listed._find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
     assert (session.tools.symmetry, session.start, session.tools.slopes) == ("left-right", "standing", True)
-    room.editor.focus = None
+    room.press("escape")
     room.press("grave", "6", "a", "r")
     session.begin(Source(ROOM))
     room.frames()
@@ -58,6 +60,12 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     room.open("Editor")
     assert room.editor.session.tools.slopes
     assert room.app.settings.slopes
+    room.mouse(400, 60, click=False)
+    assert "Slopes by themselves. " in drawn(room.app)
+    room.mouse(*room.editor.properties.widgets[-1].centre)
+    room.choose_in_menu("Leave the editor")
+    room.open("Editor")
+    assert not room.editor.session.tools.slopes, "the button below the tiles is the same switch"
 
 
 def test_the_editor_begins_with_a_room_without_problems(tmp_path: Path) -> None:
