@@ -89,9 +89,12 @@ def film(
 
     alone = len(parts) == 1
     films = [
-        Film(run, size, speed, None, along, keys, first * alone, last if alone else None, others, splits, gold)
+        Film(
+            run, size, speed, ghosts=along, beside=others, keys=keys, splits=splits, gold=gold,
+            first=first if alone else 0, last=last if alone else None,
+        )
         for run, along, others in zip(parts, ghosts_of, beside_of, strict=True)
-    ]
+    ]  # fmt: skip
     if not alone and (first or last is not None):
         films = section_of(films, first, last)
     progress = "looking for the end of the run"
