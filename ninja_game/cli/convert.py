@@ -103,7 +103,7 @@ def convert(
     if form == "file":
         output.write(level_file_text(texts, level))
     elif form == "string":
-        output.write("".join(write_level_string(each.level, exact=True) + "\n" for each in found))
+        output.write("".join(write_level_string(named.level, exact=True) + "\n" for named in found))
     if lost := left_out(form, found, [text for _, text in texts]):
         click.echo(f"left out: {', '.join(lost)}", err=True)
 
@@ -245,7 +245,7 @@ def link_of(files: Sequence[Path], record: int | None = None) -> str:
             raise click.UsageError("a link carries one pack, whole")
         return PackFiles(first).link()
     if all(holds_recordings(text) for file in files for _, text in texts_of(file)):
-        found = [each for file in files for each in load_replays(file)]
+        found = [recording for file in files for recording in load_replays(file)]
         return recording_link(found if record is None else [options.choose(found, "recordings", first, record)])
     if len(files) > 1:
         raise click.UsageError("a link carries one level; make a pack of several, or give replays only")

@@ -87,6 +87,6 @@ def demonstrations(
         learn.write_npz(output, found)
     else:
         learn.write_minari(str(dataset), found, **settings)
-    steps, passed = sum(len(each.rewards) for each in found), sum(each.outcome == "exit" for each in found)
+    steps, passed = sum(len(run.rewards) for run in found), sum(run.outcome == "exit" for run in found)
     left = f", {len(recordings) - len(found)} left out" * (len(found) < len(recordings))
     click.echo(f"{output or dataset}: {len(found)} demonstrations, {steps:,} steps, {passed} to the exit{left}")

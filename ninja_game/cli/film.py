@@ -71,7 +71,7 @@ def film(
     found = load_replays(replay, level=level)
     parts = found if found[0].episode and record is None else [choose(found, "recordings", replay, record)]
     path = output or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
-    if path.exists() and any(not is_link(each) and path.samefile(each) for each in (replay, *ghosts, *beside)):
+    if path.exists() and any(not is_link(file) and path.samefile(file) for file in (replay, *ghosts, *beside)):
         raise click.UsageError("the film would replace the replay")
     along, others = ([run for file in files for run in load_replays(file, level=level)] for files in (ghosts, beside))
     if any(all(run.level != part.level for part in parts) for run in (*along, *others)):

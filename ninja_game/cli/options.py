@@ -153,7 +153,7 @@ def choose_level(path: Path, record: int | None) -> NamedLevel:
 def choose(found: Sequence[N], what: str, path: Path, record: int | None) -> N:
     """The only level or recording of those in a file, or that with a record number. Usage error if it is not there."""
     if record is not None:
-        found = [each for each in found if each.record == record]
+        found = [item for item in found if item.record == record]
         if not found:
             raise click.UsageError(f"{path}: there is no record {record}")
     if len(found) > 1:

@@ -140,7 +140,7 @@ def improve(
     save = options.saver_of_better(output, recording, "improve")
     log = SearchLog(resume, [replay, output]) if resume else None
     if log and earlier:
-        others = tuple(each.inputs for each in earlier if each.level == task.level)
+        others = tuple(run.inputs for run in earlier if run.level == task.level)
         left = max(0.1, task.seconds - log.seconds_spent)
         task = replace(task, others=others, seconds=left, seed=task.seed + log.starts)
     played = run_level(task.level, task.first, body=task.body)
@@ -158,11 +158,11 @@ def improve(
         task = replace(task, first=first, others=(), seconds=task.seconds if known else task.seconds / 2)
     before: list[int] = []
 
-    def keep(found: Replay) -> None:
-        before.append(found.end_tick)
-        save(found)
+    def keep(run: Replay) -> None:
+        before.append(run.end_tick)
+        save(run)
         if log:
-            log.note(options.time_text(found.end_tick))
+            log.note(options.time_text(run.end_tick))
 
     with options.progress_line() as report:
         run = solve(task, report=report, on_better=keep)
@@ -260,11 +260,11 @@ def search(
         found = search_span(
             task, report, method=method, every=every, seed=seed, threads=jobs, report_miss=misses.append
         )
-    found = tuple(tidied(task, each) for each in found)
+    found = tuple(tidied(task, result) for result in found)
     if save and found:
         save(record_replay(task.level, found[0].inputs, body=task.body))
-    for each in found or misses[-1:]:
-        click.echo(f"{score_text(task, each)}: {_keys(each)}")
+    for result in found or misses[-1:]:
+        click.echo(f"{score_text(task, result)}: {_keys(result)}")
     if not found:
         click.echo("the goal was not reached; more time, a longer span or another --method may reach it")
     elif output:

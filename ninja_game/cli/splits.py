@@ -81,7 +81,7 @@ def splits(
     found = list(read)
     best = list(options.Readable(recordings_in([against], level)))[:1] if against else []
     # A run that costs too much ends the command: a table without it would be wrong.
-    all_runs = list(options.with_progress((run_splits(each, events, budget) for each in [*best, *found]), "run"))
+    all_runs = list(options.with_progress((run_splits(run, events, budget) for run in [*best, *found]), "run"))
     bests, runs = all_runs[: len(best)], all_runs[len(best) :]
     groups: dict[str, list[RunSplits]] = {}
     for run in runs:
@@ -118,12 +118,12 @@ def table_of(group: Sequence[RunSplits], given: Sequence[RunSplits]) -> Table:
 
 def titles(recordings: Sequence[Recording]) -> list[str]:
     """What tells recordings apart: their names, or file and record where there is no name or two are the same."""
-    names = [shown_text(each.name) for each in recordings]
+    names = [shown_text(recording.name) for recording in recordings]
     return [
         name
         if name and names.count(name) == 1
-        else f"{shown_text(Path(each.file).name.removesuffix(REPLAY_SUFFIX))}:{each.record}"
-        for name, each in zip(names, recordings, strict=True)
+        else f"{shown_text(Path(recording.file).name.removesuffix(REPLAY_SUFFIX))}:{recording.record}"
+        for name, recording in zip(names, recordings, strict=True)
     ]
 
 

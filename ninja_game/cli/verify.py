@@ -145,7 +145,7 @@ def _row(verdict: Verdict) -> str:
         left = verdict.lifetime + verdict.score_ticks - LIFETIME
         made += f"  (episode: {seconds_text(verdict.lifetime)} s left at its start, {seconds_text(left)} s at the exit)"
     row = f"{mark} {verdict.outcome:<7} {when:>11}  {verdict.gold:>3} gold  {score:>8}  {name}  {where}{made}"
-    problems = [f"{shown_text(each.text)}. {each.hint} [{each.code}]" for each in verdict.problems]
+    problems = [f"{shown_text(problem.text)}. {problem.hint} [{problem.code}]" for problem in verdict.problems]
     return "\n     ".join([row, *problems])
 
 

@@ -154,7 +154,7 @@ FLAGS = {"taken": {GOLD: "taken", MINE: "exploded"}, "opened": {EXIT: "is_open",
 def flag_field(what: str, kind: int, id_: float) -> str:
     """The field of an object that ``what`` asks for. Raises ArgumentError where its kind has none."""
     if kind not in FLAGS[what]:
-        kinds = " and ".join(KIND_NAMES[each] for each in FLAGS[what])
+        kinds = " and ".join(KIND_NAMES[known] for known in FLAGS[what])
         raise ArgumentError(f"object {id_:g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")
     return FLAGS[what][kind]
 

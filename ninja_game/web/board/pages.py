@@ -344,13 +344,15 @@ class BoardPages(LevelPages):
         said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title) in KINDS.items() if counts[kind])
         rows: list[tuple[Content, ...]] = [
             (KINDS[each.kind][1], each.file + f", record {each.record}" * (each.record > 0),
-             self.shown_name(each.player), each.level, each.why, self._first_run(each.first), each.added.partition("T")[0])
+             self.shown_name(each.player), each.level, each.why, self._first_run(each.first),
+             each.added.partition("T")[0])
             for each in sorted(rejected, key=lambda each: order.index(each.kind))
         ]  # fmt: skip
         lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."
         near = [
-            (level_link(run.entry), self.player_link(run.player), self.run_link(run, "", seconds_text(run.tick)), run.gold,
-             self.watch_link([run], ""), run.file + f", record {run.record}" * (run.record > 0), run.near, run.day)
+            (level_link(run.entry), self.player_link(run.player), self.run_link(run, "", seconds_text(run.tick)),
+             run.gold, self.watch_link([run], ""), run.file + f", record {run.record}" * (run.record > 0), run.near,
+             run.day)
             for run in self.ranking.judged.runs if run.near
         ]  # fmt: skip
         waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
