@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ninja_game.cli import options
+from ninja_game.cli.progress import heartbeat, with_progress
 from ninja_game.cli.terminal import data_output
 from ninja_game.errors import FileError, LevelError
 from ninja_game.files.shown_text import counted, file_stem, name_key, name_problem, shown_text
@@ -91,7 +92,7 @@ def convert(
         form = form or "file"
         if form in RUN_FORMS:
             written = replay_texts(recordings, budget) if form == "replay" else input_texts(recordings, form)
-            output.write_each(list(options.with_progress(written, "recording")), recordings, RUN_FORMS[form])
+            output.write_each(list(with_progress(written, "recording")), recordings, RUN_FORMS[form])
         elif form == "episode":
             output.write(episode_text(recordings, budget))
     else:
@@ -201,7 +202,7 @@ def record(
 
     level = options.load_level_option(level_path)
     recording = options.choose(load_replays(inputs, level=level, changed=True), "recordings", inputs, record)
-    with options.heartbeat(lambda: "running the inputs"):
+    with heartbeat(lambda: "running the inputs"):
         (text,) = replay_texts([on_level(recording, level)], budget)
     path = output or free_path(Path(), inputs.name.partition(".")[0], REPLAY_SUFFIX)
     Output(str(path), [inputs], force=force).write(text)

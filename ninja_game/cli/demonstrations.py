@@ -9,7 +9,8 @@ from typing import Any
 import click
 
 from ninja_game.budget import DATASET_MIB
-from ninja_game.cli.options import NEW_FILE, OLD_PATH, level_option, load_level_option, memory_option, with_progress
+from ninja_game.cli.options import NEW_FILE, OLD_PATH, level_option, load_level_option, memory_option
+from ninja_game.cli.progress import with_progress
 from ninja_game.cli.terminal import print_error
 from ninja_game.sim.rules import LIFETIME
 

@@ -7,15 +7,15 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.options import InputPath, Pixels, choose, heartbeat, level_option, load_level_option
-from ninja_game.cli.terminal import use_dummy_video
+from ninja_game.cli.options import InputPath, Pixels, choose, level_option, load_level_option
+from ninja_game.cli.progress import heartbeat
+from ninja_game.cli.terminal import size_note, use_dummy_video
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.links import is_link
 
 MOST_BESIDE = 3
-LARGE = 5_000_000  # bytes of a GIF
 
 
 @click.command()
@@ -110,9 +110,3 @@ def film(
     except OSError as error:
         raise NinjaGameError(f"{path}: the film cannot be written: {error.strerror}") from None
     click.echo(f"{shown_text(str(path))}: {length_of(films)} ticks{size_note(path)}")
-
-
-def size_note(path: Path) -> str:
-    """What is said of a GIF that is large."""
-    size = path.stat().st_size
-    return f", {size / 1e6:.0f} MB; as .mp4 it would be smaller" if path.suffix == ".gif" and size > LARGE else ""

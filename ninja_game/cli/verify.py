@@ -11,7 +11,8 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.commands import BAD_INPUT, FAILED
-from ninja_game.cli.options import NEW_FILE, InputPath, budget_option, jobs_option, with_progress
+from ninja_game.cli.options import NEW_FILE, InputPath, budget_option, jobs_option
+from ninja_game.cli.progress import with_progress
 from ninja_game.cli.terminal import print_error
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text

@@ -16,10 +16,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.commands import FAILED
-from ninja_game.cli.film import size_note
 from ninja_game.cli.options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, InputPath, jobs_option
-from ninja_game.cli.splits import as_json, draw, show, table_of
-from ninja_game.cli.terminal import use_dummy_video
+from ninja_game.cli.tables import as_json, draw, show, table_of
+from ninja_game.cli.terminal import size_note, use_dummy_video
 from ninja_game.errors import ArgumentError, FileError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import cache_folder, data_folder
