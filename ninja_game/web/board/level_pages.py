@@ -22,7 +22,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_splits, split_table, sum_of_best
 from ninja_game.ui.theme import RUN_COLOURS
-from ninja_game.web.board.ranking import Part, Ranked, Ranking
+from ninja_game.web.board.ranking import Leaderboard, Ranked, Ranking
 from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
 from ninja_game.web.board.runs import PLAYED, Run
 from ninja_game.web.pages.frame import (
@@ -97,7 +97,7 @@ class LevelPages:
         self.pages = Pages(out, BOARD, memo)
         self.ranking = ranking
         self.entries = ranking.shown.entries
-        self.part_name = ranking.part_name
+        self.leaderboard_name = ranking.leaderboard_name
         self.main = ranking.categories[0]
         self.game = f"../{game}"
         self.site = address and f"{address}{BOARD}/"
@@ -154,13 +154,13 @@ class LevelPages:
         """``beside``: the runs of the level that stand side by side."""
         stem, title = self.stems[run.key], f"{self.shown_name(run.player)} on {run.entry.title}"
         ranks, links = list[tuple[str, str]](), list[Markup]()
-        for part, rows, number in self.ranking.places.get(run.key, ()):
+        for leaderboard, rows, number in self.ranking.places.get(run.key, ()):
             row, first = rows[number], rows[0]
             if number >= FIRST:
                 continue  # else one new run would change the pages of many
             if row.place:
-                late = self.behind(part[1], row, first, " behind")
-                ranks.append((self.part_name(part), f"place {row.place}" + f", {late}" * bool(late)))
+                late = self.behind(leaderboard[1], row, first, " behind")
+                ranks.append((self.leaderboard_name(leaderboard), f"place {row.place}" + f", {late}" * bool(late)))
             if number and not links:
                 links.append(self.watch_link([run, first.run], "", f"Watch with {self.shown_name(first.run.player)}"))
         links.append(tag("a", "All runs of the player", href=f"{UP}{BOARD}/{player_page(run.player)}.html"))
@@ -250,48 +250,48 @@ class LevelPages:
         fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > 1]
         first, *others = [self._progression(entry, each, RECORDS * (not at)) for at, each in enumerate(fell)] or [None]
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
-        same: dict[str, dict[Part, list[Ranked]]] = defaultdict(dict)
+        same: dict[str, dict[Leaderboard, list[Ranked]]] = defaultdict(dict)
         for each, rows in tables.items():
             same[f"{each[0]} {[(row.place, row.run.key) for row in rows[:FIRST]]}"][each] = rows[:FIRST]
         near = {row.run.key for rows in tables.values() for row in rows[:FIRST] if row.run.near}
         remarks: set[str] = set()
         shown, leads = list[Content](), list[tuple[str, str]]()
-        for number, parts in enumerate(same.values(), 1):
-            waiting = [row for each in parts for row in self.ranking.waiting(entry.digest, each, tables[each])]
+        for number, leaderboards in enumerate(same.values(), 1):
+            waiting = [row for each in leaderboards for row in self.ranking.waiting(entry.digest, each, tables[each])]
             near |= {row.run.key for row in waiting}
-            shown.append(self._table(parts, remarks, anchor := f"ranks-{number}"))
+            shown.append(self._table(leaderboards, remarks, anchor := f"ranks-{number}"))
             better = [
                 f"{self.shown_name(row.run.player)} {seconds_text(row.run.tick)} with {row.run.gold} gold"
                 for row in waiting
             ]
             shown.append(tag("p", f"Better, and waiting: {', '.join(dict.fromkeys(better))}.") if better else "")
-            for each, (best, *_) in parts.items():
+            for each, (best, *_) in leaderboards.items():
                 leader = (
                     f": {self.shown_name(best.run.player)}, {each[1].text(best.values[0])}" if best.place == 1 else ""
                 )
-                leads.append((anchor, self.part_name(each) + leader))
+                leads.append((anchor, self.leaderboard_name(each) + leader))
         leads += [(each, each.capitalize()) for each, content in ((RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
         return on_this_page(leads), drawn, joined(*shown, note, link, first, folded, beside)
 
-    def _table(self, parts: Mapping[Part, Sequence[Ranked]], above: set[str], anchor: str) -> Markup:
+    def _table(self, leaderboards: Mapping[Leaderboard, Sequence[Ranked]], above: set[str], anchor: str) -> Markup:
         """A table of categories with the same runs in order. ``above``: remarks of tables above."""
-        rows, categories = [], [category for _, category in parts]
+        rows, categories = [], [category for _, category in leaderboards]
         timed = any(category.unit == FASTEST.unit for category in categories)
-        for same in zip(*parts.values(), strict=True):
+        for same in zip(*leaderboards.values(), strict=True):
             place, run = same[0].place, same[0].run
             shown = replace(run, remark="as above") if run.remark in above else run
             results = [category.text(each.values[0]) for category, each in zip(categories, same, strict=True)]
-            late = self.behind(categories[0], same[0], next(iter(parts.values()))[0])
+            late = self.behind(categories[0], same[0], next(iter(leaderboards.values()))[0])
             rows.append((place or "", *self.run_cells(shown, *results, late, timed=timed)))
             above |= {run.remark} - {""}
-        names = [category.name if len(parts) > 1 else category.unit for category in categories]
+        names = [category.name if len(leaderboards) > 1 else category.unit for category in categories]
         heads = ("Place", "Player", *names, "Behind", *RUN_HEADS)
         ranked = table("Best run of each player", heads, rows)
-        return section("; ".join(map(self.part_name, parts)), ranked, anchor=anchor)
+        return section("; ".join(map(self.leaderboard_name, leaderboards)), ranked, anchor=anchor)
 
-    def _progression(self, entry: Entry, part: Part, anchor: str) -> Content:
-        category, runs = part[1], self.ranking.history[entry.digest, part]
+    def _progression(self, entry: Entry, leaderboard: Leaderboard, anchor: str) -> Content:
+        category, runs = leaderboard[1], self.ranking.history[entry.digest, leaderboard]
         moved = "rose" if category.rising else "fell"
         numbers = [self.ranking.number(category, run) for run in runs]
         better = ["", *(category.difference(before - now) for before, now in pairwise(numbers))]
@@ -306,7 +306,7 @@ class LevelPages:
         heights = [-number if category.rising else number for number in numbers]
         chart = steps(list(zip(moments, heights, strict=True)), start, end, said)
         heads = ("Date", "Player", category.unit, "Better by", "Watch")
-        title = f"How the record {moved}: {self.part_name(part)}"
+        title = f"How the record {moved}: {self.leaderboard_name(leaderboard)}"
         return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]), anchor=anchor or None)
 
     def _side_by_side(self, category: Category, runs: Sequence[Run]) -> tuple[Markup, Content]:

@@ -139,7 +139,7 @@ class BoardPages(LevelPages):
         for category, amount in record.before.items():
             result = category.measured(self.ranking.number(category, record.run))
             gain = "first" if amount is None else f"better by {category.difference(amount)}"
-            yield f"{self.part_name((record.run.ladder, category))}: {result}, {gain}"
+            yield f"{self.leaderboard_name((record.run.ladder, category))}: {result}, {gain}"
 
     def _week(self) -> list[Piece]:
         if not (found := self.ranking.level_of_the_week):
@@ -171,7 +171,9 @@ class BoardPages(LevelPages):
         return "; runs and players are those of both ladders" * (len(self.ranking.ladders) > 1)
 
     def _best_heads(self) -> list[str]:
-        return [each for ladder in self.ranking.ladders for each in (self.part_name((ladder, self.main)), "First")]
+        return [
+            each for ladder in self.ranking.ladders for each in (self.leaderboard_name((ladder, self.main)), "First")
+        ]
 
     def _best(self, digest: str) -> list[Content]:
         """The best number and its player in the first category of each ladder, "" where nobody has one."""
@@ -253,7 +255,7 @@ class BoardPages(LevelPages):
             results = [self.run_link(run, UP, self.shown_value(part[1], run)) for run in runs]
             for player, number in last.items():
                 best, by = runs[number], runs[number + 1] if number + 1 < len(runs) else None
-                about = level_link(self.entries[level], UP), self.part_name(part), results[number], best.day
+                about = level_link(self.entries[level], UP), self.leaderboard_name(part), results[number], best.day
                 loss = (self.player_link(by.player, UP), results[number + 1], by.day) if by else ("", "", "")
                 (lost if by else held)[player].append((*about, *loss))
         return held, lost
@@ -285,7 +287,7 @@ class BoardPages(LevelPages):
         for part, rows, number in self.ranking.places.get(run.key, ()):
             if place := rows[number].place:
                 late = self.behind(part[1], rows[number], rows[0], " behind")
-                found.append(f"{self.part_name(part)}: {place}" + f", {late}" * bool(late))
+                found.append(f"{self.leaderboard_name(part)}: {place}" + f", {late}" * bool(late))
         return found
 
     # --- levels, episodes, and what does not count ---
@@ -330,7 +332,7 @@ class BoardPages(LevelPages):
                     )
                     for place, (player, total, runs) in enumerate(ranked(episode, part)[:FIRST], 1)
                 ]
-                caption = f"Episode {number:02d}, {self.part_name(part)}: {what}"
+                caption = f"Episode {number:02d}, {self.leaderboard_name(part)}: {what}"
                 tables += [table(caption, EPISODE_HEADS, rows)] if rows else []
             levels = [tag("li", level_link(each)) for each in episode.levels]
             nobody = tag("p", "No player yet.")
