@@ -14,7 +14,6 @@ from typing import Any
 import pytest
 
 from ninja_game.backend.plain import PlainWorlds
-from ninja_game.budget import OBJECT_COSTS
 from ninja_game.editor.brush import OBJECT_TYPES
 from ninja_game.formats.ascii.legend import SYMBOLS
 from ninja_game.formats.ascii.object_lines import FORMS
@@ -175,7 +174,11 @@ def test_what_kills_counts_where_a_level_is_judged(kind: Kind) -> None:
 
 
 def test_who_never_sleeps_costs_more_work_than_others() -> None:
-    assert set(OBJECT_COSTS) == set(kinds.ENEMIES)
+    assert {kind.number for kind in KINDS if kind.cost > 1} == set(kinds.ENEMIES)
+
+
+def test_the_field_that_tells_of_use_is_one_of_the_kind_s() -> None:
+    assert all(kind.used in inspect.get_annotations(kind.fields) for kind in KINDS if kind.used)
 
 
 def test_a_corpse_is_kicked_by_what_is_solid_and_by_what_kills_where_it_goes() -> None:

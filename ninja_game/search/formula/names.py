@@ -14,7 +14,7 @@ from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.language import FAR, Values
 from ninja_game.search.heuristics import FARTHEST, DistanceField, Heuristics, open_masks, points_at
-from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, LAUNCHER, MINE, TURRET
+from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, LAUNCHER, MINE, TURRET
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import LAUNCHER_FLIGHT, OUTCOME_DEAD, OUTCOME_EXIT
 
@@ -147,7 +147,10 @@ def _place(batch: Batch, number: Any, axis: str) -> Any:
     return found[axis]
 
 
-FLAGS = {"taken": {GOLD: "taken", MINE: "exploded"}, "opened": {EXIT: "is_open", DOOR: "switched"}}
+FLAGS = {
+    "taken": {kind: KIND_OF[kind].used for kind in (GOLD, MINE)},
+    "opened": {kind: KIND_OF[kind].used for kind in (EXIT, DOOR)},
+}
 """The field of a kind of objects that says so."""
 
 
