@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
     from ninja_game.sim.level import Level
 
-T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
 N = TypeVar("N", "NamedLevel", "Recording")
 

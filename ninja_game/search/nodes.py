@@ -33,12 +33,7 @@ MAX_ENDS = 96
 
 
 FROM_START, MUTATIONS, ALONG_RUN, PASSES = 6, 7, 8, 9
-"""Streams of random numbers of one seed: of searches from the start, of changed keys, of searches along a run, of what
-chooses spans or frontiers."""
-
-
-def random_of(seed: int, stream: int) -> np.random.Generator:
-    return np.random.default_rng([seed, stream])
+"""Streams of random numbers of a seed: from the start, of changed keys, along a run, of choices of spans and legs."""
 
 
 @struct_base

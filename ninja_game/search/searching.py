@@ -25,7 +25,6 @@ from ninja_game.search.nodes import (
     clear,
     new_arrays,
     new_table,
-    random_of,
     ticks_at_once,
     zeroed,
 )
@@ -92,7 +91,7 @@ class Search:
 
     def _begin(self, roots: Sequence[StateWords], resolution: Resolution, seed: int, bound: int) -> None:
         clear(self.arrays)
-        random = random_of(seed, FROM_START if self._known is None else ALONG_RUN)
+        random = np.random.default_rng([seed, FROM_START if self._known is None else ALONG_RUN])
         shifts = random.random(2) * resolution.cell
         least = 0.5 if self._known is None else 0.0
         speed_shifts = resolution.speed * least + random.random(2) * resolution.speed * (1.0 - least)

@@ -235,9 +235,8 @@ class LevelPages:
         if runs:
             heads, back = ("Player", "Time", "Score", *RUN_HEADS), tag("a", "The level", href=UP + page_name(digest))
             name, caption = f"levels/{digest[:16]}-runs", "All runs, the fastest first"
-            self.write_table(
-                name, entry.title, caption, heads, sorted(rows, key=itemgetter(-1)), tag("p", back), cells=cells
-            )
+            ordered = sorted(rows, key=itemgetter(-1))
+            self.write_table(name, entry.title, caption, heads, ordered, tag("p", back), cells=cells)
 
     def _runs(self, entry: Entry) -> tuple[Content, Content, Content]:
         """What leads to the tables, the paths of the first runs over the level, and all that stands below."""
@@ -266,10 +265,8 @@ class LevelPages:
             ]
             shown.append(tag("p", f"Better, and waiting: {', '.join(dict.fromkeys(better))}.") if better else "")
             for each, (best, *_) in leaderboards.items():
-                leader = (
-                    f": {self.shown_name(best.run.player)}, {each[1].text(best.values[0])}" if best.place == 1 else ""
-                )
-                leads.append((anchor, self.leaderboard_name(each) + leader))
+                leader = f": {self.shown_name(best.run.player)}, {each[1].text(best.values[0])}"
+                leads.append((anchor, self.leaderboard_name(each) + leader * (best.place == 1)))
         leads += [(each, each.capitalize()) for each, content in ((RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
         return on_this_page(leads), drawn, joined(*shown, note, link, first, folded, beside)

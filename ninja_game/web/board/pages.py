@@ -171,9 +171,8 @@ class BoardPages(LevelPages):
         return "; runs and players are those of both ladders" * (len(self.ranking.ladders) > 1)
 
     def _best_heads(self) -> list[str]:
-        return [
-            each for ladder in self.ranking.ladders for each in (self.leaderboard_name((ladder, self.main)), "First")
-        ]
+        ladders = self.ranking.ladders
+        return [head for each in ladders for head in (self.leaderboard_name((each, self.main)), "First")]
 
     def _best(self, digest: str) -> list[Content]:
         """The best number and its player in the first category of each ladder, "" where nobody has one."""
@@ -225,11 +224,11 @@ class BoardPages(LevelPages):
         sums: dict[str, list[Content]] = defaultdict(list)
         pages = dict(zip(self.ranking.ladders, ("players", "assisted"), strict=False))
         for ladder, standings in self.ranking.standings.items():
-            others = [tag("a", self._players_of(each), href=f"{pages[each]}.html") for each in pages if each != ladder]
+            links = [
+                tag("a", self._players_of(other), href=f"{pages[other]}.html") for other in pages if other != ladder
+            ]
             title, rows = self._players_of(ladder), [*map(self._standing, standings)]
-            self.write_table(
-                pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", other) for other in others)
-            )
+            self.write_table(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", link) for link in links))
             for each in standings:
                 sums[each.player].append(tag("p", _sums(ladder, self.main.name, each)))
         runs: dict[str, list[Run]] = defaultdict(list)
