@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ninja_game.errors import BudgetError
 from ninja_game.sim.inputs import MAX_TICKS
-from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER, THWUMP, TURRET
+from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.level import Level, makes_object
 
 RUN_BUDGET = 320_000_000
@@ -36,13 +36,10 @@ NO_LIMIT = 2**63
 TICK_COST = 10
 """Work of a tick without objects: the ninja's own. One is what most objects cost, some 10 ns compiled."""
 
-OBJECT_COSTS = {TURRET: 10, LAUNCHER: 10, DRONE: 2, FLOOR_GUARD: 2, THWUMP: 2}
-"""Most work of an object in a tick, where it is more than one: those that cast rays, those that never sleep."""
-
 
 def tick_cost(level: Level) -> int:
     """The most work that a tick of a level can be."""
-    return TICK_COST + sum(OBJECT_COSTS.get(spec.kind, 1) for spec in level.objects if makes_object(spec))
+    return TICK_COST + sum(KIND_OF[spec.kind].cost for spec in level.objects if makes_object(spec))
 
 
 def affordable_ticks(level: Level, budget: int = RUN_BUDGET) -> int:

@@ -12,6 +12,7 @@ import click
 
 from ninja_game.cli import options
 from ninja_game.cli.options import NEW_FOLDER, LevelPath
+from ninja_game.cli.progress import progress_line
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import counted, name_key, shown_text
 from ninja_game.files.tree import Tree
@@ -97,7 +98,7 @@ def check(
     wanted = CertifyOptions(goals, task_options, improve)
     broken = 0
     without: dict[str, list[str]] = {goal: [] for goal in goals}
-    with options.progress_line() as report:
+    with progress_line() as report:
         results = certify_all(chosen, kept, wanted, jobs=jobs, report=report.of_level)
         for level, files, found in zip(chosen, kept, results, strict=True):
             if isinstance(found, NinjaGameError):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ninja_game.cli import options
+from ninja_game.cli.progress import heartbeat, with_progress
 from ninja_game.cli.terminal import data_output
 from ninja_game.errors import FileError, LevelError
 from ninja_game.files.shown_text import counted, file_stem, name_key, name_problem, shown_text
@@ -91,7 +92,7 @@ def convert(
         form = form or "file"
         if form in RUN_FORMS:
             written = replay_texts(recordings, budget) if form == "replay" else input_texts(recordings, form)
-            output.write_each(list(options.with_progress(written, "recording")), recordings, RUN_FORMS[form])
+            output.write_each(list(with_progress(written, "recording")), recordings, RUN_FORMS[form])
         elif form == "episode":
             output.write(episode_text(recordings, budget))
     else:
@@ -103,7 +104,7 @@ def convert(
     if form == "file":
         output.write(level_file_text(texts, level))
     elif form == "string":
-        output.write("".join(write_level_string(each.level, exact=True) + "\n" for each in found))
+        output.write("".join(write_level_string(named.level, exact=True) + "\n" for named in found))
     if lost := left_out(form, found, [text for _, text in texts]):
         click.echo(f"left out: {', '.join(lost)}", err=True)
 
@@ -201,7 +202,7 @@ def record(
 
     level = options.load_level_option(level_path)
     recording = options.choose(load_replays(inputs, level=level, changed=True), "recordings", inputs, record)
-    with options.heartbeat(lambda: "running the inputs"):
+    with heartbeat(lambda: "running the inputs"):
         (text,) = replay_texts([on_level(recording, level)], budget)
     path = output or free_path(Path(), inputs.name.partition(".")[0], REPLAY_SUFFIX)
     Output(str(path), [inputs], force=force).write(text)
@@ -245,7 +246,7 @@ def link_of(files: Sequence[Path], record: int | None = None) -> str:
             raise click.UsageError("a link carries one pack, whole")
         return PackFiles(first).link()
     if all(holds_recordings(text) for file in files for _, text in texts_of(file)):
-        found = [each for file in files for each in load_replays(file)]
+        found = [recording for file in files for recording in load_replays(file)]
         return recording_link(found if record is None else [options.choose(found, "recordings", first, record)])
     if len(files) > 1:
         raise click.UsageError("a link carries one level; make a pack of several, or give replays only")

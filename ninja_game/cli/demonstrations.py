@@ -9,7 +9,8 @@ from typing import Any
 import click
 
 from ninja_game.budget import DATASET_MIB
-from ninja_game.cli.options import NEW_FILE, OLD_PATH, level_option, load_level_option, memory_option, with_progress
+from ninja_game.cli.options import NEW_FILE, OLD_PATH, level_option, load_level_option, memory_option
+from ninja_game.cli.progress import with_progress
 from ninja_game.cli.terminal import print_error
 from ninja_game.sim.rules import LIFETIME
 
@@ -87,6 +88,6 @@ def demonstrations(
         learn.write_npz(output, found)
     else:
         learn.write_minari(str(dataset), found, **settings)
-    steps, passed = sum(len(each.rewards) for each in found), sum(each.outcome == "exit" for each in found)
+    steps, passed = sum(len(run.rewards) for run in found), sum(run.outcome == "exit" for run in found)
     left = f", {len(recordings) - len(found)} left out" * (len(found) < len(recordings))
     click.echo(f"{output or dataset}: {len(found)} demonstrations, {steps:,} steps, {passed} to the exit{left}")

@@ -7,15 +7,15 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.options import InputPath, Pixels, choose, heartbeat, level_option, load_level_option
-from ninja_game.cli.terminal import use_dummy_video
+from ninja_game.cli.options import InputPath, Pixels, choose, level_option, load_level_option
+from ninja_game.cli.progress import heartbeat
+from ninja_game.cli.terminal import size_note, use_dummy_video
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.links import is_link
 
 MOST_BESIDE = 3
-LARGE = 5_000_000  # bytes of a GIF
 
 
 @click.command()
@@ -71,7 +71,7 @@ def film(
     found = load_replays(replay, level=level)
     parts = found if found[0].episode and record is None else [choose(found, "recordings", replay, record)]
     path = output or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
-    if path.exists() and any(not is_link(each) and path.samefile(each) for each in (replay, *ghosts, *beside)):
+    if path.exists() and any(not is_link(file) and path.samefile(file) for file in (replay, *ghosts, *beside)):
         raise click.UsageError("the film would replace the replay")
     along, others = ([run for file in files for run in load_replays(file, level=level)] for files in (ghosts, beside))
     if any(all(run.level != part.level for part in parts) for run in (*along, *others)):
@@ -89,9 +89,12 @@ def film(
 
     alone = len(parts) == 1
     films = [
-        Film(run, size, speed, None, along, keys, first * alone, last if alone else None, others, splits, gold)
+        Film(
+            run, size, speed, ghosts=along, beside=others, keys=keys, splits=splits, gold=gold,
+            first=first if alone else 0, last=last if alone else None,
+        )
         for run, along, others in zip(parts, ghosts_of, beside_of, strict=True)
-    ]
+    ]  # fmt: skip
     if not alone and (first or last is not None):
         films = section_of(films, first, last)
     progress = "looking for the end of the run"
@@ -107,9 +110,3 @@ def film(
     except OSError as error:
         raise NinjaGameError(f"{path}: the film cannot be written: {error.strerror}") from None
     click.echo(f"{shown_text(str(path))}: {length_of(films)} ticks{size_note(path)}")
-
-
-def size_note(path: Path) -> str:
-    """What is said of a GIF that is large."""
-    size = path.stat().st_size
-    return f", {size / 1e6:.0f} MB; as .mp4 it would be smaller" if path.suffix == ".gif" and size > LARGE else ""

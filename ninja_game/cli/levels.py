@@ -10,7 +10,8 @@ import click
 
 from ninja_game.cli import options
 from ninja_game.cli.commands import FAILED
-from ninja_game.cli.options import NEW_FILE, OLD_FOLDER, OLD_PATH, with_progress
+from ninja_game.cli.options import NEW_FILE, OLD_FOLDER, OLD_PATH
+from ninja_game.cli.progress import progress_line, time_text, with_progress
 from ninja_game.errors import FileError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import free_path
@@ -112,7 +113,7 @@ def pack_up(pack: Path, seconds: float, jobs: int | None, zip_path: Path | None)
 
     path = zip_path or pack.resolve().with_name(f"{pack.resolve().name}.zip")
     check_output(path)
-    with options.progress_line() as report:
+    with progress_line() as report:
         ready = make_ready(pack, seconds=seconds, jobs=jobs or cores(), say=lambda text, _: report.say(text))
     write_atomically(path, ready.zipped)
     _show(ready.findings)
@@ -171,7 +172,7 @@ def generate(seed: int | None, difficulty: int, output: Path | None, replay: Pat
     if output and replay and output.resolve() == replay.resolve():
         raise FileError("level and replay would be one file", str(output), hint="choose another name for one of them")
     seed = SystemRandom().randrange(10**6) if seed is None else seed
-    with options.progress_line() as progress:
+    with progress_line() as progress:
         made = generate(seed, difficulty, report=progress.say)
     if made is None:
         click.echo(f"seed {seed} gives no level of difficulty {difficulty} that can be passed; try another one")
@@ -184,6 +185,6 @@ def generate(seed: int | None, difficulty: int, output: Path | None, replay: Pat
         save_replay(replay, run)
     click.echo(
         f"{output}: {level.name}, seed {seed}, difficulty {made.difficulty:.1f}, "
-        f"certified in {options.time_text(made.run.end_tick)}"
+        f"certified in {time_text(made.run.end_tick)}"
     )
     return 0

@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli.options import NEW_FILE, OLD_FILE, heartbeat
+from ninja_game.cli.options import NEW_FILE, OLD_FILE
+from ninja_game.cli.progress import heartbeat
 from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.runtime import cores

@@ -1,47 +1,28 @@
-"""What commands have in common: options, types of arguments, progress, one result of a search."""
+"""What commands have in common: options and types of arguments."""
 
 from __future__ import annotations
 
 import re
-import sys
-import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import replace
+from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 from functools import reduce
 from pathlib import Path
-from threading import Event, Thread
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 from click.shell_completion import CompletionItem
 
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.cli.terminal import print_error
-from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import own_levels
-from ninja_game.files.writing import check_output
-from ninja_game.formats.run_time import seconds_text
 from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
     from ninja_game.formats.recording import Recording
-    from ninja_game.formats.replay.text import Replay
-    from ninja_game.runs.recording_reader import Unreadable
-    from ninja_game.search.task import Progress, Task
     from ninja_game.sim.level import Level
 
-T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
 N = TypeVar("N", "NamedLevel", "Recording")
-
-# When progress is shown.
-PATIENCE = 1.0  # seconds until a terminal shows it
-REFRESHES = 8  # times a second there
-LONG = 5.0  # seconds until its first line in a file
-EVERY = 15.0  # seconds between two lines
 
 JOBS = click.IntRange(1, 1024)
 SEED = click.IntRange(0, 10**9)
@@ -153,7 +134,7 @@ def choose_level(path: Path, record: int | None) -> NamedLevel:
 def choose(found: Sequence[N], what: str, path: Path, record: int | None) -> N:
     """The only level or recording of those in a file, or that with a record number. Usage error if it is not there."""
     if record is not None:
-        found = [each for each in found if each.record == record]
+        found = [item for item in found if item.record == record]
         if not found:
             raise click.UsageError(f"{path}: there is no record {record}")
     if len(found) > 1:
@@ -164,65 +145,6 @@ def choose(found: Sequence[N], what: str, path: Path, record: int | None) -> N:
 def load_level_option(path: Path | None) -> Level | None:
     """The level that ``level_option`` names."""
     return choose_level(path, None).level if path else None
-
-
-class Readable(Generic[T]):
-    """Items as they pass, without what cannot be read, which is reported on stderr; how many of each there were."""
-
-    def __init__(self, items: Iterable[T | Unreadable]) -> None:
-        self._items = items
-        self.count = self.unreadable = 0
-
-    def __iter__(self) -> Iterator[T]:
-        from ninja_game.runs.recording_reader import Unreadable
-
-        for item in self._items:
-            if isinstance(item, Unreadable):
-                self.unreadable += 1
-                print_error(item.message)
-            else:
-                self.count += 1
-                yield item
-
-
-def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
-    """Items as they pass, counted on stderr if that takes long. ``label``: what one of them is."""
-    done = 0
-    with heartbeat(lambda: f"{counted(done, label)} done"):
-        for done, item in enumerate(items, 1):  # noqa: B007 - the line tells it
-            yield item
-
-
-@contextmanager
-def heartbeat(text: Callable[[], str]) -> Iterator[None]:
-    """Report progress on stderr meanwhile: the present state in a terminal, in a file a line now and then."""
-    over, start = Event(), time.monotonic()
-
-    def report_to_file() -> None:
-        pause = LONG
-        while not over.wait(pause):
-            click.echo(f"ninja-game: {time.monotonic() - start:,.0f} s: {text()}", err=True)
-            pause = EVERY
-
-    def report_to_terminal() -> None:
-        if over.wait(PATIENCE):
-            return
-        from rich.console import Console
-        from rich.live import Live
-        from rich.text import Text
-
-        stderr, shared = Console(stderr=True), sys.stdout.isatty()
-        with Live(console=stderr, transient=True, auto_refresh=False, redirect_stdout=shared) as live:
-            while not over.wait(1 / REFRESHES):
-                live.update(Text(f"{time.monotonic() - start:4.0f} s  {text()}"), refresh=True)
-
-    reporter = Thread(target=report_to_terminal if sys.stderr.isatty() else report_to_file, daemon=True)
-    reporter.start()
-    try:
-        yield
-    finally:
-        over.set()
-        reporter.join()
 
 
 class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]
@@ -278,85 +200,3 @@ shortening_options = together(
 body_option = click.option(
     "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True, help="The ninja's body."
 )
-
-
-def check_gold(task: Task) -> None:
-    there = replace(task, gold=-1).gold_wanted
-    if task.gold > there:
-        raise click.UsageError(f"--gold {task.gold}: the level holds {there} pieces of gold")
-
-
-class ShownProgress:
-    """Receives the reports of a search: ``text``: the current line of progress; ``last``: the last report."""
-
-    def __init__(self) -> None:
-        self.text = "starting; the first time it compiles, which takes about a minute"
-        self.last: Progress | None = None
-
-    def __call__(self, progress: Progress) -> None:
-        self.last = progress
-        self.say(progress_text(progress))
-
-    def say(self, text: str) -> None:
-        self.text = text
-
-    def of_level(self, name: str, progress: Progress) -> None:
-        self.say(f"{shown_text(name)}: {progress_text(progress)}")
-
-
-@contextmanager
-def progress_line() -> Iterator[ShownProgress]:
-    """Show how a search stands, as ``heartbeat`` does."""
-    shown = ShownProgress()
-    with heartbeat(lambda: shown.text):
-        yield shown
-
-
-def not_found_text(task: Task, progress: Progress | None) -> str:
-    """The line for a search that found no run, with what it never reached."""
-    from ninja_game.search.task import obstacle
-
-    gold = f"with {task.gold_wanted} gold " if task.gold_wanted else ""
-    why = f": {obstacle(task.level, task.gold_wanted, progress).sentence}" if progress else ""
-    return f"no run {gold}to the exit found{why}; more time or another --seed may find one"
-
-
-def progress_text(progress: Progress) -> str:
-    """What is done, best run and speed in a line, which is shown beside a clock."""
-    best = time_text(progress.best) if progress.best >= 0 else "none yet"
-    speed = progress.ticks / progress.seconds / 1e6 if progress.seconds > 0 else 0.0
-    return f"{progress.doing:<10} best {best}  {speed:.1f}M ticks/s"
-
-
-def time_text(end_tick: int) -> str:
-    return f"{end_tick} ticks ({seconds_text(end_tick)} s)"
-
-
-def simplified_run(task: Task, run: Replay, price: int | None) -> Replay:
-    """The run without keys that do nothing, verified.
-
-    ``price``: also with fewer key changes, at most so many ticks longer and with no less gold.
-    """
-    from ninja_game.search.certificate import smooth_run, verified_run, without_idle_keys
-
-    inputs = without_idle_keys(task.level, run.inputs, task.first, body=run.body)
-    if price is not None:
-        inputs = smooth_run(task.level, inputs, body=run.body, gold=run.gold, price=price)
-    return verified_run(task.level, inputs, body=run.body, gold=run.gold)
-
-
-def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
-    """A function that writes each better run of a level to a file, which must not be the level's own."""
-    from ninja_game.search.certificate import named_replay, save_replay
-
-    check_output(path, keep=[Path(level.file)])
-    about = {"name": level.name, "author": "ninja-game solve", "level_author": level.author}
-    return lambda run: save_replay(path, named_replay(run, "solve", **about))
-
-
-def saver_of_better(path: Path, recording: Recording, command: str) -> Callable[[Replay], None]:
-    """A function that writes each better run that a command made of a recording, to a file that is not its own."""
-    from ninja_game.search.certificate import improved_replay, save_replay
-
-    check_output(path, keep=[Path(recording.file)])
-    return lambda run: save_replay(path, improved_replay(run, recording, command))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +13,7 @@ import click
 
 from ninja_game.cli import options
 from ninja_game.cli.commands import FAILED
+from ninja_game.cli.progress import progress_line, time_text
 from ninja_game.errors import FileError
 from ninja_game.files.reading import protect_inputs, read_utf8
 from ninja_game.files.shown_text import shown_text
@@ -20,8 +21,11 @@ from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
 from ninja_game.files.writing import check_output, write_atomically
 
 if TYPE_CHECKING:
+    from ninja_game.formats.named_level import NamedLevel
+    from ninja_game.formats.recording import Recording
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.formula.task import SpanResult
+    from ninja_game.search.task import Progress, Task
 
 
 class SearchLog:
@@ -78,16 +82,16 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
     chosen = options.choose_level(level, record)
     output = output or free_path(Path(), level.stem, REPLAY_SUFFIX)
     task = Task(chosen.level, **task_options)
-    options.check_gold(task)
-    save = options.saver(output, chosen)
-    with options.progress_line() as report:
+    check_gold(task)
+    save = saver(output, chosen)
+    with progress_line() as report:
         run = solve(task, report=report, on_better=save)
     if run is None:
-        click.echo(options.not_found_text(task, report.last))
+        click.echo(not_found_text(task, report.last))
         return FAILED
-    run = options.simplified_run(task, run, smooth)
+    run = simplified_run(task, run, smooth)
     save(run)
-    click.echo(f"{shown_text(str(output))}: {options.time_text(run.end_tick)}, {run.gold} gold")
+    click.echo(f"{shown_text(str(output))}: {time_text(run.end_tick)}, {run.gold} gold")
     return 0
 
 
@@ -138,11 +142,11 @@ def improve(
         load_replays(replay, level=options.load_level_option(level_path)), "recordings", replay, record
     )
     task = Task(recording.level, body=recording.body, first=recording.inputs, **task_options)
-    options.check_gold(task)
-    save = options.saver_of_better(output, recording, "improve")
+    check_gold(task)
+    save = saver_of_better(output, recording, "improve")
     log = SearchLog(resume, [replay, output]) if resume else None
     if log and earlier:
-        others = tuple(each.inputs for each in earlier if each.level == task.level)
+        others = tuple(run.inputs for run in earlier if run.level == task.level)
         left = max(0.1, task.seconds - log.seconds_spent)
         task = replace(task, others=others, seconds=left, seed=task.seed + log.starts)
     played = run_level(task.level, task.first, body=task.body)
@@ -160,22 +164,22 @@ def improve(
         task = replace(task, first=first, others=(), seconds=task.seconds if known else task.seconds / 2)
     before: list[int] = []
 
-    def keep(found: Replay) -> None:
-        before.append(found.end_tick)
-        save(found)
+    def keep(run: Replay) -> None:
+        before.append(run.end_tick)
+        save(run)
         if log:
-            log.note(options.time_text(found.end_tick))
+            log.note(time_text(run.end_tick))
 
-    with options.progress_line() as report:
+    with progress_line() as report:
         run = solve(task, report=report, on_better=keep)
     assert run is not None  # noqa: S101 - the first run is one
     if log:
         log.note("ended")
-    run = options.simplified_run(task, run, smooth)
+    run = simplified_run(task, run, smooth)
     save(run)
     gain = before[0] - run.end_tick
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
-    click.echo(f"{output}: {options.time_text(run.end_tick)}, {change}, {run.gold} gold")
+    click.echo(f"{output}: {time_text(run.end_tick)}, {change}, {run.gold} gold")
     return 0
 
 
@@ -237,13 +241,13 @@ def search(
     recording = options.choose(
         load_replays(replay, level=options.load_level_option(level_path)), "recordings", replay, record
     )
-    save = options.saver_of_better(output, recording, "search") if output else None
+    save = saver_of_better(output, recording, "search") if output else None
     task = SpanTask(
         recording.level, recording.inputs, first, last, goal=goal, measure=maximise or minimise,
         least=bool(minimise), rest=rest, body=recording.body,
     )  # fmt: skip
     start = 0.0
-    with options.progress_line() as shown:
+    with progress_line() as shown:
         saved: list[SpanResult] = []
         misses: list[SpanResult] = []
 
@@ -262,11 +266,11 @@ def search(
         found = search_span(
             task, report, method=method, every=every, seed=seed, threads=jobs, report_miss=misses.append
         )
-    found = tuple(tidied(task, each) for each in found)
+    found = tuple(tidied(task, result) for result in found)
     if save and found:
         save(record_replay(task.level, found[0].inputs, body=task.body))
-    for each in found or misses[-1:]:
-        click.echo(f"{score_text(task, each)}: {_keys(each)}")
+    for result in found or misses[-1:]:
+        click.echo(f"{score_text(task, result)}: {_keys(result)}")
     if not found:
         click.echo("the goal was not reached; more time, a longer span or another --method may reach it")
     elif output:
@@ -279,3 +283,48 @@ def _keys(found: SpanResult) -> str:
     from ninja_game.sim.inputs import with_press_bits
 
     return " ".join(write_inputs(with_press_bits(found.keys[: found.ticks].tolist())))
+
+
+def check_gold(task: Task) -> None:
+    there = replace(task, gold=-1).gold_wanted
+    if task.gold > there:
+        raise click.UsageError(f"--gold {task.gold}: the level holds {there} pieces of gold")
+
+
+def not_found_text(task: Task, progress: Progress | None) -> str:
+    """The line for a search that found no run, with what it never reached."""
+    from ninja_game.search.task import obstacle
+
+    gold = f"with {task.gold_wanted} gold " if task.gold_wanted else ""
+    why = f": {obstacle(task.level, task.gold_wanted, progress).sentence}" if progress else ""
+    return f"no run {gold}to the exit found{why}; more time or another --seed may find one"
+
+
+def simplified_run(task: Task, run: Replay, price: int | None) -> Replay:
+    """The run without keys that do nothing, verified.
+
+    ``price``: also with fewer key changes, at most so many ticks longer and with no less gold.
+    """
+    from ninja_game.search.certificate import smooth_run, verified_run, without_idle_keys
+
+    inputs = without_idle_keys(task.level, run.inputs, task.first, body=run.body)
+    if price is not None:
+        inputs = smooth_run(task.level, inputs, body=run.body, gold=run.gold, price=price)
+    return verified_run(task.level, inputs, body=run.body, gold=run.gold)
+
+
+def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
+    """A function that writes each better run of a level to a file, which must not be the level's own."""
+    from ninja_game.search.certificate import named_replay, save_replay
+
+    check_output(path, keep=[Path(level.file)])
+    about = {"name": level.name, "author": "ninja-game solve", "level_author": level.author}
+    return lambda run: save_replay(path, named_replay(run, "solve", **about))
+
+
+def saver_of_better(path: Path, recording: Recording, command: str) -> Callable[[Replay], None]:
+    """A function that writes each better run that a command made of a recording, to a file that is not its own."""
+    from ninja_game.search.certificate import improved_replay, save_replay
+
+    check_output(path, keep=[Path(recording.file)])
+    return lambda run: save_replay(path, improved_replay(run, recording, command))

@@ -7,6 +7,7 @@ import os
 import re
 import sys
 from contextlib import suppress
+from pathlib import Path
 from typing import TextIO
 
 import click
@@ -24,6 +25,7 @@ _OURS = {
 _DATA = re.compile(r"(\n|\t)")
 
 _LONGEST_MESSAGE = 2000  # characters of a line about what is wrong
+LARGE = 5_000_000  # bytes of a GIF
 
 
 class Terminal(io.TextIOWrapper):
@@ -71,3 +73,9 @@ def say(text: str) -> None:
     """Write a line on stderr; where none can be written, the exit code still tells."""
     with suppress(OSError):
         click.echo(text, err=True)
+
+
+def size_note(path: Path) -> str:
+    """What is said of a GIF that is large."""
+    size = path.stat().st_size
+    return f", {size / 1e6:.0f} MB; as .mp4 it would be smaller" if path.suffix == ".gif" and size > LARGE else ""

@@ -15,6 +15,7 @@ import click
 
 from ninja_game.cli import options
 from ninja_game.cli.commands import BAD_INPUT, FAILED
+from ninja_game.cli.progress import Readable, with_progress
 from ninja_game.cli.terminal import data_output
 from ninja_game.files.shown_text import shown_text
 
@@ -87,10 +88,10 @@ def trace(
     return BAD_INPUT if traces.unreadable else FAILED if different else 0
 
 
-def _traces(files: Sequence[Path], **how: Any) -> options.Readable[FiledTrace]:
+def _traces(files: Sequence[Path], **how: Any) -> Readable[FiledTrace]:
     from ninja_game.runs.archive import trace_all
 
-    return options.Readable(options.with_progress(trace_all(files, **how), "trace"))
+    return Readable(with_progress(trace_all(files, **how), "trace"))
 
 
 def _digests(trace: FiledTrace) -> dict[str, Any]:
@@ -113,9 +114,7 @@ def _expected(against: Path, record: int | None, how: dict[str, Any]) -> Iterato
     return iter(_traces([against], record=record, **how))
 
 
-def _compare(
-    traces: options.Readable[FiledTrace], expected: Iterator[FiledTrace], against: Path, record: int | None
-) -> int:
+def _compare(traces: Readable[FiledTrace], expected: Iterator[FiledTrace], against: Path, record: int | None) -> int:
     """How many runs differ from the expected ones; each is reported with its first difference.
 
     Runs are paired by file and record, else by record alone; with ``record`` each is compared with that one.
@@ -140,7 +139,7 @@ def _compare(
     return different
 
 
-def _write(traces: options.Readable[FiledTrace], output: Path | None, files: Sequence[Path]) -> None:
+def _write(traces: Readable[FiledTrace], output: Path | None, files: Sequence[Path]) -> None:
     """Write the table: to the terminal, to a .npz file, or as CSV to any other file."""
     from ninja_game.files.writing import write_atomically
     from ninja_game.runs.trace_files import write_csv, write_npz

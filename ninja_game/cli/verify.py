@@ -11,7 +11,8 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.commands import BAD_INPUT, FAILED
-from ninja_game.cli.options import NEW_FILE, InputPath, budget_option, jobs_option, with_progress
+from ninja_game.cli.options import NEW_FILE, InputPath, budget_option, jobs_option
+from ninja_game.cli.progress import with_progress
 from ninja_game.cli.terminal import print_error
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
@@ -145,7 +146,7 @@ def _row(verdict: Verdict) -> str:
         left = verdict.lifetime + verdict.score_ticks - LIFETIME
         made += f"  (episode: {seconds_text(verdict.lifetime)} s left at its start, {seconds_text(left)} s at the exit)"
     row = f"{mark} {verdict.outcome:<7} {when:>11}  {verdict.gold:>3} gold  {score:>8}  {name}  {where}{made}"
-    problems = [f"{shown_text(each.text)}. {each.hint} [{each.code}]" for each in verdict.problems]
+    problems = [f"{shown_text(problem.text)}. {problem.hint} [{problem.code}]" for problem in verdict.problems]
     return "\n     ".join([row, *problems])
 
 

@@ -16,10 +16,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.commands import FAILED
-from ninja_game.cli.film import size_note
 from ninja_game.cli.options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, InputPath, jobs_option
-from ninja_game.cli.splits import as_json, draw, show, table_of
-from ninja_game.cli.terminal import use_dummy_video
+from ninja_game.cli.tables import as_json, draw, show, table_of
+from ninja_game.cli.terminal import size_note, use_dummy_video
 from ninja_game.errors import ArgumentError, FileError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import cache_folder, data_folder
@@ -224,8 +223,8 @@ def board(
     if data:
         write_atomically(data, board_text(judged, before), keep=[folder])
     if not check:
-        for each in judged.rejected:
-            click.echo(f"{each.kind}: {plain(each.file)}: {plain(each.why)}")
+        for run in judged.rejected:
+            click.echo(f"{run.kind}: {plain(run.file)}: {plain(run.why)}")
         for line in gone(ranking, before):
             click.echo(line)
         click.echo(summary(judged))
@@ -269,7 +268,7 @@ def _ranking(
     given = read_dates(dates, now) if dates else {}
     known = dates_of(before, now, given) if ledger else None
     judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
-    here = {run.file for run in judged.runs} | {each.file for each in judged.rejected + judged.again}
+    here = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
     if unknown := given.keys() - here:
         raise FileError("a file that is not among the runs", str(dates), found=shown_text(min(unknown)))
     memo.save()
@@ -330,7 +329,7 @@ def ask(
     entry = _level(level, list(ranking.shown.entries.values()))
     chosen = _category(ranking, category)
     tables = ranking.tables.get(entry.digest, {})
-    table, other = (tables.get((each, chosen), []) for each in sorted((PLAYED, ASSISTED), reverse=not assisted))
+    table, other = (tables.get((ladder, chosen), []) for ladder in sorted((PLAYED, ASSISTED), reverse=not assisted))
     found = [_of_player([*table, *other], player) for player in players] or table[
         : None if what == "rank" else MOST_RUNS
     ]
@@ -349,26 +348,26 @@ def _answer(
     from ninja_game.formats.recording import Recording
     from ninja_game.runs.compare import run_splits
 
-    rows: Any = [_row(each, category) for each in found]
+    rows: Any = [_row(ranked, category) for ranked in found]
     form = RANKED
-    ladders = sorted({each.run.ladder for each in found}, reverse=True)
-    names = [each.run.player + f", {each.run.ladder}" * (len(ladders) > 1) for each in found]
+    ladders = sorted({ranked.run.ladder for ranked in found}, reverse=True)
+    names = [ranked.run.player + f", {ranked.run.ladder}" * (len(ladders) > 1) for ranked in found]
     runs = [
-        Recording(each.run.entry.named.level, replace(each.run.replay, name=name))
-        for each, name in zip(found, names, strict=True) if what not in ("rank", "best")
+        Recording(ranked.run.entry.named.level, replace(ranked.run.replay, name=name))
+        for ranked, name in zip(found, names, strict=True) if what not in ("rank", "best")
     ]  # fmt: skip
     if what == "inputs":
         form, rows = TYPED, [row | _inputs(run.inputs) for row, run in zip(rows, runs, strict=True)]
     elif what == "splits":
-        table = table_of([run_splits(each, memory="auto") for each in runs], [])
+        table = table_of([run_splits(run, memory="auto") for run in runs], [])
         if not as_data:
             show([table])
             return
         rows = as_json(*table)
     elif output:
         if what == "trace":
-            positions = [run_splits(each, memory="auto").positions for each in runs]
-            draw(output, runs[0].level, [(each.name, its) for each, its in zip(runs, positions, strict=True)], keep)
+            positions = [run_splits(run, memory="auto").positions for run in runs]
+            draw(output, runs[0].level, [(run.name, its) for run, its in zip(runs, positions, strict=True)], keep)
         else:
             _film(runs, output)
     if as_data:
@@ -398,34 +397,34 @@ def _film(runs: Sequence[Recording], output: Path) -> None:
 def _level(text: str, entries: Sequence[Entry]) -> Entry:
     """The level of a title, number, file or digest. Raises ArgumentError for an unknown one, and for several."""
     words = text.casefold()
-    stems = {each.digest: Path(each.named.file).stem.casefold() for each in entries}
-    exact = [each for each in entries if words in (each.title.casefold(), each.episode, stems[each.digest])]
-    found = exact or [each for each in entries if words in each.title.casefold() or each.digest.startswith(words)]
+    stems = {entry.digest: Path(entry.named.file).stem.casefold() for entry in entries}
+    exact = [entry for entry in entries if words in (entry.title.casefold(), entry.episode, stems[entry.digest])]
+    found = exact or [entry for entry in entries if words in entry.title.casefold() or entry.digest.startswith(words)]
     if len(found) == 1:
         return found[0]
-    named = ", ".join(f"{each.episode} {shown_text(each.title)}".strip() for each in (found or entries)[:5])
+    named = ", ".join(f"{entry.episode} {shown_text(entry.title)}".strip() for entry in (found or entries)[:5])
     if found:
         raise ArgumentError(f"{text!a} is several levels: {named}")
-    titles = {each.title.casefold(): each.title for each in entries}
-    near = ", ".join(shown_text(titles[each]) for each in get_close_matches(words, titles, 5))
+    titles = {entry.title.casefold(): entry.title for entry in entries}
+    near = ", ".join(shown_text(titles[title]) for title in get_close_matches(words, titles, 5))
     hint = f"do you mean {near}?" if near else f"it has {len(entries)}: {named}{', ...' * (len(entries) > 5)}"
     raise ArgumentError(f"{text!a} is no level of the board; {hint}")
 
 
 def _category(ranking: Ranking, name: str | None) -> Category:
-    for each in ranking.categories:
-        if name is None or each.name.casefold() == name.casefold():
-            return each
-    raise ArgumentError(f"no category {name!a}; there are {', '.join(each.name for each in ranking.categories)}")
+    for category in ranking.categories:
+        if name is None or category.name.casefold() == name.casefold():
+            return category
+    raise ArgumentError(f"no category {name!a}; there are {', '.join(known.name for known in ranking.categories)}")
 
 
 def _of_player(table: Sequence[Ranked], player: str) -> Ranked:
     from ninja_game.web.board.players import folded
 
-    for each in table:
-        if folded(player) in (folded(each.run.player), folded(f"{each.run.player}, {each.run.ladder}")):
-            return each
-    there = dict.fromkeys(shown_text(each.run.player) for each in table)
+    for ranked in table:
+        if folded(player) in (folded(ranked.run.player), folded(f"{ranked.run.player}, {ranked.run.ladder}")):
+            return ranked
+    there = dict.fromkeys(shown_text(ranked.run.player) for ranked in table)
     near = get_close_matches(player, there, 5) or [*there][:10]
     raise ArgumentError(f"{player!a} has no run there; players: {', '.join(near) or 'none'}")
 
@@ -446,8 +445,8 @@ def _inputs(inputs: bytes) -> dict[str, int | str]:
     from ninja_game.formats.replay.notations import write_inputs
     from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, MOVES
 
-    counts = {name: sum(bool(each & key) for each in inputs) for name, key in MOVES}
-    spans = [len(list(span)) for _, span in groupby(each & KEYS_DOWN for each in inputs)]
-    neither = sum(not each & (KEY_LEFT + KEY_RIGHT) for each in inputs)
+    counts = {name: sum(bool(keys & key) for keys in inputs) for name, key in MOVES}
+    spans = [len(list(span)) for _, span in groupby(keys & KEYS_DOWN for keys in inputs)]
+    neither = sum(not keys & (KEY_LEFT + KEY_RIGHT) for keys in inputs)
     text = "\n".join(write_inputs(inputs))
     return {**counts, "neither": neither, "strokes": len(spans), "longest": max(spans), "keys": text}

@@ -6,7 +6,6 @@ import time
 from collections.abc import Callable, Sequence
 from operator import attrgetter
 from pathlib import Path
-from random import Random
 
 import pygame
 
@@ -16,6 +15,7 @@ from ninja_game.files.user_folder import data_folder, export_path, short_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.episodes import Mood
+from ninja_game.play.boss import draw_spreadsheet
 from ninja_game.play.window import TITLE, Window, Wipe, save_picture
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
@@ -33,14 +33,16 @@ class Screen:
 
     ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
     app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
-    comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written. ``notice_top``:
-    where notices are shown, below the title and what one goes back with.
+    comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written.
+    ``hides_game``: it shows that nobody plays, and no notice. ``notice_top``: where notices are shown, below the title
+    and what one goes back with.
     """
 
     see_through = False
     wipes = True
     below_runs = False
     plays = False
+    hides_game = False
     notice_top = 44.0
 
     def __init__(self, app: App) -> None:
@@ -413,7 +415,7 @@ class App:
             self.change_settings(fullscreen=not self.settings.fullscreen)
         elif "screenshot" in event.pressed:
             self.keep_screenshot()
-        elif "boss" in event.pressed and isinstance(self.top, BossScreen):
+        elif "boss" in event.pressed and self.top.hides_game:
             self.pop()
         elif "boss" in event.pressed:
             self.push(BossScreen(self))
@@ -427,7 +429,7 @@ class App:
         self.follow_mood(self.top.mood)
         changed = self.stack.draw(self.surface)
         self.wipe.draw(self.surface, self.theme)
-        if self.notice and not isinstance(self.top, BossScreen):
+        if self.notice and not self.top.hides_game:
             rect = self._draw_notice(self.top.theme)
             changed = None if changed is None else [*changed, rect]
         if changed is None:
@@ -507,6 +509,8 @@ def build_app(
 class BossScreen(Screen):
     """The key that hides the game comes back to it, and so does Esc; the key for leaving ends the program."""
 
+    hides_game = True
+
     def enter(self) -> None:
         pygame.display.set_caption("Budget")
 
@@ -524,31 +528,3 @@ class BossScreen(Screen):
             return []
         draw_spreadsheet(surface, self.theme)
         return None
-
-
-_PAPER, _LINE, _HEAD, _INK = "#ffffff", "#d0d4da", "#eef0f3", "#3a3f47"
-_ROWS, _ROW_HEIGHT, _TOP = 24, 22.0, 48.0
-_COLUMNS = (("", 40.0), ("Item", 210.0), ("Q1", 100.0), ("Q2", 100.0), ("Q3", 100.0), ("Q4", 100.0), ("Total", 142.0))
-_ITEMS = ("Paper", "Toner", "Postage", "Travel", "Training", "Licences", "Furniture", "Coffee", "Cleaning", "Repairs")
-
-
-def draw_spreadsheet(surface: pygame.Surface, theme: Theme) -> None:
-    """Draw all of it; it never changes."""
-    surface.fill(_PAPER)
-    canvas, text = theme.canvas, theme.text
-    rng = Random(2)  # noqa: S311 - figures that mean nothing
-    canvas.fill_rect(surface, _HEAD, 0, _TOP - _ROW_HEIGHT, 792, _ROW_HEIGHT)
-    text(surface, "Budget, second draft", 12, 6, size=11, colour=_INK)
-    for row in range(_ROWS + 1):
-        y = _TOP + _ROW_HEIGHT * row
-        canvas.line(surface, _LINE, (0, y), (792, y), 0.5)
-        figures = [rng.randrange(40, 3000) for _ in range(4)]
-        cells = [str(row + 1), _ITEMS[row % len(_ITEMS)], *map(str, figures), str(sum(figures))]
-        x = 0.0
-        for (head, width), cell in zip(_COLUMNS, cells, strict=True):
-            if row == 0:
-                text(surface, head, x + 8, _TOP - 16, size=9, colour=_INK)
-                canvas.line(surface, _LINE, (x, _TOP - _ROW_HEIGHT), (x, 600), 0.5)
-            if row < _ROWS:
-                text(surface, cell, x + 8, y + 6, size=9, colour=_INK)
-            x += width

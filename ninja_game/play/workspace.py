@@ -125,7 +125,7 @@ Commands = Mapping[str, Callable[[], object]]
 """What is done, by the names of the table of commands."""
 
 
-class Part:
+class Pane:
     """``area``: where it is, logical px. ``widgets``: in it; what they show is part of ``render_key``.
 
     ``wants``: the widget that is to get the focus as soon as the part is shown.
@@ -197,11 +197,11 @@ class WorkspaceScreen(MenuScreen):
         super().__init__(app)
         self.held = HeldCommand(self.table, app.controls.pads)
         self._widgets_changed = True
-        self._grabbed: Part | None = None
-        self._pointed: Part | None = None
+        self._grabbed: Pane | None = None
+        self._pointed: Pane | None = None
 
     @property
-    def parts(self) -> Sequence[Part]:
+    def parts(self) -> Sequence[Pane]:
         raise NotImplementedError
 
     def run(self, name: str) -> None:

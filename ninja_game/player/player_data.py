@@ -25,11 +25,15 @@ from ninja_game.player.store import Store, Work
 class PlayerData:
     """The player's data in one folder. Nothing that is wrong with the folder or its files keeps the game from starting.
 
+    ``store``, ``catalogue``: others than those of the folder, whose records are opened when they are first needed.
     ``messages``: problems of settings and, once they are open, records, for the player.
     """
 
-    def __init__(self, folder: Path | None = None) -> None:
+    def __init__(
+        self, folder: Path | None = None, *, store: Store | None = None, catalogue: Catalogue | None = None
+    ) -> None:
         self.folder = user_folder() if folder is None else folder
+        self._store = store
         self._messages: list[str] = []
         self._reported: set[str] = set()
         self._progress: dict[str, Progress] = {}
@@ -42,23 +46,23 @@ class PlayerData:
         self.settings, messages = read_settings(self.folder / SETTINGS)
         self._saved_settings = self.settings
         self._messages += messages
-        self.catalogue = Catalogue(self.folder / LEVELS)
+        self.catalogue = catalogue or Catalogue(self.folder / LEVELS)
 
-    @cached_property
+    @property
     def store(self) -> Store:
-        return Store(self.folder / RECORDS)
+        if self._store is None:
+            self._store = Store(self.folder / RECORDS)
+        return self._store
 
     def newcomer(self) -> PlayerData:
         """The same levels, for somebody without a name who has played nothing; what is played so is forgotten."""
-        other = PlayerData(self.folder)
-        other.catalogue, other.settings = self.catalogue, self.settings.changed(name="")
-        other.store = Store(None)
-        other.store.problem = "this is a preview"
+        other = PlayerData(self.folder, store=Store(None, "this is a preview"), catalogue=self.catalogue)
+        other.settings = self.settings.changed(name="")
         return other
 
     @property
     def messages(self) -> list[str]:
-        return self._messages + (self.store.messages if "store" in self.__dict__ else [])
+        return self._messages + (self._store.messages if self._store else [])
 
     def report(self, message: str) -> None:
         self._messages.append(message)
@@ -163,8 +167,8 @@ class PlayerData:
         return ""
 
     def close(self) -> None:
-        if "store" in self.__dict__:
-            self.store.close()
+        if self._store:
+            self._store.close()
 
 
 SAVED = ": saved"

@@ -27,17 +27,17 @@ Work = Callable[[], Sequence[str]]
 
 
 class Store:
-    """An open database. ``path``: None for one in memory, which forgets.
+    """An open database. ``path``: None for one in memory, which forgets, for a reason that ``problem`` may say.
 
     A damaged file, or one of another version, is moved aside and a new one begun. If the file cannot be opened or
     written, the session continues with a copy in memory, and ``problem`` says why what is saved would not last.
     ``messages``: what the player should know. ``epoch`` changes whenever something read before may be out of date.
     """
 
-    def __init__(self, path: Path | None) -> None:
+    def __init__(self, path: Path | None, problem: str = "") -> None:
         self.path = path
         self.messages: list[str] = []
-        self.problem = ""
+        self.problem = problem
         self.epoch = 0
         self._pending: list[Work] = []
         self.connection = self._first_connection()

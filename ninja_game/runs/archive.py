@@ -92,7 +92,7 @@ def verify_all(
     and MemoryUnavailableError where nothing can be judged, OSError.
     """
     counting = levels or [level for path in bundled_levels() for level in load_levels(path)]
-    names = {level_digest(each.level): each.name or f"{each.file}:{each.record}" for each in counting}
+    names = {level_digest(named.level): named.name or f"{named.file}:{named.record}" for named in counting}
     options = VerifyOptions(
         memory, levels[0].level if len(levels) == 1 else None, (*names,) if levels or strict else None, budget
     )

@@ -73,11 +73,11 @@ class Chunk:
 
 def chunks_in(paths: Iterable[Path], record: int | None = None) -> Iterator[Chunk]:
     """All chunks of files and folders, in order, each read when it is asked for. ``record``: only this one of each."""
-    for found in texts_in(paths):
-        if isinstance(found, Unreadable):
-            yield Chunk("", problem=found.message)
+    for filed in texts_in(paths):
+        if isinstance(filed, Unreadable):
+            yield Chunk("", problem=filed.message)
             continue
-        file, text, named = found
+        file, text, named = filed
         if is_episode(text):
             runs = list(recording_of_text(text, file, named=named))
             chunks = [Chunk(file, number, text=text, named=named) for number in range(len(runs))]
@@ -140,13 +140,13 @@ def _result(recording: Recording | Unreadable, memory: str, counting: Container[
 
 def results_as_text(results: Sequence[Sequence[Result]]) -> str:
     """The results of several chunks as JSON."""
-    return json.dumps([[asdict(result) for result in each] for each in results])
+    return json.dumps([[asdict(result) for result in of_chunk] for of_chunk in results])
 
 
 def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result]]:
     """The results that ``results_as_text`` wrote of these chunks. Raises ClusterError for anything else."""
     try:
-        found = [[result_from_data(data) for data in each] for each in json.loads(str(text))]
+        found = [[result_from_data(data) for data in of_chunk] for of_chunk in json.loads(str(text))]
         if len(found) != len(chunks):
             raise ValueError(f"{len(found)} answers to {len(chunks)} questions")
         for chunk, results in zip(chunks, found, strict=True):

@@ -242,7 +242,7 @@ def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -
     if level_digest(ours.level) != level_digest(theirs.level):
         raise ArgumentError(f"{ours.file} and {theirs.file} are recordings of different levels")
     here, there = run_splits(ours, budget=budget), run_splits(theirs, budget=budget)
-    first_keys = _first_unequal(*(np.frombuffer(each.inputs, np.uint8) for each in (ours, theirs)))
+    first_keys = _first_unequal(*(np.frombuffer(run.inputs, np.uint8) for run in (ours, theirs)))
     first_place = _first_unequal(here.positions, there.positions)
     other_splits = there.by_key
     splits = tuple(
@@ -330,10 +330,10 @@ class LeadTable:
 
 def lead_table(ours: Recording, theirs: Recording, markers: Sequence[Marker]) -> LeadTable:
     """Compare a run, with its markers, to another one. Raises what ``compare_runs`` does."""
-    found = compare_runs(ours, theirs)
-    there = {lead.tick: lead for lead in found.places}
+    comparison = compare_runs(ours, theirs)
+    there = {lead.tick: lead for lead in comparison.places}
     marked = [there[tick]._replace(at=name) for tick, name in markers if tick in there]
-    seconds = each_second(found.places)
-    apart = (len(found.positions[0]) - 1) // TICKS_PER_SECOND - len(seconds)
-    rows = sorted([*found.splits, *marked, *seconds], key=lambda lead: lead.tick)
-    return LeadTable(tuple(rows), found, apart)
+    seconds = each_second(comparison.places)
+    apart = (len(comparison.positions[0]) - 1) // TICKS_PER_SECOND - len(seconds)
+    rows = sorted([*comparison.splits, *marked, *seconds], key=lambda lead: lead.tick)
+    return LeadTable(tuple(rows), comparison, apart)

@@ -31,7 +31,7 @@ def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> I
 
     Raises LevelError for a level that cannot be played, BudgetError for a run that is not over when its ``budget`` is.
     """
-    return (write_replay(recorded_again(each, budget)) for each in recordings)
+    return (write_replay(recorded_again(recording, budget)) for recording in recordings)
 
 
 def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
@@ -47,7 +47,7 @@ def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
             level, inputs, body=recording.body, name=recording.name, author=recording.player, budget=budget
         )
     markers = tuple(marker for marker in old.markers if marker.tick <= len(new.inputs))
-    claimed, found = ((each.outcome, each.final_tick, each.gold, each.digest or new.digest) for each in (old, new))
+    claimed, found = ((run.outcome, run.final_tick, run.gold, run.digest or new.digest) for run in (old, new))
     return replace(
         new, level_name=old.level_name, level_author=recording.level_author, markers=markers, co_authors=old.co_authors,
         made=old.made if old.unclaimed or claimed == found else old.made.edited(1),
@@ -59,10 +59,10 @@ def episode_text(recordings: Sequence[Recording], budget: int = RUN_BUDGET) -> s
 
     Raises ReplayError for runs that are not an episode, and what ``replay_texts`` raises.
     """
-    text = write_episode([recorded_again(each, budget) for each in recordings])
-    for each, found in zip(recordings, parse_replays(text), strict=True):
-        if problem := next(iter(verify_recording(found, budget=budget).problems), None):
-            raise ReplayError(str(problem), each.file, each.line, hint=problem.hint)
+    text = write_episode([recorded_again(recording, budget) for recording in recordings])
+    for recording, written in zip(recordings, parse_replays(text), strict=True):
+        if problem := next(iter(verify_recording(written, budget=budget).problems), None):
+            raise ReplayError(str(problem), recording.file, recording.line, hint=problem.hint)
     return text
 
 
@@ -71,16 +71,16 @@ def input_texts(recordings: Iterable[Recording], form: str) -> Iterator[str]:
 
     ``form``: "inputs", "celeste" or "libtas". Raises ReplayError for what the tools' notations cannot hold.
     """
-    for each in recordings:
-        replay = _without_claims(each)
-        keys = replay.inputs if replay.demo_length is None else each.inputs
+    for recording in recordings:
+        replay = _without_claims(recording)
+        keys = replay.inputs if replay.demo_length is None else recording.inputs
         try:
             if form == "celeste":
                 yield write_celeste(keys, replay.markers)
             else:
                 yield write_libtas(keys) if form == "libtas" else write_replay(replay)
         except ReplayError as error:
-            raise replace(error, file=each.file, line=each.line) from None
+            raise replace(error, file=recording.file, line=recording.line) from None
 
 
 def on_level(recording: Recording, level: Level | None = None) -> Recording:

@@ -126,7 +126,7 @@ def lint(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> I
     ``with_design``: what its levels lack, too (docs/good-levels.md); ``with_gold``: no run with all gold, too.
     """
     unasked = {*(() if with_design else DESIGN_RULES), *(() if with_gold else ("no-gold-run",))}
-    open_ones = {(each.file, each.code): each for each in pack.index.accepted}
+    open_ones = {(finding.file, finding.code): finding for finding in pack.index.accepted}
     accepted = set(open_ones)
     for finding in _findings(pack, with_design=with_design, with_gold=with_gold):
         key = file_of(pack, finding), finding.code
@@ -233,7 +233,7 @@ def _about_order(pack: Pack) -> Iterator[PackFinding]:
                 values = {"grade": hard.grade, "other": PurePath(other.file).name, "easier": easy.grade}
                 yield pack_finding("hard-before-easy", one.file, **values)
     first, *later = [pars.get(level.file) for levels in pack.episodes.values() for level in levels] or [None]
-    known = [each.difficulty for each in later if each and each.difficulty is not None]
+    known = [measured.difficulty for measured in later if measured and measured.difficulty is not None]
     if first and first.grade not in ("", "easy") and len(known) > 1 and (first.difficulty or 0.0) > max(known):
         place = next(iter(pack.episodes.values()))[0].file
         yield pack_finding("hardest-first", place, grade=first.grade)

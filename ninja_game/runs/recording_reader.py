@@ -60,11 +60,11 @@ def recordings_in(paths: Iterable[Path], level: Level | None = None) -> Iterator
 
     ``level``: what recordings that do not hold their level are played on.
     """
-    for found in texts_in(paths):
-        if isinstance(found, Unreadable):
-            yield found
+    for filed in texts_in(paths):
+        if isinstance(filed, Unreadable):
+            yield filed
             continue
-        file, text, named = found
+        file, text, named = filed
         records = records_of(text, file)
         yield from recordings_of(records, file, level) if records else recording_of_text(text, file, level, named=named)
 

@@ -163,8 +163,8 @@ def run_in_slices(
     if not world.outcome() and most < len(inputs):
         raise over_budget(level, len(inputs), budget)
     in_time = in_time and world.tick() - bool(world.outcome()) < lifetime + GOLD_BONUS * world.gold()
-    places = _little_endian(array("d", b"".join(_bytes(each.places) for each in records))).tobytes()
-    states = b"".join(_bytes(each.states) for each in records)
+    places = _little_endian(array("d", b"".join(_bytes(record.places) for record in records))).tobytes()
+    states = b"".join(_bytes(record.states) for record in records)
     final_digest = replay_digest(world.world()) if digest else ""
     death = death_text(world.world()) if world.outcome() == OUTCOME_DEAD else ""
     return RunResult(OUTCOME_NAMES[world.outcome()], world.gold(), places, states, in_time, final_digest, death)

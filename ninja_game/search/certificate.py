@@ -121,7 +121,7 @@ def moved_markers(recording: Recording, inputs: bytes) -> tuple[Marker, ...]:
         return ()
     from ninja_game.runs.compare import aligned  # which a page has not
 
-    runs = [run_level(recording.level, each, body=body).positions for each in (recording.inputs, inputs)]
+    runs = [run_level(recording.level, keys, body=body).positions for keys in (recording.inputs, inputs)]
     there = [-1] * len(runs[0])
     with suppress(ArgumentError):
         there = aligned(*runs).tolist()

@@ -26,7 +26,7 @@ from ninja_game.search.legs import (
     pieces_of,
     short_tour,
 )
-from ninja_game.search.nodes import Resolution, Start
+from ninja_game.search.nodes import PASSES, Resolution, Start
 from ninja_game.search.searching import Search
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bit
 from ninja_game.sim.memory.declare import entry_point
@@ -75,7 +75,7 @@ class GoldBeam:
     def __init__(self, search: Search, run: bytes, *, seed: int) -> None:
         self.search = search
         self.heuristics = search.heuristics
-        self.random = np.random.default_rng([seed, 9])
+        self.random = np.random.default_rng([seed, PASSES])
         self.seed = seed
         self.passes = 0
         self.legs = 0

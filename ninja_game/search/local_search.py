@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ninja_game.backend.memories import compiled
 from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.macros import Keys
-from ninja_game.search.nodes import RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
+from ninja_game.search.nodes import MUTATIONS, RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
@@ -280,7 +280,7 @@ class LocalSearch:
         checkpoints = np.zeros((capacity // CHECKPOINT + 1, len(start.initial)), np.int64)
         self.runs = Runs(best, current, trial, np.zeros((capacity, 2)), checkpoints, zeroed(LocalCounters, 1))
         self.counters = self.runs.counters[0]
-        self.counters.random = int(np.random.default_rng([seed, 7]).integers(1, 1 << 62))
+        self.counters.random = int(np.random.default_rng([seed, MUTATIONS]).integers(1, 1 << 62))
         self.counters.best_ticks = len(inputs)
         self.counters.best_score = len(inputs)
         best[: len(inputs)] = np.frombuffer(inputs, np.uint8) & 7

@@ -32,6 +32,10 @@ MAX_ENDS = 96
 """Ends of a leg that are kept, with room for those of a last expansion."""
 
 
+FROM_START, MUTATIONS, ALONG_RUN, PASSES = 6, 7, 8, 9
+"""Streams of random numbers of a seed: from the start, of changed keys, along a run, of choices of spans and legs."""
+
+
 @struct_base
 class RandomState:
     """A stream of pseudo-random numbers."""
@@ -108,11 +112,12 @@ class Counters(RandomState):
 class Resolution(NamedTuple):
     """How finely a search looks: size of a place (px), of a velocity (px/tick), length of a macro (ticks).
 
-    ``weight``: of the estimated ticks to go against those run; ``patience``: ticks after which the same place counts as
-    new, at most ``visits`` times; ``enemy_cell``: size of a place (px) of enemies nearer than ``enemy_reach`` (px,
-    across and down together), 0: they do not count. Guided searches only: ``slack``: ticks by which an estimate may
-    exceed the best run, in a plan as a share of it; ``off_table``: how much a tick counts where the guide knows
-    nothing. The shifts move the cells of places and velocities; each search draws its own.
+    ``jitter``: by how many ticks at most a macro is longer, at random. ``weight``: of the estimated ticks to go against
+    those run; ``patience``: ticks after which the same place counts as new, at most ``visits`` times; ``enemy_cell``:
+    size of a place (px) of enemies nearer than ``enemy_reach`` (px, across and down together), 0: they do not count.
+    Guided searches only: ``slack``: ticks by which an estimate may exceed the best run, in a plan as a share of it;
+    ``off_table``: how much a tick counts where the guide knows nothing. The shifts move the cells of places and
+    velocities; each search draws its own.
     """
 
     cell: float = 12.0

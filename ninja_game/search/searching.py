@@ -14,6 +14,8 @@ from ninja_game.search.known_run import KnownRun, play_known
 from ninja_game.search.legs import Checkpoint, FieldOf, Leg, Spend
 from ninja_game.search.macros import inputs_of
 from ninja_game.search.nodes import (
+    ALONG_RUN,
+    FROM_START,
     BackedUpHeuristic,
     Resolution,
     Start,
@@ -89,7 +91,7 @@ class Search:
 
     def _begin(self, roots: Sequence[StateWords], resolution: Resolution, seed: int, bound: int) -> None:
         clear(self.arrays)
-        random = np.random.default_rng([seed, 6 if self._known is None else 8])
+        random = np.random.default_rng([seed, FROM_START if self._known is None else ALONG_RUN])
         shifts = random.random(2) * resolution.cell
         least = 0.5 if self._known is None else 0.0
         speed_shifts = resolution.speed * least + random.random(2) * resolution.speed * (1.0 - least)

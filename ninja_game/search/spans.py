@@ -14,7 +14,7 @@ from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.known_run import KnownRun, known_run, play_known
 from ninja_game.search.legs import Spend
 from ninja_game.search.local_search import LocalSearch
-from ninja_game.search.nodes import Resolution, Start
+from ninja_game.search.nodes import PASSES, Resolution, Start
 from ninja_game.search.searching import Search
 from ninja_game.search.task import COOLING, SEARCH_COST, SHORT_LOCAL_TICKS, SLICE
 from ninja_game.sim.inputs import with_press_bits
@@ -80,7 +80,7 @@ class SpanSearches:
     def shorter(self, inputs: bytes, *, seed: int, spend: Spend) -> bytes | None:
         """Search spans of a run at random until a shorter run is found, or until it is over: None."""
         self.know(inputs)
-        random = np.random.default_rng([seed, 9])
+        random = np.random.default_rng([seed, PASSES])
 
         while not spend(EACH_COSTS):
             length = int(random.choice(LENGTHS))

@@ -17,7 +17,7 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
 from ninja_game.sim.traces import is_open
 
-MIX = 0x2545F4914F6CDD1D
+MIX = 0x2545F4914F6CDD1D  # an odd number whose product spreads the bits of a key (that of xorshift64*)
 MAX_SWITCH_STATES = 512
 """So many can be told apart: nine bits of a key."""
 JUMP_PART = 11  # ticks of a jump that count as the same moment

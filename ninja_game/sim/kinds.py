@@ -27,7 +27,9 @@ class Kind(NamedTuple):
     think, idle, status. ``disc`` or ``box``: radius or half side, px, of what the ninja touches; neither: nothing. That
     of a door is an automatic door's: the others are opened or shut by a switch of ``rules.DOOR_SWITCH_RADIUS``.
     ``killer``: what it is called when it kills ("": it does not). ``by_touch``: it kills who touches it. ``moves``: it
-    is drawn where it goes, not once on the wall. ``traced``: whether traces show it.
+    is drawn where it goes, not once on the wall. ``traced``: whether traces show it. ``used``: the field that tells
+    that it was taken, set off, opened or switched, if any. ``cost``: the most work that it is in a tick; more than one
+    where it casts rays or never sleeps.
     """
 
     number: int
@@ -41,10 +43,12 @@ class Kind(NamedTuple):
     by_touch: bool = False
     moves: bool = False
     traced: bool = True
+    used: str = ""
+    cost: int = 1
 
 
 KINDS = (
-    Kind(GOLD, "gold", 2, fields.Gold, ("create", "touch", "idle", "status"), disc=rules.GOLD_RADIUS),
+    Kind(GOLD, "gold", 2, fields.Gold, ("create", "touch", "idle", "status"), disc=rules.GOLD_RADIUS, used="taken"),
     Kind(
         BOUNCE_BLOCK, "bounce block", 2, fields.BounceBlock, ("create", "touch", "update", "think", "status"),
         box=rules.BLOCK_HALF, moves=True,
@@ -52,34 +56,34 @@ KINDS = (
     Kind(LAUNCH_PAD, "launch pad", 4, fields.LaunchPad, ("create", "touch"), disc=rules.PAD_RADIUS),
     Kind(
         TURRET, "gauss turret", 2, fields.Turret, ("create", "update", "think", "idle", "status"),
-        killer="gauss turret", moves=True,
+        killer="gauss turret", moves=True, cost=10,
     ),
     Kind(
         FLOOR_GUARD, "floor guard", 3, fields.FloorGuard, ("create", "touch", "update", "idle", "status"),
-        disc=rules.GUARD_RADIUS, killer="floor guard", by_touch=True, moves=True,
+        disc=rules.GUARD_RADIUS, killer="floor guard", by_touch=True, moves=True, cost=2,
     ),
     Kind(NINJA, "ninja", 2, fields.Header, (), traced=False),
     Kind(
         DRONE, "drone", 6, fields.Drone, ("create", "touch", "update", "think", "idle", "status"),
-        disc=rules.DRONE_RADIUS, killer="zap drone", by_touch=True, moves=True,
+        disc=rules.DRONE_RADIUS, killer="zap drone", by_touch=True, moves=True, cost=2,
     ),
     Kind(ONE_WAY, "one-way platform", 3, fields.OneWay, ("create", "touch"), box=rules.ONE_WAY_HALF),
     Kind(
         THWUMP, "thwump", 3, fields.Thwump, ("create", "touch", "update", "status"),
-        box=rules.THWUMP_HALF, killer="thwump", by_touch=True, moves=True,
+        box=rules.THWUMP_HALF, killer="thwump", by_touch=True, moves=True, cost=2,
     ),
     Kind(
         DOOR, "door", 9, fields.Door, ("create", "touch", "update", "idle", "status"),
-        disc=rules.AUTOMATIC_DOOR_RADIUS,
+        disc=rules.AUTOMATIC_DOOR_RADIUS, used="switched",
     ),
     Kind(
         LAUNCHER, "homing launcher", 2, fields.Launcher, ("create", "touch", "update", "think", "idle", "status"),
-        disc=rules.ROCKET_RADIUS, killer="homing rocket", by_touch=True, moves=True,
+        disc=rules.ROCKET_RADIUS, killer="homing rocket", by_touch=True, moves=True, cost=10,
     ),
-    Kind(EXIT, "exit", 4, fields.Exit, ("create", "touch", "idle", "status"), disc=rules.EXIT_RADIUS),
+    Kind(EXIT, "exit", 4, fields.Exit, ("create", "touch", "idle", "status"), disc=rules.EXIT_RADIUS, used="is_open"),
     Kind(
         MINE, "mine", 2, fields.Mine, ("create", "touch", "status"),
-        disc=rules.MINE_RADIUS, killer="mine", by_touch=True,
+        disc=rules.MINE_RADIUS, killer="mine", by_touch=True, used="exploded",
     ),
     Kind(SWITCH, "exit switch", 0, fields.Switch, ("touch",), disc=rules.SWITCH_RADIUS, traced=False),
     Kind(INERT, "inert object", 0, fields.Header, (), traced=False),

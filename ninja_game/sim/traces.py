@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ninja_game.sim import kinds
 from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import AUTOMATIC, LAUNCHER_FLIGHT, THWUMP_REST
 
@@ -14,14 +15,20 @@ def is_traced(w: World, slot: int) -> bool:
 
 
 @fast
+def contact_place_of(o: Object) -> tuple[float, float]:
+    """Where an object is, px: of a launcher its rocket in flight, of a door its switch (automatic: its middle)."""
+    if o.kind == kinds.LAUNCHER and o.routine != LAUNCHER_FLIGHT:
+        return o.base_x, o.base_y
+    return o.x, o.y
+
+
+@fast
 def place_of(w: World, slot: int) -> tuple[float, float]:
     """Where an object is, px: a turret's aim point, a launcher's rocket in flight, the grid point of a door."""
     o = w.objects[slot]
     if o.kind == kinds.TURRET:
         return o.aim_x, o.aim_y
-    if o.kind == kinds.LAUNCHER and o.routine != LAUNCHER_FLIGHT:
-        return o.base_x, o.base_y
-    return o.x, o.y
+    return contact_place_of(o)
 
 
 @fast

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.play.app import App
-from ninja_game.play.workspace import Commands, Part
+from ninja_game.play.workspace import Commands, Pane
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.session import Session
 from ninja_game.tas.timeline import Trajectory
@@ -141,7 +141,7 @@ class TasEditor:
         return self.edit(make, taken)
 
 
-class TasPart(Part):
+class TasPart(Pane):
     """A part of the TAS editor. ``slot``: the name of its place in the layout."""
 
     slot: ClassVar[str] = ""

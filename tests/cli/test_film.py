@@ -172,7 +172,7 @@ def test_the_last_three_splits_are_shown_and_gold_where_it_is_asked_for(
 def test_a_large_gif_is_told(replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     said = "as .mp4 it would be smaller"
     assert said not in film_of(replay, "--to", 3, "-o", tmp_path / "a.gif").output
-    monkeypatch.setattr("ninja_game.cli.film.LARGE", 9)
+    monkeypatch.setattr("ninja_game.cli.terminal.LARGE", 9)
     assert said in film_of(replay, "--to", 3, "-o", tmp_path / "b.gif").output
 
 

@@ -11,9 +11,9 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.backend.memories import compiled_available
-from ninja_game.cli import options
+from ninja_game.cli import progress
 from ninja_game.cli.main import cli
-from ninja_game.cli.options import progress_text
+from ninja_game.cli.progress import progress_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_levels, load_replays
@@ -335,8 +335,8 @@ def test_the_line_of_progress_fits_eighty_columns() -> None:
 def test_progress_is_told_now_and_then_where_nobody_watches(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(options, "LONG", 0.001)
-    monkeypatch.setattr(options, "EVERY", 0.001)
+    monkeypatch.setattr(progress, "LONG", 0.001)
+    monkeypatch.setattr(progress, "EVERY", 0.001)
     told = []
 
     def items() -> Iterator[int]:
@@ -348,4 +348,4 @@ def test_progress_is_told_now_and_then_where_nobody_watches(
             told.append(item)
             yield item
 
-    assert list(options.with_progress(items(), "run")) == told == [0, 1]
+    assert list(progress.with_progress(items(), "run")) == told == [0, 1]

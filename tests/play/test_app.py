@@ -12,7 +12,7 @@ from ninja_game.files.user_folder import export_path
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
-from ninja_game.play.app import App, BossScreen, build_app
+from ninja_game.play.app import App, build_app
 from ninja_game.play.level.screen import PausePanel
 from ninja_game.play.main import first_screen, main
 from ninja_game.play.menus.main_menu import MainMenu
@@ -194,7 +194,7 @@ def test_notice_is_drawn_in_the_border_of_a_level_that_is_played_and_never_for_t
         assert changed.count()
         assert all(rect.top >= 576 for rect in changed.get_bounding_rects())
         tap(app, "boss")
-        assert isinstance(app.top, BossScreen)
+        assert app.top.hides_game
         hidden = app.surface.copy()
         app.notify("")
         frames(app)

@@ -57,6 +57,17 @@ def test_it_stays_out_of_every_shape() -> None:
                 assert not solid_at(run.tiles, particle.x, particle.y), (tile, push)
 
 
+def test_it_is_heard_where_it_falls_and_slides_on() -> None:
+    run, at, hits = cave(), STAND.moved(396, 540), []
+    doll = Ragdoll(at, at, (4.0, 3.0), 1, Random(3), lambda *hit: hits.append(hit))
+    for _ in range(20):
+        doll.step(run.tiles, run.world)
+    assert max(into for _, _, into, _ in hits) > 2
+    assert max(abs(along) for _, _, _, along in hits) > 3
+    first = min(x for x, *_ in hits)
+    assert all(particle.x > first + 10 for particle in doll.particles)
+
+
 def test_explosions_take_it_apart() -> None:
     doll = drop(cave(), 5, kind=EXPLOSIVE)
     assert doll.dismembered

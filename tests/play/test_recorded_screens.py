@@ -24,7 +24,7 @@ NOT_SHOWN = {
     "play/lab/figure.py: Figure.draw": "its figures do",
     "play/editor/view.py: Overlay._draw_reach": "needs Numba, which a page has not; test_editor.py shows it",
     "play/app.py: Screen.draw": "its screens do",
-    "play/workspace.py: Part.paint": "its parts do",
+    "play/workspace.py: Pane.paint": "its parts do",
     "ui/widgets.py: Widget.draw": "its widgets do",
     "play/lab/screen.py: FigurePicture.draw": "of the pages of Learn; test_learn.py shows it",
     "play/replay/film.py: _Panel.draw": "of films, which tests of their own make",

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import pytest
 
+from ninja_game.files.user_folder import RECORDS
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.player import schema
-from ninja_game.player.player_data import keep_replay
+from ninja_game.player.player_data import PlayerData, keep_replay, save_work
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.progress import UNLOCKED
 from ninja_game.player.schema import VERSION
@@ -307,3 +308,12 @@ def test_replay_that_a_best_needs_is_not_forgotten(tmp_path: Path) -> None:
     kept = records.keep_replay(played(short_level(1)).replay())
     assert records.forget_replay(kept)
     assert [each.id for each in records.replays()] == [best.id]
+
+
+def test_what_a_newcomer_plays_is_forgotten_and_touches_no_records(tmp_path: Path) -> None:
+    data = PlayerData(tmp_path)
+    newcomer = data.newcomer()
+    assert newcomer.catalogue is data.catalogue
+    assert save_work(newcomer, lambda: ["Played: saved"]) == ["Played", "Not saved yet: this is a preview"]
+    newcomer.close()
+    assert not (tmp_path / RECORDS).exists()

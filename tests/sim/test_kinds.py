@@ -14,16 +14,17 @@ from typing import Any
 import pytest
 
 from ninja_game.backend.plain import PlainWorlds
-from ninja_game.budget import OBJECT_COSTS
 from ninja_game.editor.brush import OBJECT_TYPES
 from ninja_game.formats.ascii.legend import SYMBOLS
 from ninja_game.formats.ascii.object_lines import FORMS
+from ninja_game.learn.observations import objects
 from ninja_game.learn.observations.pixels import SHADES
 from ninja_game.levels.picture import COLOURS
 from ninja_game.play.level.sayings import WHY
 from ninja_game.runs.deaths import KILLERS, SELF
 from ninja_game.runs.level_design import clearance
 from ninja_game.runs.trace import trace_level
+from ninja_game.search.formula.names import FLAGS
 from ninja_game.sim import events, kinds
 from ninja_game.sim.death import idle_event
 from ninja_game.sim.digest import replay_digest
@@ -33,9 +34,11 @@ from ninja_game.sim.memory.object_fields import Header, Object
 from ninja_game.sim.objects import dispatch
 from ninja_game.sim.rules import RADIUS
 from ninja_game.sim.traces import is_traced, status_of
-from ninja_game.ui.audio.table import BY_DEATH, BY_EVENT, OTHER_DEATH
+from ninja_game.ui.audio.music import affects_music
+from ninja_game.ui.audio.table import BY_DEATH, BY_EVENT, OTHER_DEATH, warning_of
 from ninja_game.view.ninja.ragdoll import KICKS
 from ninja_game.view.sprites.moving_sprites import PAINTERS
+from ninja_game.view.sprites.object_animation import STATE_FIELDS
 from ninja_game.view.sprites.static_sprites import static_sprites_of
 from tests.support.crowded import crowded_inputs, crowded_level
 from tests.support.own_fields import own_fields_only
@@ -89,6 +92,45 @@ def test_numbers_are_in_order_and_internal_kinds_can_never_meet_a_new_one() -> N
     }
 
 
+def named(function: Callable[..., Any]) -> set[int]:
+    """The kinds that a function names at all."""
+    nodes = ast.walk(ast.parse(inspect.getsource(function)))
+    names = {node.id if isinstance(node, ast.Name) else getattr(node, "attr", "") for node in nodes}
+    return {kind.number for kind in KINDS} & {vars(kinds).get(name) for name in names if name.isupper()}
+
+
+STEADY = {kinds.GOLD, kinds.MINE, kinds.SWITCH}
+MACHINES = {kinds.BOUNCE_BLOCK, kinds.TURRET, kinds.FLOOR_GUARD, kinds.THWUMP, kinds.LAUNCHER}
+HARMLESS = {kind.number for kind in KINDS if not kind.killer}
+PLACES: dict[str, tuple[set[int], set[int]]] = {
+    "velocity": (
+        named(objects.velocity_of),
+        STEADY | {kinds.LAUNCH_PAD, kinds.TURRET, kinds.ONE_WAY, kinds.DOOR, kinds.EXIT},
+    ),
+    "face": (
+        named(objects.face_of),
+        STEADY | {kinds.BOUNCE_BLOCK, kinds.FLOOR_GUARD, kinds.LAUNCHER, kinds.DOOR, kinds.EXIT},
+    ),
+    "activity": (named(objects.activity_of), STEADY | {kinds.LAUNCH_PAD, kinds.ONE_WAY}),
+    "warning": (named(warning_of), HARMLESS | {kinds.MINE, kinds.THWUMP}),
+    "music": (named(affects_music), HARMLESS - {kinds.EXIT} | {kinds.MINE, kinds.THWUMP}),
+    # A switch looks as its exit does.
+    "look": (set(STATE_FIELDS), MACHINES | {kinds.LAUNCH_PAD, kinds.ONE_WAY, kinds.SWITCH}),
+    "formula": (
+        {kind for fields in FLAGS.values() for kind in fields},
+        MACHINES | {kinds.DRONE, kinds.LAUNCH_PAD, kinds.ONE_WAY, kinds.SWITCH},
+    ),
+}
+"""By place: the kinds that it knows, and those that need nothing there."""
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_a_place_knows_each_kind_or_the_kind_needs_nothing_there(place: str) -> None:
+    known, without = PLACES[place]
+    assert not known & without
+    assert known | without >= {kind.number for kind in KINDS} - {NINJA, INERT}
+
+
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: str(kind.name))
 def test_a_kind_is_complete_in_the_world(kind: Kind) -> None:
     assert kind.fields is Header or kind.fields in Object.__bases__
@@ -132,7 +174,11 @@ def test_what_kills_counts_where_a_level_is_judged(kind: Kind) -> None:
 
 
 def test_who_never_sleeps_costs_more_work_than_others() -> None:
-    assert set(OBJECT_COSTS) == set(kinds.ENEMIES)
+    assert {kind.number for kind in KINDS if kind.cost > 1} == set(kinds.ENEMIES)
+
+
+def test_the_field_that_tells_of_use_is_one_of_the_kind_s() -> None:
+    assert all(kind.used in inspect.get_annotations(kind.fields) for kind in KINDS if kind.used)
 
 
 def test_a_corpse_is_kicked_by_what_is_solid_and_by_what_kills_where_it_goes() -> None:

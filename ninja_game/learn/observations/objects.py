@@ -22,6 +22,7 @@ from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CHASE_PACE, GRID_COLUMNS, GRID_ROWS, GUARD_SPEED, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import DRONE_MOVE, GUARD_CHASE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, THWUMP_MOVE, TRAP
+from ninja_game.sim.traces import contact_place_of
 
 HIGHEST_ROUTINE = 3.0  # the highest number of a drone's or a turret's routine
 
@@ -36,14 +37,6 @@ def is_there(w: World, o: Object) -> bool:
     if o.kind == kinds.SWITCH:
         return w.objects[o.partner].is_open == 0
     return True
-
-
-@fast
-def contact_place_of(o: Object) -> tuple[float, float]:
-    """Where an object is, px: of a launcher its rocket in flight, of a door its switch (automatic: its middle)."""
-    if o.kind == kinds.LAUNCHER and o.routine != LAUNCHER_FLIGHT:
-        return o.base_x, o.base_y
-    return o.x, o.y
 
 
 @fast

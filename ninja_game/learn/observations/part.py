@@ -122,7 +122,8 @@ class Part(ABC):
         """The entry point that writes it, then the last of its arguments: what never changes during an episode.
 
         ``kernel(maps, level_of, worlds, indices, first, last, out, offset, *tables)`` writes the values of the worlds
-        ``indices[first:last]`` into their rows of ``out``, from column ``offset`` on.
+        ``indices[first:last]`` into their rows of ``out``, from column ``offset`` on. Arrays and numbers, no named
+        tuples: each call would spend 3 µs on them, half a step of one world.
         """
 
     @property

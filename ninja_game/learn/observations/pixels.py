@@ -11,7 +11,7 @@ from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.objects import OBSERVED, activity_of, contact_place_of, is_there
+from ninja_game.learn.observations.objects import OBSERVED, activity_of, is_there
 from ninja_game.learn.observations.part import Part, PartContext, clamp, copy_values
 from ninja_game.learn.observations.surroundings import cached_by_tiles, solidity
 from ninja_game.sim import kinds
@@ -21,6 +21,7 @@ from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, HALF, RADIUS, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import DRONE_FIRING, WEAPON_LASER
+from ninja_game.sim.traces import contact_place_of
 
 FAR = 2.0 * WORLD_WIDTH  # px; nothing farther from a picture is drawn
 # px

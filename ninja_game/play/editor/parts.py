@@ -33,7 +33,7 @@ from ninja_game.play.editor.palette_view import PaletteView, live_changes
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row, ask_text
-from ninja_game.play.workspace import Part
+from ninja_game.play.workspace import Pane
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.rules import CELL
 from ninja_game.ui.list_view import ListView
@@ -261,7 +261,7 @@ class ToolButton(Button):
         theme.text(surface, text, *place, size=9, colour=colour, align="centre", bold=bold, width=w)
 
 
-class EditorPart(Part):
+class EditorPart(Pane):
     def __init__(self, view: EditorView) -> None:
         self.view = view
         self.session: EditorSession = view.session

@@ -17,7 +17,7 @@ from ninja_game.play.editor.parts import FilePart, Findings, ObjectList, Palette
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.menus.menu_screen import DIRECTIONS
-from ninja_game.play.workspace import Part, WorkspaceScreen
+from ninja_game.play.workspace import Pane, WorkspaceScreen
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.text_entry import TextEntry
@@ -38,8 +38,8 @@ class EditorScreen(WorkspaceScreen):
         self.view = EditorView(app, self.session)
         self.commands = EditorCommands(app, self.session, self.view, self.palette)
         self.properties = Properties(self.view)
-        self.sides: tuple[Part, Part] = PalettePart(self.view, self.palette, self.run), ObjectList(self.view, self.run)
-        self._parts: list[Part] = [
+        self.sides: tuple[Pane, Pane] = PalettePart(self.view, self.palette, self.run), ObjectList(self.view, self.run)
+        self._parts: list[Pane] = [
             self.view, Toolbar(self.view, self.commands.choose), self.properties,
             Findings(self.view, self.commands.go_to_finding), FilePart(self.view), StatusLine(self.view, self.run),
         ]  # fmt: skip
@@ -47,7 +47,7 @@ class EditorScreen(WorkspaceScreen):
         self._entered = not offers_recovered
 
     @property
-    def parts(self) -> Sequence[Part]:
+    def parts(self) -> Sequence[Pane]:
         return [*self._parts, self.sides[self.view.listing]]
 
     def run(self, name: str) -> None:

@@ -27,7 +27,7 @@ from ninja_game.play.editor.sheet import (
     level_marks,
     said_places,
 )
-from ninja_game.play.workspace import Part
+from ninja_game.play.workspace import Pane
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
@@ -198,7 +198,7 @@ class EditorLayout(NamedTuple):
 LAYOUT = EditorLayout()
 
 
-class EditorView(Part):
+class EditorView(Pane):
     """The level under edit, and what lies over it. ``hovering``: the pointer is shown; ``hint``: for the line below.
 
     ``by_keys``: it was last moved by keys or a pad.

@@ -14,7 +14,7 @@ from ninja_game.editor import packs
 from ninja_game.editor.packs import ReadyPack, missing_run, obstacle_of
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.files.user_folder import short_path
+from ninja_game.files.user_folder import LEVELS, short_path
 from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
 from ninja_game.formats.pack.pack import INDEX, RECEIVED, Pack
@@ -94,7 +94,7 @@ class PackScreen(ThumbnailScreen):
 
     @property
     def folder(self) -> Path:
-        return self.player.folder / "levels"
+        return self.player.folder / LEVELS
 
     # --- what there is ---
 

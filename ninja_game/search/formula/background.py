@@ -113,11 +113,11 @@ class SpanSearch:
     def _without_junk(self, found: tuple[SpanResult, ...], seconds: float) -> tuple[SpanResult, ...]:
         """Results without keys that do nothing, as far as there is time for it: the others follow."""
         late, known = monotonic() + seconds, self._tidy
-        self._tidy = {each.inputs: known[each.inputs] for each in found if each.inputs in known}
-        for each in found:
-            if each.inputs not in self._tidy and monotonic() < late:
-                self._tidy[each.inputs] = tidied(self.task, each)
-        return tuple(self._tidy.get(each.inputs, each) for each in found)
+        self._tidy = {way.inputs: known[way.inputs] for way in found if way.inputs in known}
+        for way in found:
+            if way.inputs not in self._tidy and monotonic() < late:
+                self._tidy[way.inputs] = tidied(self.task, way)
+        return tuple(self._tidy.get(way.inputs, way) for way in found)
 
 
 TIDYING_SECONDS = 0.1
@@ -212,7 +212,7 @@ class RunSearch(SpanSearch):
     def _note_run(self, run: Replay, *, own_route: bool) -> None:
         wanted = self._wanted
         inputs = run.inputs
-        if not any(with_press_bits(each).startswith(inputs) for each in wanted.others):
+        if not any(with_press_bits(keys).startswith(inputs) for keys in wanted.others):
             inputs = without_idle_keys(wanted.level, inputs, with_press_bits(wanted.first), body=wanted.body)
         path = run_level(self.task.level, inputs, body=self.task.body).positions
         keys = np.frombuffer(inputs.ljust(self.task.length, b"\0"), np.uint8) & np.uint8(KEYS_DOWN)
@@ -224,14 +224,14 @@ class RunSearch(SpanSearch):
                 self.own = found
             self._unbeaten[own_route] = _unbeaten([*self._unbeaten[own_route], found])
             own = self._unbeaten[True]
-            others = (each for each in _unbeaten([*own, *self._unbeaten[False]]) if not each.own_route)
+            others = (way for way in _unbeaten([*own, *self._unbeaten[False]]) if not way.own_route)
             self.found = tuple(sorted([*own, *others]))
 
 
 def _unbeaten(found: list[SpanResult]) -> tuple[SpanResult, ...]:
     """Those that no other one beats in ticks and gold, the fastest first."""
     best: list[SpanResult] = []
-    for each in sorted(found):
-        if not best or each.gold > best[-1].gold:
-            best.append(each)
+    for way in sorted(found):
+        if not best or way.gold > best[-1].gold:
+            best.append(way)
     return tuple(best)

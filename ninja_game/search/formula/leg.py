@@ -54,7 +54,7 @@ class LegSearch:
             ends = [end.inputs for end in sorted(self._search.ends(), key=lambda end: end.tick)]
             found = ends if self._leg.target else [run for run in [self._search.best()] if run]
             if found or spend(0):
-                rows = [each.ljust(self.task.length, b"\0") for each in found]
+                rows = [keys.ljust(self.task.length, b"\0") for keys in found]
                 return [np.frombuffer(row, np.uint8) & np.uint8(KEYS_DOWN) for row in rows]
         self._most *= 2
         return []

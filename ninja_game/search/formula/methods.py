@@ -224,17 +224,17 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
         ticks = min(step, task.length - tick)
         keys[tick : tick + ticks, used] = chosen
         margin = score = np.zeros(0)
-        for each in range(ticks):
-            worlds.ticks_run += batch.run(keys[np.newaxis, tick + each], stop=True, press=True)
+        for played in range(ticks):
+            worlds.ticks_run += batch.run(keys[np.newaxis, tick + played], stop=True, press=True)
             at_goal, margin, score = worlds.measured()
-            worlds.note_miss(margin, keys, tick + each + 1)
+            worlds.note_miss(margin, keys, tick + played + 1)
             for index in np.flatnonzero(at_goal[used])[:KEPT]:
                 ended = keys[:, index].copy()
-                ended[tick + each + 1 :] = 0
+                ended[tick + played + 1 :] = 0
                 found.append(ended)
         promising = (margin if worlds.measure is None else -score) * rng.normal(1.0, noise, len(margin))
         alive = used[batch.outcomes[used] == OUTCOME_RUNNING]
-        halves = [alive[np.argsort(-each[alive], kind="stable")] for each in (margin, promising)]
+        halves = [alive[np.argsort(-scores[alive], kind="stable")] for scores in (margin, promising)]
         survivors = _different(batch, halves, batch.count // len(ACTIONS))
         if not len(survivors) or not results.going:
             break
@@ -269,4 +269,4 @@ def fewest_ticks(length: int) -> int:
     >>> fewest_ticks(8), fewest_ticks(40)
     (1, 5)
     """
-    return next(each for each in range(1, length + 1) if len(ACTIONS) ** -(-length // each) <= MOST_ENDS)
+    return next(every for every in range(1, length + 1) if len(ACTIONS) ** -(-length // every) <= MOST_ENDS)

@@ -14,7 +14,7 @@ from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.language import FAR, Values
 from ninja_game.search.heuristics import FARTHEST, DistanceField, Heuristics, open_masks, points_at
-from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, LAUNCHER, MINE, TURRET
+from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, LAUNCHER, MINE, TURRET
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import LAUNCHER_FLIGHT, OUTCOME_DEAD, OUTCOME_EXIT
 
@@ -147,14 +147,17 @@ def _place(batch: Batch, number: Any, axis: str) -> Any:
     return found[axis]
 
 
-FLAGS = {"taken": {GOLD: "taken", MINE: "exploded"}, "opened": {EXIT: "is_open", DOOR: "switched"}}
+FLAGS = {
+    "taken": {kind: KIND_OF[kind].used for kind in (GOLD, MINE)},
+    "opened": {kind: KIND_OF[kind].used for kind in (EXIT, DOOR)},
+}
 """The field of a kind of objects that says so."""
 
 
 def flag_field(what: str, kind: int, id_: float) -> str:
     """The field of an object that ``what`` asks for. Raises ArgumentError where its kind has none."""
     if kind not in FLAGS[what]:
-        kinds = " and ".join(KIND_NAMES[each] for each in FLAGS[what])
+        kinds = " and ".join(KIND_NAMES[known] for known in FLAGS[what])
         raise ArgumentError(f"object {id_:g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")
     return FLAGS[what][kind]
 

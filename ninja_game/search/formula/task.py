@@ -127,10 +127,10 @@ SAME_WAY_PX, SAME_WAY_TICKS = 24.0, 6
 def distinct_ways(found: Iterable[SpanResult], *, measured: bool) -> list[SpanResult]:
     """The best result of each way, best first; with a measure none that another one beats in score and in tick."""
     ways: list[SpanResult] = []
-    for each in sorted(found):
-        beaten = measured and any(way.score < each.score and way.ticks < each.ticks for way in ways)
-        if not beaten and not any(_is_same_way(way, each) for way in ways):
-            ways.append(each)
+    for result in sorted(found):
+        beaten = measured and any(way.score < result.score and way.ticks < result.ticks for way in ways)
+        if not beaten and not any(_is_same_way(way, result) for way in ways):
+            ways.append(result)
     return ways
 
 

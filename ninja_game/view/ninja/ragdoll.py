@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from math import cos, hypot, pi, sin
 from random import Random
 from typing import NamedTuple
 
 from ninja_game.sim import kinds
-from ninja_game.sim.collision import tiles
+from ninja_game.sim.collision.rays import cast_ray, solid_at
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import TileMap, World
-from ninja_game.sim.rules import DOWN, LEFT, OFF, ONE_WAY_HALF, PAD_RADIUS, RIGHT, SOLID, STRIDE, UP
+from ninja_game.sim.rules import DOWN, HALF, LEFT, ONE_WAY_HALF, PAD_RADIUS, RIGHT, SOLID, STRIDE, UP
 from ninja_game.sim.states import EXPLOSIVE, FALL, WEAPON_ZAP
 from ninja_game.ui.canvas import Point
 from ninja_game.view.ninja.figure import Pose
@@ -163,32 +165,26 @@ class Ragdoll:
         stops = (1.0,) if square < 4 else (0.5, 1.0) if square < 36 else tuple(k / 6 for k in range(1, 7))
         for share in stops:
             p.x, p.y = p.sx + vx * share, p.sy + vy * share
+            if solid_at(level, p.x, p.y):
+                p.x, p.y = p.sx, p.sy
             touched = False
-            for _, _, nx, ny in tile_pushes(level, world, p):
-                self._bounce(p, nx, ny)
-                touched = True
-            for nx, ny, kick in object_pushes(world, p):
-                self._bounce(p, nx, ny)
-                p.ox -= nx * kick
-                p.oy -= ny * kick
+            for nx, ny, kick in (*tile_push(level, world, p), *object_pushes(world, p)):
+                vx, vy = self._bounce(p, vx, vy, nx, ny)
+                vx, vy = vx + nx * kick, vy + ny * kick
                 touched = True
             if touched:
+                p.ox, p.oy = p.x - vx, p.y - vy
+                p.sx, p.sy = p.x, p.y
                 break
 
-    def _bounce(self, p: VerletParticle, nx: float, ny: float) -> None:
-        """Lose part of the velocity into and along a surface."""
-        vx, vy = p.x - p.ox, p.y - p.oy
-        # The push itself is not a motion: the speed is that of before it.
-        ux, uy = p.sx - p.ox, p.sy - p.oy
-        into = ux * nx + uy * ny
-        along = -ny * ux + nx * uy
-        if into < 0:
-            self.hit(p.x, p.y, -into, along)
-        new_into = max(0.0, into) if into >= 0 else into - _LOSS_NORMAL * into
-        new_along = along * (1 - _LOSS_TANGENT)
-        vx, vy = nx * new_into - ny * new_along, ny * new_into + nx * new_along
-        p.ox, p.oy = p.x - vx, p.y - vy
-        p.sx, p.sy = p.x, p.y
+    def _bounce(self, p: VerletParticle, vx: float, vy: float, nx: float, ny: float) -> Point:
+        """What is left of a velocity into and along a surface."""
+        into, along = vx * nx + vy * ny, -ny * vx + nx * vy
+        if into >= 0:
+            return vx, vy
+        self.hit(p.x, p.y, -into, along)
+        into, along = into * (1 - _LOSS_NORMAL), along * (1 - _LOSS_TANGENT)
+        return nx * into - ny * along, ny * into + nx * along
 
     def joint(self, k: int, fraction: float) -> Point:
         """Where a particle is, between its last two places."""
@@ -257,92 +253,25 @@ KICKS = {
 """How hard (px/tick) each kind that the corpse can touch kicks it."""
 
 
-Push = tuple[float, float, float, float]  # by how much a box is pushed (px), and the surface's normal
+_BEHIND = {RIGHT: 1, DOWN: STRIDE, LEFT: -1, UP: -STRIDE}
+_WAYS = tuple((cos(k * pi / 8), sin(k * pi / 8)) for k in range(16))
 
 
-def tile_pushes(level: TileMap, world: World, box: Box) -> Iterator[Push]:
-    """Push a box out of tiles and closed doors; each push is done when it is given."""
-    cell = cell_at(box.x, box.y)
-    if not cell:
-        return
-    cx, cy, half = tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell], box.half
-    if level.tiles[cell]:
-        dx, dy = box.x - cx, box.y - cy
-        ox, oy = 12 + half - abs(dx), 12 + half - abs(dy)
-        a, b = (ox if dx >= 0 else -ox, 0.0) if ox < oy else (0.0, oy if dy >= 0 else -oy)
-        yield from _narrow(level, box, cell, a, b)
-    free = True
-    dy = box.y - cy
-    oy = abs(dy) + half - 12
-    if oy > 0:
-        side = UP if dy < 0 else DOWN
-        sign = 1.0 if dy < 0 else -1.0
-        for push in _side(level, world, box, cell, side, 0.0, oy * sign):
-            free = False
-            yield push
-    dx = box.x - cx
-    ox = abs(dx) + half - 12
-    if ox > 0:
-        side = LEFT if dx < 0 else RIGHT
-        sign = 1.0 if dx < 0 else -1.0
-        for push in _side(level, world, box, cell, side, ox * sign, 0.0):
-            free = False
-            yield push
-    if free and ox > 0 and oy > 0:
-        beside = cell + (1 if dx > 0 else -1)
-        corner = beside + (STRIDE if dy > 0 else -STRIDE)
-        a, b = (-ox if dx > 0 else ox, 0.0) if ox < oy else (0.0, -oy if dy > 0 else oy)
-        yield from _narrow(level, box, corner, a, b)
-
-
-def _side(level: TileMap, world: World, box: Box, cell: int, side: int, a: float, b: float) -> Iterator[Push]:
-    """Over one edge of the own cell: a solid edge pushes back, an interesting one asks the tile behind it."""
-    edge = world.edges[4 * cell + side]
-    if edge == SOLID:
-        yield _push(box, a, b, (a > 0) - (a < 0), (b > 0) - (b < 0))
-    elif edge != OFF:
-        yield from _narrow(level, box, cell + (1, STRIDE, -1, -STRIDE)[side], a, b)
-
-
-def _push(box: Box, a: float, b: float, nx: float, ny: float) -> Push:
-    box.x += a
-    box.y += b
-    return a, b, nx, ny
-
-
-def _narrow(level: TileMap, box: Box, cell: int, a: float, b: float) -> Iterator[Push]:
-    """One tile: out along its surface, or along the axis (a, b) if that is shorter."""
-    tile = level.tiles[cell]
-    shape = tiles.SHAPE[tile]
-    if shape in {tiles.EMPTY, tiles.UNDEFINED}:
-        return
-    m = (a * a + b * b) ** 0.5
-    axis = a, b, (a > 0) - (a < 0), (b > 0) - (b < 0)
-    sx, sy = tiles.SIGN_X[tile], tiles.SIGN_Y[tile]
-    kx, ky = box.x - sx * box.half, box.y - sy * box.half
-    if shape == tiles.FULL:
-        yield _push(box, *axis)
-        return
-    if shape in {tiles.CONCAVE, tiles.CONVEX}:
-        out = _round_push(shape, kx, ky, tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell], sx, sy)
-    else:
-        nx, ny = (sx, sy) if shape == tiles.HALF_TILE else (tiles.NORMAL_X[tile], tiles.NORMAL_Y[tile])
-        dx, dy = kx - tiles.CENTRE_X[cell] - tiles.ANCHOR_X[tile], ky - tiles.CENTRE_Y[cell] - tiles.ANCHOR_Y[tile]
-        depth = dx * nx + dy * ny
-        out = (-depth, nx, ny) if depth < 0 else None
-    if out is not None:
-        depth, nx, ny = out
-        yield _push(box, *(axis if m < depth else (nx * depth, ny * depth, nx, ny)))
-
-
-def _round_push(
-    shape: int, kx: float, ky: float, cx: float, cy: float, sx: float, sy: float
-) -> tuple[float, float, float] | None:
-    """Depth and normal in a quarter arc; a depth without end where only the axis will do."""
-    sign = 1.0 if shape == tiles.CONCAVE else -1.0
-    dx, dy = sign * (cx + sign * sx * 12 - kx), sign * (cy + sign * sy * 12 - ky)
-    if shape == tiles.CONVEX and (sx * dx < 0 or sy * dy < 0):
-        return float("inf"), 0.0, 0.0
-    length = (dx * dx + dy * dy) ** 0.5
-    depth = sign * (length - 24)
-    return (depth, dx / length, dy / length) if depth > 0 and length > 0 else None
+def tile_push(level: TileMap, world: World, box: Box) -> list[tuple[float, float, float]]:
+    """As ``object_pushes``, of tiles and closed doors, which a box touches as a disc."""
+    x, y, half = box.x, box.y, box.half
+    cell = cell_at(x, y)
+    if not level.tiles[cell] and max(abs(x - CENTRE_X[cell]), abs(y - CENTRE_Y[cell])) < HALF - half:
+        return []
+    shut = {cell + step for side, step in _BEHIND.items() if world.edges[4 * cell + side] == SOLID}
+    points = [(x + wx * half, y + wy * half, wx, wy) for wx, wy in _WAYS]
+    touched = [way for px, py, *way in points if solid_at(level, px, py) or cell_at(px, py) in shut]
+    nx, ny = (-sum(axis) for axis in zip(*touched, strict=True)) if touched else (0.0, 0.0)
+    length = hypot(nx, ny)
+    if length < 1e-6:
+        return []
+    hits = [cast_ray(level, world, x, y, wx, wy) for wx, wy in touched]
+    depth = half - min(hypot(hit_x - x, hit_y - y) for _, hit_x, hit_y in hits)
+    box.x += depth * nx / length
+    box.y += depth * ny / length
+    return [(nx / length, ny / length, 0.0)]

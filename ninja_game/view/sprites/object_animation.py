@@ -13,9 +13,7 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import DRONE_MOVE, LAUNCHER_FLIGHT
 
 MOVING_KINDS = frozenset(kind.number for kind in kinds.KINDS if kind.moves)
-_STATE_FIELDS = {
-    kinds.GOLD: "taken", kinds.MINE: "exploded", kinds.EXIT: "is_open", kinds.DOOR: "switched", kinds.DRONE: "chasing",
-}  # fmt: skip
+STATE_FIELDS = {kind.number: kind.used for kind in kinds.KINDS if kind.used} | {kinds.DRONE: "chasing"}
 """The field that tells whether an object has changed for good or for a while, where a kind has one."""
 LONG_AGO = -100_000
 _JUMP = 30.0  # an object that is farther away than this (px) after a tick was put there, it did not move
@@ -31,7 +29,7 @@ def state_of(world: World, o: Object) -> tuple[int, int, int]:
     if o.kind == kinds.SWITCH:
         # An exit's switch has no state of its own: it is pressed when the exit is open.
         o = world.objects[o.partner]
-    return getattr(o, _STATE_FIELDS.get(o.kind, "updating")), o.routine, o.updating
+    return getattr(o, STATE_FIELDS.get(o.kind, "updating")), o.routine, o.updating
 
 
 def drawn_place(o: Object) -> Place:

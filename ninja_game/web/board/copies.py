@@ -62,7 +62,7 @@ class Course:
 
 
 def course_of(inputs: bytes, run: RunResult) -> Course:
-    keys = bytes(each & KEYS_DOWN for each in inputs)
+    keys = bytes(pressed & KEYS_DOWN for pressed in inputs)
     met: Counter[int] = Counter()
     strokes = []
     for down, ticks in groupby(keys):
@@ -82,9 +82,9 @@ class Common:
         self._rows: dict[float, int] = {}
         self._bits = np.zeros((64, 1), np.uint8)
 
-    def mark(self, things: Iterable[float], column: int, *, has: bool) -> None:
+    def mark(self, features: Iterable[float], column: int, *, has: bool) -> None:
         """Note that the course in a column has these features, or no longer has them."""
-        rows = [self._rows.setdefault(each, len(self._rows)) for each in things]
+        rows = [self._rows.setdefault(feature, len(self._rows)) for feature in features]
         high, wide = self._bits.shape
         if len(self._rows) > high or column // 8 >= wide:
             more = max(0, 2 * len(self._rows) - high), max(0, column // 8 + column // 16 + 1 - wide)
@@ -95,13 +95,13 @@ class Common:
         else:
             self._bits[rows, column // 8] &= 255 - bit
 
-    def counts(self, things: Iterable[float], columns: int) -> NDArray[np.int64]:
+    def counts(self, features: Iterable[float], columns: int) -> NDArray[np.int64]:
         """How many of the features each of the first columns has."""
-        rows = np.array([self._rows[each] for each in things if each in self._rows], np.intp)
+        rows = np.array([self._rows[feature] for feature in features if feature in self._rows], np.intp)
         bits = np.unpackbits(self._bits[rows, : (columns + 7) // 8], axis=1, count=columns, bitorder="little")
         # The narrow sum takes a third of the time.
-        found: NDArray[np.int64] = bits.sum(0, np.uint16 if len(rows) < 2**16 else np.int64).astype(np.int64)
-        return found
+        counts: NDArray[np.int64] = bits.sum(0, np.uint16 if len(rows) < 2**16 else np.int64).astype(np.int64)
+        return counts
 
 
 class Courses:
@@ -134,8 +134,8 @@ class Courses:
         heappush(self._slowest, (-tick, -number, column))
 
     def _mark(self, course: Course, column: int, *, has: bool) -> None:
-        for common, things in ((self._strokes, course.strokes), (self._presses, course.presses)):
-            common.mark(things, column, has=has)
+        for common, features in ((self._strokes, course.strokes), (self._presses, course.presses)):
+            common.mark(features, column, has=has)
         self._places.mark(course.places, column, has=has)
 
     def near(self, course: Course) -> Callable[[NDArray[np.bool_]], tuple[list[int], str]]:
@@ -145,7 +145,7 @@ class Courses:
         of = self._press_counts
         if len(course.presses) >= FEWEST_PRESSES:
             for shift in range(-SHIFTED, SHIFTED + 1):
-                moved = (each + 8 * shift for each in course.presses)
+                moved = (press + 8 * shift for press in course.presses)
                 presses = np.maximum(presses, self._presses.counts(moved, columns))
         on_path = (places >= ON_PATH * len(course.places)) & (len(course.strokes) >= FEWEST_STROKES)
         pressed = (presses >= SAME_PRESSES * of) & (presses >= FEWEST_PRESSES)
@@ -154,7 +154,7 @@ class Courses:
         of_presses = presses / np.maximum(1, of) * pressed
         alike = np.maximum(of_path, of_presses)
 
-        def found(chosen: NDArray[np.bool_]) -> tuple[list[int], str]:
+        def nearest(chosen: NDArray[np.bool_]) -> tuple[list[int], str]:
             near = np.flatnonzero(chosen & (on_path | pressed))
             if near.size:
                 near = near[np.lexsort((self.numbers[near], -alike[near]))]
@@ -168,11 +168,11 @@ class Courses:
             strokes, ticks = self._strokes.counts(course.strokes, columns), len(course.keys)
             most = nlargest(ALIGNED, np.flatnonzero(chosen).tolist(), key=strokes.__getitem__)
             shared = [(-course.inputs_shared(self._courses[column]), int(self.numbers[column])) for column in most]
-            aligned = sorted(each for each in shared if each[0])
+            aligned = sorted(pair for pair in shared if pair[0])
             said = f"{-aligned[0][0]} of its {ticks} ticks have the inputs of" if aligned else ""
             return [number for _, number in aligned], said
 
-        return found
+        return nearest
 
 
 def edit_distance(ours: bytes, theirs: bytes) -> int:
@@ -272,11 +272,11 @@ class _Compared:
         noted = self._memo.recall(key := self._key_of(run))
         if not (isinstance(noted, list) and [*map(type, noted)] == [str, bool]):
             before = range(self._known, len(self._runs))
-            for number in sorted(nsmallest(MOST_COMPARED, before, key=lambda each: self._runs[each].tick)):
+            for number in sorted(nsmallest(MOST_COMPARED, before, key=lambda number: self._runs[number].tick)):
                 self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
             self._known = len(self._runs)
             course = self._course(run, new=True)
-            players = [each.player for each in self._runs]
+            players = [run.player for run in self._runs]
             near = _near_to_another(run.player, course, self._courses, players, self._earlier)
             said = f"{near[1]} the run by {self._runs[near[0]].player} in {self._runs[near[0]].file}" if near else ""
             self._memo.note(key, noted := [said, bool(near and near[0] < self._earlier)])
@@ -286,10 +286,10 @@ class _Compared:
         """What tells whether a run is near to others. ``new``: its page is made, and shows its path."""
         if self._last is None or self._last[0] != run.key:
             inputs = run.inputs
-            found = run_level(run.entry.named.level, inputs)
+            result = run_level(run.entry.named.level, inputs)
             if new:
-                run.folder.drawn[run.key] = path_data(found.positions)
-            self._last = run.key, course_of(inputs, found)
+                run.folder.drawn[run.key] = path_data(result.positions)
+            self._last = run.key, course_of(inputs, result)
         return self._last[1]
 
 

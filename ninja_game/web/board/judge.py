@@ -7,7 +7,8 @@ from collections import defaultdict, deque
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from itertools import compress, count, pairwise
+from functools import partial
+from itertools import compress, count, pairwise, starmap
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
@@ -85,27 +86,25 @@ def judge(
         moderated += [] if isinstance(decided, Run) else [decided]
     counted, copies = without_copies(credited, memo, owners)
     counted = [_with_row(run, owners.get((run.level, run.way), {})) for run in counted]
-    named = [
-        each if each.kind == "unreadable" else replace(each, player=players.meet(each.player)[0]) for each in rejected
-    ]
-    others = sorted([*named, *moderated, *copies], key=lambda each: (each.file, each.record))
-    refused, again = (tuple(each for each in others if (each.kind == OWN) is own) for own in (False, True))
+    named = [run if run.kind == "unreadable" else replace(run, player=players.meet(run.player)[0]) for run in rejected]
+    others = sorted([*named, *moderated, *copies], key=lambda run: (run.file, run.record))
+    refused, again = (tuple(run for run in others if (run.kind == OWN) is own) for own in (False, True))
     return ValidatedRuns(tuple(counted), refused, again, players.alike, _episodes(credited, counted, shown))
 
 
 def _episodes(runs: list[Run], counted: list[Run], shown: PublishedLevels) -> dict[str, list[list[Run]]]:
     """By key the runs of whole episodes: every level's counts, or does what another run by the same player does."""
-    lengths = {each.key: len(each.levels) for each in shown.levels.episodes.values()}
+    lengths = {episode.key: len(episode.levels) for episode in shown.levels.episodes.values()}
     ways = {(run.player, run.level, run.way): run for run in counted}
     files: dict[tuple[str, str], list[Run]] = defaultdict(list)
-    for run in sorted(runs, key=lambda each: each.key):
+    for run in sorted(runs, key=lambda run: run.key):
         if run.episode and (own := ways.get((run.player, run.level, run.way))):
             files[run.episode, run.file].append(own)
-    found: dict[str, list[list[Run]]] = defaultdict(list)
-    for (key, _), whole in files.items():
-        if len(whole) == lengths[key] and len({run.player for run in whole}) == 1:
-            found[key].append(whole)
-    return found
+    whole: dict[str, list[list[Run]]] = defaultdict(list)
+    for (key, _), levels in files.items():
+        if len(levels) == lengths[key] and len({run.player for run in levels}) == 1:
+            whole[key].append(levels)
+    return whole
 
 
 class _Judging:
@@ -113,12 +112,12 @@ class _Judging:
 
     def __init__(self, folder: RunFolder, shown: PublishedLevels, memo: Memo) -> None:
         self._folder, self._shown, self._memo = folder, shown, memo
-        self._episodes = {each.key: each.levels for each in shown.levels.episodes.values()}
+        self._episodes = {episode.key: episode.levels for episode in shown.levels.episodes.values()}
         # Twice as long as a run can be that is in time.
         longest = [
-            2 * (LIFETIME + GOLD_BONUS * sum(each.all_gold for each in row)) * tick_cost(entry.named.level)
-            for row in [*self._episodes.values(), *([each] for each in shown.entries.values())]
-            for entry in row
+            2 * (LIFETIME + GOLD_BONUS * sum(level.all_gold for level in levels)) * tick_cost(entry.named.level)
+            for levels in [*self._episodes.values(), *([entry] for entry in shown.entries.values())]
+            for entry in levels
         ]
         self._budget = min(RUN_BUDGET, max(longest, default=RUN_BUDGET))
         self._context = digest_of([program(), self._budget, sorted(shown.entries), sorted(self._episodes)])
@@ -136,8 +135,8 @@ class _Judging:
             file = self._waiting[0]
             results.append(result)
             if len(results) == len(file.sent):
-                file.rows.extend(self._row(file, *each) for each in zip(file.sent, results, strict=True))
-                if not any(isinstance(each, Lost) for each in results):
+                file.rows.extend(starmap(partial(self._row, file), zip(file.sent, results, strict=True)))
+                if not any(isinstance(judged, Lost) for judged in results):
                     self._memo.note(
                         file.name,
                         [self._context, file.stamp, file.digest, [[*vars(row).values()] for row in file.rows]],
@@ -150,7 +149,7 @@ class _Judging:
         """What is to be simulated; the files, those that the memo knows too, wait for their turn."""
         for name, why in self._folder.files():
             self._waiting.append(file := self._file(name, why))
-            yield from (each.chunk for each in file.sent)
+            yield from (sent.chunk for sent in file.sent)
 
     def _file(self, name: str, why: str) -> JudgedFile:
         """A file as the memo knows it, else with what is sent in it. ``why``: it is left out."""
@@ -216,7 +215,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     if isinstance(result, Unreadable):
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # which a board has not
         return Judged(sent.chunk.first, "unreadable", why)
-    problems = [_worded(each, result, sent) for each in result.problems]
+    problems = [_worded(problem, result, sent) for problem in result.problems]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
         other = run_problem("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
         problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
@@ -262,12 +261,12 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
 
 def _of_players(runs: list[Run], players: Players) -> list[Run]:
     """The runs, each of the player that its author is."""
-    found = []
+    credited = []
     for run in runs:
         player, remark = players.meet(run.player)
         same = player == run.player and not remark
-        found.append(run if same else replace(run, player=player, remark=remark))
-    return found
+        credited.append(run if same else replace(run, player=player, remark=remark))
+    return credited
 
 
 def _without_name(message: str, name: str) -> str:

@@ -22,7 +22,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_splits, split_table, sum_of_best
 from ninja_game.ui.theme import RUN_COLOURS
-from ninja_game.web.board.ranking import Part, Ranked, Ranking
+from ninja_game.web.board.ranking import Leaderboard, Ranked, Ranking
 from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
 from ninja_game.web.board.runs import PLAYED, Run
 from ninja_game.web.pages.frame import (
@@ -97,7 +97,7 @@ class LevelPages:
         self.pages = Pages(out, BOARD, memo)
         self.ranking = ranking
         self.entries = ranking.shown.entries
-        self.part_name = ranking.part_name
+        self.leaderboard_name = ranking.leaderboard_name
         self.main = ranking.categories[0]
         self.game = f"../{game}"
         self.site = address and f"{address}{BOARD}/"
@@ -108,7 +108,7 @@ class LevelPages:
         self.around = digest_of([self.links, self.site])
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
 
-    def list(
+    def write_table(
         self, name: str, title: str, caption: str, heads: Sequence[str], rows: Sequence[Any], *before: Content,
         cells: Callable[[Any], tuple[Content, ...]] = tuple,
     ) -> None:  # fmt: skip
@@ -130,19 +130,19 @@ class LevelPages:
 
             self.pages.make(file, [title, caption, heads, part, lead, more, links], content)
 
-    def watch(self, runs: Sequence[Run], up: str, text: str = "Watch") -> Markup:
+    def watch_link(self, runs: Sequence[Run], up: str, text: str = "Watch") -> Markup:
         """A link that watches a run, the others as ghosts."""
         address = watch_address(up + self.game, *(self.stems[run.key] for run in runs))
         return tag("a", text, href=address, aria_label=f"{text}: {runs[0].player} on {runs[0].entry.title}")
 
-    def file(self, run: Run, up: str, text: str = "") -> Markup:
+    def run_link(self, run: Run, up: str, text: str = "") -> Markup:
         """A link to the page of a run that says ``text``, such as its time; without one to its replay."""
         address, said = f"{up}../{REPLAYS}/{self.stems[run.key]}", f"{run.player} on {run.entry.title}"
         if text:
             return tag("a", text, href=f"{address}.html", aria_label=f"{text}: {said}")
         return tag("a", "File", href=f"{address}.txt", download=True, aria_label=f"File: {said}")
 
-    def late(self, category: Category, row: Ranked, first: Ranked, word: str = "") -> str:
+    def behind(self, category: Category, row: Ranked, first: Ranked, word: str = "") -> str:
         """By how much a run is behind the first, or what decides between the two. ``word``: behind a number."""
         if not row.place or row is first:
             return ""
@@ -150,19 +150,19 @@ class LevelPages:
             return "equal" + ", later in" * (row.run.added > first.run.added)
         return category.difference(row.behind) + word if row.behind else category.decided(row.values, first.values)
 
-    def run_page(self, run: Run, beside: Sequence[Run]) -> None:
+    def write_run_page(self, run: Run, beside: Sequence[Run]) -> None:
         """``beside``: the runs of the level that stand side by side."""
-        stem, title = self.stems[run.key], f"{self.name(run.player)} on {run.entry.title}"
+        stem, title = self.stems[run.key], f"{self.shown_name(run.player)} on {run.entry.title}"
         ranks, links = list[tuple[str, str]](), list[Markup]()
-        for part, rows, number in self.ranking.places.get(run.key, ()):
+        for leaderboard, rows, number in self.ranking.places.get(run.key, ()):
             row, first = rows[number], rows[0]
             if number >= FIRST:
                 continue  # else one new run would change the pages of many
             if row.place:
-                late = self.late(part[1], row, first, " behind")
-                ranks.append((self.part_name(part), f"place {row.place}" + f", {late}" * bool(late)))
+                late = self.behind(leaderboard[1], row, first, " behind")
+                ranks.append((self.leaderboard_name(leaderboard), f"place {row.place}" + f", {late}" * bool(late)))
             if number and not links:
-                links.append(self.watch([run, first.run], "", f"Watch with {self.name(first.run.player)}"))
+                links.append(self.watch_link([run, first.run], "", f"Watch with {self.shown_name(first.run.player)}"))
         links.append(tag("a", "All runs of the player", href=f"{UP}{BOARD}/{player_page(run.player)}.html"))
         if run in beside and len(beside) > 1:
             links.append(tag("a", "Splits", href=f"{UP}{BOARD}/{page_name(run.level)}#{SPLITS}"))
@@ -173,42 +173,42 @@ class LevelPages:
                  ("Remark", run.remark)]  # fmt: skip
 
         def content() -> str:
-            drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.name(run.player), run.path)])
+            drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.shown_name(run.player), run.path)])
             more = joined(*(tag("p", each) for each in links))
             return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn, more)
 
         self.pages.make(f"{stem}.html", [title, facts, links, self.around], content, replay=True)
 
-    def name(self, player: str) -> str:
+    def shown_name(self, player: str) -> str:
         """A player's name in a table, and whose it is not where it looks like one that was there before."""
         first = self.ranking.judged.alike.get(player)
         return shown_text(player, LONGEST_NAME) + (f" (not {shown_text(first, LONGEST_NAME)})" if first else "")
 
     def player_link(self, player: str, up: str = "") -> Content:
-        return tag("a", self.name(player), href=f"{up}{player_page(player)}.html") if player else ""
+        return tag("a", self.shown_name(player), href=f"{up}{player_page(player)}.html") if player else ""
 
-    def run(self, run: Run, *results: Content, timed: bool = True) -> tuple[Content, ...]:
+    def run_cells(self, run: Run, *results: Content, timed: bool = True) -> tuple[Content, ...]:
         """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time."""
-        gold, linked = f"{run.gold} of {run.entry.all_gold}", self.file(run, UP, str(results[0]))
-        about = gold, run.made or "unknown", run.day, medal_mark(run.medal if timed else ""), self.file(run, UP)
+        gold, linked = f"{run.gold} of {run.entry.all_gold}", self.run_link(run, UP, str(results[0]))
+        about = gold, run.made or "unknown", run.day, medal_mark(run.medal if timed else ""), self.run_link(run, UP)
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
         return (
             joined(self.player_link(run.player, UP), others),
             linked,
             *results[1:],
-            self.watch([run], UP),
+            self.watch_link([run], UP),
             *about,
             run.remark,
         )
 
-    def value(self, category: Category, run: Run) -> str:
+    def shown_value(self, category: Category, run: Run) -> str:
         """The number that a run is ranked by, as text; "" where it is not of the category."""
         values = self.ranking.values(category, run)
         return category.text(values[0]) if values else ""
 
     # --- levels ---
 
-    def level(self, entry: Entry) -> None:
+    def write_level(self, entry: Entry) -> None:
         """A level's page, the list of all its runs, and their pages and files."""
         digest, named, runs = entry.digest, entry.named, self.ranking.by_level.get(entry.digest, [])
         rows: list[list[Any]] = [[self.stems[run.key], run.added, run.remark, run.near, run.tick] for run in runs]
@@ -225,17 +225,18 @@ class LevelPages:
 
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
             run = known[row[0]]
-            return self.run(run, seconds_text(run.tick), seconds_text(run.score))
+            return self.run_cells(run, seconds_text(run.tick), seconds_text(run.score))
 
         beside = self.ranking.side_by_side(digest, TOGETHER)[1] if runs else []
         for run in runs:
             self.pages.make(f"{self.stems[run.key]}.txt", self.stems[run.key], partial(_text, run), replay=True)
-            self.run_page(run, beside)
+            self.write_run_page(run, beside)
             run.folder.forget(run.key)
         if runs:
             heads, back = ("Player", "Time", "Score", *RUN_HEADS), tag("a", "The level", href=UP + page_name(digest))
             name, caption = f"levels/{digest[:16]}-runs", "All runs, the fastest first"
-            self.list(name, entry.title, caption, heads, sorted(rows, key=itemgetter(-1)), tag("p", back), cells=cells)
+            ordered = sorted(rows, key=itemgetter(-1))
+            self.write_table(name, entry.title, caption, heads, ordered, tag("p", back), cells=cells)
 
     def _runs(self, entry: Entry) -> tuple[Content, Content, Content]:
         """What leads to the tables, the paths of the first runs over the level, and all that stands below."""
@@ -248,50 +249,51 @@ class LevelPages:
         fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > 1]
         first, *others = [self._progression(entry, each, RECORDS * (not at)) for at, each in enumerate(fell)] or [None]
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
-        same: dict[str, dict[Part, list[Ranked]]] = defaultdict(dict)
+        same: dict[str, dict[Leaderboard, list[Ranked]]] = defaultdict(dict)
         for each, rows in tables.items():
             same[f"{each[0]} {[(row.place, row.run.key) for row in rows[:FIRST]]}"][each] = rows[:FIRST]
         near = {row.run.key for rows in tables.values() for row in rows[:FIRST] if row.run.near}
         remarks: set[str] = set()
         shown, leads = list[Content](), list[tuple[str, str]]()
-        for number, parts in enumerate(same.values(), 1):
-            waiting = [row for each in parts for row in self.ranking.waiting(entry.digest, each, tables[each])]
+        for number, leaderboards in enumerate(same.values(), 1):
+            waiting = [row for each in leaderboards for row in self.ranking.waiting(entry.digest, each, tables[each])]
             near |= {row.run.key for row in waiting}
-            shown.append(self._table(parts, remarks, anchor := f"ranks-{number}"))
+            shown.append(self._table(leaderboards, remarks, anchor := f"ranks-{number}"))
             better = [
-                f"{self.name(row.run.player)} {seconds_text(row.run.tick)} with {row.run.gold} gold" for row in waiting
+                f"{self.shown_name(row.run.player)} {seconds_text(row.run.tick)} with {row.run.gold} gold"
+                for row in waiting
             ]
             shown.append(tag("p", f"Better, and waiting: {', '.join(dict.fromkeys(better))}.") if better else "")
-            for each, (best, *_) in parts.items():
-                leader = f": {self.name(best.run.player)}, {each[1].text(best.values[0])}" if best.place == 1 else ""
-                leads.append((anchor, self.part_name(each) + leader))
+            for each, (best, *_) in leaderboards.items():
+                leader = f": {self.shown_name(best.run.player)}, {each[1].text(best.values[0])}"
+                leads.append((anchor, self.leaderboard_name(each) + leader * (best.place == 1)))
         leads += [(each, each.capitalize()) for each, content in ((RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
         return on_this_page(leads), drawn, joined(*shown, note, link, first, folded, beside)
 
-    def _table(self, parts: Mapping[Part, Sequence[Ranked]], above: set[str], anchor: str) -> Markup:
+    def _table(self, leaderboards: Mapping[Leaderboard, Sequence[Ranked]], above: set[str], anchor: str) -> Markup:
         """A table of categories with the same runs in order. ``above``: remarks of tables above."""
-        rows, categories = [], [category for _, category in parts]
+        rows, categories = [], [category for _, category in leaderboards]
         timed = any(category.unit == FASTEST.unit for category in categories)
-        for same in zip(*parts.values(), strict=True):
+        for same in zip(*leaderboards.values(), strict=True):
             place, run = same[0].place, same[0].run
             shown = replace(run, remark="as above") if run.remark in above else run
             results = [category.text(each.values[0]) for category, each in zip(categories, same, strict=True)]
-            late = self.late(categories[0], same[0], next(iter(parts.values()))[0])
-            rows.append((place or "", *self.run(shown, *results, late, timed=timed)))
+            late = self.behind(categories[0], same[0], next(iter(leaderboards.values()))[0])
+            rows.append((place or "", *self.run_cells(shown, *results, late, timed=timed)))
             above |= {run.remark} - {""}
-        names = [category.name if len(parts) > 1 else category.unit for category in categories]
+        names = [category.name if len(leaderboards) > 1 else category.unit for category in categories]
         heads = ("Place", "Player", *names, "Behind", *RUN_HEADS)
         ranked = table("Best run of each player", heads, rows)
-        return section("; ".join(map(self.part_name, parts)), ranked, anchor=anchor)
+        return section("; ".join(map(self.leaderboard_name, leaderboards)), ranked, anchor=anchor)
 
-    def _progression(self, entry: Entry, part: Part, anchor: str) -> Content:
-        category, runs = part[1], self.ranking.history[entry.digest, part]
+    def _progression(self, entry: Entry, leaderboard: Leaderboard, anchor: str) -> Content:
+        category, runs = leaderboard[1], self.ranking.history[entry.digest, leaderboard]
         moved = "rose" if category.rising else "fell"
         numbers = [self.ranking.number(category, run) for run in runs]
         better = ["", *(category.difference(before - now) for before, now in pairwise(numbers))]
         rows = [
-            (run.moment, self.player_link(run.player, UP), category.text(number), gain, self.watch([run], UP))
+            (run.moment, self.player_link(run.player, UP), category.text(number), gain, self.watch_link([run], UP))
             for run, number, gain in zip(runs, numbers, better, strict=True)
         ]
         # Records of one moment are one record.
@@ -301,19 +303,19 @@ class LevelPages:
         heights = [-number if category.rising else number for number in numbers]
         chart = steps(list(zip(moments, heights, strict=True)), start, end, said)
         heads = ("Date", "Player", category.unit, "Better by", "Watch")
-        title = f"How the record {moved}: {self.part_name(part)}"
+        title = f"How the record {moved}: {self.leaderboard_name(leaderboard)}"
         return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]), anchor=anchor or None)
 
     def _side_by_side(self, category: Category, runs: Sequence[Run]) -> tuple[Markup, Content]:
         """The paths of the first runs of a category; of several, races of any two of them, and their splits."""
-        names = [self.name(run.player) + ", assisted" * (run.ladder != PLAYED) for run in runs]
+        names = [self.shown_name(run.player) + ", assisted" * (run.ladder != PLAYED) for run in runs]
         if len(runs) == 1:
             return paths(UP + picture_name(runs[0].level), [(names[0], runs[0].path)]), None
         found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
         rows, known = _split_rows(found), [path_data(each.positions) for each in found]
         places = [(row.split.x, row.split.y) for row in rows]
         drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)), places)
-        together = tag("p", self.watch(runs, UP, f"Watch the first {len(runs)} together"))
+        together = tag("p", self.watch_link(runs, UP, f"Watch the first {len(runs)} together"))
         pairs = [
             (tag("div", swatch(number), " ", names[number], class_="text"), *(self._pair(run, other) for other in runs))
             for number, run in enumerate(runs)
@@ -330,7 +332,7 @@ class LevelPages:
         return drawn, joined(section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS))
 
     def _pair(self, run: Run, other: Run) -> Content:
-        return "" if run is other else self.watch([run, other], UP, signed(run.tick - other.tick))
+        return "" if run is other else self.watch_link([run, other], UP, signed(run.tick - other.tick))
 
 
 def _split_rows(found: Sequence[RunSplits]) -> list[SplitRow]:

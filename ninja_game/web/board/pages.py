@@ -74,7 +74,7 @@ class BoardPages(LevelPages):
 
     def write(self) -> None:
         for entry in self.entries.values():
-            self.level(entry)
+            self.write_level(entry)
         self._players()
         self._levels()
         self._rejected()
@@ -125,7 +125,7 @@ class BoardPages(LevelPages):
         if len(records) <= MOST_OF_A_MOMENT:
             return [
                 (
-                    level_link(run.entry), self.watch([run], ""), self.player_link(run.player),
+                    level_link(run.entry), self.watch_link([run], ""), self.player_link(run.player),
                     tag("div", *(tag("div", each) for each in self._achieved(record)), class_="text"), moment,
                 )
                 for record in records for run in [record.run]
@@ -139,7 +139,7 @@ class BoardPages(LevelPages):
         for category, amount in record.before.items():
             result = category.measured(self.ranking.number(category, record.run))
             gain = "first" if amount is None else f"better by {category.difference(amount)}"
-            yield f"{self.part_name((record.run.ladder, category))}: {result}, {gain}"
+            yield f"{self.leaderboard_name((record.run.ladder, category))}: {result}, {gain}"
 
     def _week(self) -> list[Piece]:
         if not (found := self.ranking.level_of_the_week):
@@ -171,7 +171,8 @@ class BoardPages(LevelPages):
         return "; runs and players are those of both ladders" * (len(self.ranking.ladders) > 1)
 
     def _best_heads(self) -> list[str]:
-        return [each for ladder in self.ranking.ladders for each in (self.part_name((ladder, self.main)), "First")]
+        ladders = self.ranking.ladders
+        return [head for each in ladders for head in (self.leaderboard_name((each, self.main)), "First")]
 
     def _best(self, digest: str) -> list[Content]:
         """The best number and its player in the first category of each ladder, "" where nobody has one."""
@@ -201,7 +202,7 @@ class BoardPages(LevelPages):
                 yield _together(records), date, date, self.ranking.shown.name, "index.html"
             elif date:
                 for record in records:
-                    run, name = record.run, self.name(record.run.player)
+                    run, name = record.run, self.shown_name(record.run.player)
                     title = f"{name}, {run.entry.title}, {'; '.join(self._achieved(record))}"
                     yield title, self.stems[run.key], date, name, page_name(run.level)
 
@@ -223,9 +224,11 @@ class BoardPages(LevelPages):
         sums: dict[str, list[Content]] = defaultdict(list)
         pages = dict(zip(self.ranking.ladders, ("players", "assisted"), strict=False))
         for ladder, standings in self.ranking.standings.items():
-            others = [tag("a", self._players_of(each), href=f"{pages[each]}.html") for each in pages if each != ladder]
+            links = [
+                tag("a", self._players_of(other), href=f"{pages[other]}.html") for other in pages if other != ladder
+            ]
             title, rows = self._players_of(ladder), [*map(self._standing, standings)]
-            self.list(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", other) for other in others))
+            self.write_table(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", link) for link in links))
             for each in standings:
                 sums[each.player].append(tag("p", _sums(ladder, self.main.name, each)))
         runs: dict[str, list[Run]] = defaultdict(list)
@@ -240,7 +243,7 @@ class BoardPages(LevelPages):
             self._runs_of(player, own, [*sums[player], link])
             if records:
                 back = tag("p", tag("a", "All runs of the player", href=f"{UP}{name}.html"))
-                self.list(f"{name}-records", player, "Records held, then those lost", heads, records, back)
+                self.write_table(f"{name}-records", player, "Records held, then those lost", heads, records, back)
 
     def _records(self) -> tuple[dict[str, list[tuple[Content, ...]]], dict[str, list[tuple[Content, ...]]]]:
         """By player the rows of the records that are held, and of those that were lost."""
@@ -248,10 +251,10 @@ class BoardPages(LevelPages):
         lost: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         for (level, part), runs in self.ranking.history.items():
             last = {run.player: number for number, run in enumerate(runs)}
-            results = [self.file(run, UP, self.value(part[1], run)) for run in runs]
+            results = [self.run_link(run, UP, self.shown_value(part[1], run)) for run in runs]
             for player, number in last.items():
                 best, by = runs[number], runs[number + 1] if number + 1 < len(runs) else None
-                about = level_link(self.entries[level], UP), self.part_name(part), results[number], best.day
+                about = level_link(self.entries[level], UP), self.leaderboard_name(part), results[number], best.day
                 loss = (self.player_link(by.player, UP), results[number + 1], by.day) if by else ("", "", "")
                 (lost if by else held)[player].append((*about, *loss))
         return held, lost
@@ -264,9 +267,9 @@ class BoardPages(LevelPages):
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
             run = known[row[0]]
             gold = f"{run.gold} of {run.entry.all_gold}"
-            time = self.file(run, UP, seconds_text(run.tick))
-            result = time, self.watch([run], UP), medal_mark(run.medal), seconds_text(run.score), gold
-            leads = run.made or "unknown", run.day, self.file(run, UP)
+            time = self.run_link(run, UP, seconds_text(run.tick))
+            result = time, self.watch_link([run], UP), medal_mark(run.medal), seconds_text(run.score), gold
+            leads = run.made or "unknown", run.day, self.run_link(run, UP)
             places = tag("div", *(tag("div", each) for each in row[3]), class_="text") if row[3] else ""
             return (row[1], level_link(run.entry, UP), *result, places, *leads)
 
@@ -275,15 +278,15 @@ class BoardPages(LevelPages):
             for run in sorted(runs, key=lambda run: (order[run.level], run.added, run.key))
         ]
         heads = ("No.", "Level", "Time", "Watch", "Medal", "Score", "Gold", "Places", "Made", "Date", "File")
-        self.list(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
+        self.write_table(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
 
     def _places(self, run: Run) -> list[str]:
         """Its place in each category, and how far behind it is."""
         found = []
         for part, rows, number in self.ranking.places.get(run.key, ()):
             if place := rows[number].place:
-                late = self.late(part[1], rows[number], rows[0], " behind")
-                found.append(f"{self.part_name(part)}: {place}" + f", {late}" * bool(late))
+                late = self.behind(part[1], rows[number], rows[0], " behind")
+                found.append(f"{self.leaderboard_name(part)}: {place}" + f", {late}" * bool(late))
         return found
 
     # --- levels, episodes, and what does not count ---
@@ -294,7 +297,7 @@ class BoardPages(LevelPages):
             for digest, entry in self.entries.items()
         ]
         heads = ("No.", "Level", "Runs", "Players", *self._best_heads())
-        self.list(
+        self.write_table(
             "levels", "Levels", f"In playing order; who is first, in {self.main.name}{self._of_both()}", heads, rows
         )
 
@@ -323,12 +326,12 @@ class BoardPages(LevelPages):
                         self.player_link(player),
                         "" if ranks_score else part[1].text(total),
                         seconds_text(LIFETIME + sum(run.score - LIFETIME for run in runs)),
-                        ", ".join(self.value(part[1], run) for run in runs),
-                        self.watch(runs, ""),
+                        ", ".join(self.shown_value(part[1], run) for run in runs),
+                        self.watch_link(runs, ""),
                     )
                     for place, (player, total, runs) in enumerate(ranked(episode, part)[:FIRST], 1)
                 ]
-                caption = f"Episode {number:02d}, {self.part_name(part)}: {what}"
+                caption = f"Episode {number:02d}, {self.leaderboard_name(part)}: {what}"
                 tables += [table(caption, EPISODE_HEADS, rows)] if rows else []
             levels = [tag("li", level_link(each)) for each in episode.levels]
             nobody = tag("p", "No player yet.")
@@ -342,23 +345,25 @@ class BoardPages(LevelPages):
         said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title) in KINDS.items() if counts[kind])
         rows: list[tuple[Content, ...]] = [
             (KINDS[each.kind][1], each.file + f", record {each.record}" * (each.record > 0),
-             self.name(each.player), each.level, each.why, self._first_run(each.first), each.added.partition("T")[0])
+             self.shown_name(each.player), each.level, each.why, self._first_run(each.first),
+             each.added.partition("T")[0])
             for each in sorted(rejected, key=lambda each: order.index(each.kind))
         ]  # fmt: skip
         lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."
         near = [
-            (level_link(run.entry), self.player_link(run.player), self.file(run, "", seconds_text(run.tick)), run.gold,
-             self.watch([run], ""), run.file + f", record {run.record}" * (run.record > 0), run.near, run.day)
+            (level_link(run.entry), self.player_link(run.player), self.run_link(run, "", seconds_text(run.tick)),
+             run.gold, self.watch_link([run], ""), run.file + f", record {run.record}" * (run.record > 0), run.near,
+             run.day)
             for run in self.ranking.judged.runs if run.near
         ]  # fmt: skip
         waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
         leads = tag("p", lead), tag("p", waiting) if near else None
         heads = ("What", "File", "Player", "Level", "Why", "The first run", "Date")
-        self.list("rejected", "Rejected", "What does not count", heads, rows, *leads)
+        self.write_table("rejected", "Rejected", "What does not count", heads, rows, *leads)
         if near:
             names = ("Level", "Player", "Time", "Gold", "Watch", "File", "Nearly", "Date")
             about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs that are nearly somebody else's"
-            self.list("waiting", "Waiting for confirmation", caption, names, near, *about)
+            self.write_table("waiting", "Waiting for confirmation", caption, names, near, *about)
 
     def _first_run(self, key: Key | None) -> Content:
         """A link to the page of a run that others have copied."""

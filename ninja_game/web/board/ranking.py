@@ -16,7 +16,7 @@ from ninja_game.web.board.rules import USUAL, Category
 from ninja_game.web.board.runs import PLAYED, Key, Run, ValidatedRuns
 from ninja_game.web.pages.gallery import PublishedLevels
 
-Part = tuple[str, Category]  # a ladder and a category: runs are ranked within them
+Leaderboard = tuple[str, Category]  # a ladder and a category: runs are ranked within them
 
 WEEK = timedelta(days=7)
 
@@ -101,24 +101,24 @@ class Ranking:
         return found
 
     @cached_property
-    def tables(self) -> dict[str, dict[Part, list[Ranked]]]:
+    def tables(self) -> dict[str, dict[Leaderboard, list[Ranked]]]:
         """All tables that have a run, by level, then by ladder and category."""
-        found: dict[str, dict[Part, list[Ranked]]] = {}
+        found: dict[str, dict[Leaderboard, list[Ranked]]] = {}
         for level, runs in self.by_level.items():
             ladders: dict[str, list[Run]] = defaultdict(list)
             for run in runs:
                 ladders[run.ladder].append(run)
-            parts = {
+            leaderboards = {
                 (ladder, each): self._table(ladders[ladder], each)
                 for ladder in self.ladders
                 for each in self.categories
             }
-            found[level] = {part: table for part, table in parts.items() if table}
+            found[level] = {leaderboard: table for leaderboard, table in leaderboards.items() if table}
         return found
 
-    def waiting(self, level: str, part: Part, table: Sequence[Ranked]) -> list[Ranked]:
+    def waiting(self, level: str, leaderboard: Leaderboard, table: Sequence[Ranked]) -> list[Ranked]:
         """Near copies that nobody has confirmed, and that are better than the run of their player in the table."""
-        ladder, category = part
+        ladder, category = leaderboard
         best = {row.run.player: row for row in table if row.run.ladder == ladder}
         found = []
         for run in self.by_level.get(level, ()):
@@ -136,13 +136,13 @@ class Ranking:
         return category, sorted(runs, key=lambda run: run.ladder != PLAYED)
 
     @cached_property
-    def places(self) -> dict[Key, list[tuple[Part, list[Ranked], int]]]:
+    def places(self) -> dict[Key, list[tuple[Leaderboard, list[Ranked], int]]]:
         """By run the tables that it is in, and in which row."""
-        found: dict[Key, list[tuple[Part, list[Ranked], int]]] = defaultdict(list)
+        found: dict[Key, list[tuple[Leaderboard, list[Ranked], int]]] = defaultdict(list)
         for tables in self.tables.values():
-            for part, table in tables.items():
+            for leaderboard, table in tables.items():
                 for number, ranked in enumerate(table):
-                    found[ranked.run.key].append((part, table, number))
+                    found[ranked.run.key].append((leaderboard, table, number))
         return found
 
     @cached_property
@@ -150,15 +150,15 @@ class Ranking:
         """The ladders that have runs, the one of played runs first, and always there."""
         return sorted({PLAYED} | {run.ladder for run in self.judged.runs}, key=lambda ladder: ladder != PLAYED)
 
-    def part_name(self, part: Part) -> str:
+    def leaderboard_name(self, leaderboard: Leaderboard) -> str:
         """What a ladder's category is called; the ladder only where there are two."""
-        ladder, category = part
+        ladder, category = leaderboard
         return f"{category.name}, {ladder}" if len(self.ladders) > 1 else category.name
 
     @cached_property
-    def history(self) -> dict[tuple[str, Part], list[Run]]:
+    def history(self) -> dict[tuple[str, Leaderboard], list[Run]]:
         """By level, ladder and category the runs that were its record, the first one first; of one moment the last."""
-        found: dict[tuple[str, Part], list[Run]] = defaultdict(list)
+        found: dict[tuple[str, Leaderboard], list[Run]] = defaultdict(list)
         for run in self.judged.runs:
             for category in self.categories:
                 values = self.values(category, run)
@@ -202,10 +202,10 @@ class Ranking:
             for ladder, players in found.items()
         }
 
-    def episode(self, episode: Episode, part: Part) -> list[tuple[str, float, Sequence[Run]]]:
+    def episode(self, episode: Episode, leaderboard: Leaderboard) -> list[tuple[str, float, Sequence[Run]]]:
         """Who has passed every level of an episode: player, sum of the best numbers, and the runs; the best first."""
         tables = [
-            {each.run.player: each for each in self.tables.get(entry.digest, {}).get(part, ())}
+            {each.run.player: each for each in self.tables.get(entry.digest, {}).get(leaderboard, ())}
             for entry in episode.levels
         ]
         found = []
@@ -215,9 +215,9 @@ class Ranking:
                 found.append((player, sum(each.values[0] for each in best), [each.run for each in best]))
         return sorted(found, key=itemgetter(1, 0))
 
-    def whole(self, episode: Episode, part: Part) -> list[tuple[str, float, Sequence[Run]]]:
+    def whole(self, episode: Episode, leaderboard: Leaderboard) -> list[tuple[str, float, Sequence[Run]]]:
         """The same of each player's best recording of the whole episode; with an assisted run in it, it is assisted."""
-        ladder, category = part
+        ladder, category = leaderboard
         best: dict[str, tuple[str, float, Sequence[Run]]] = {}
         for runs in self.judged.episodes.get(episode.key, ()):
             values = [found[0] for run in runs if (found := self.values(category, run))]

@@ -218,8 +218,8 @@ def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
     for key, row in sorted(before.runs.items()):
         if key not in here:
             leaders = [
-                f"{ranking.part_name(part)} {plain(each.run.player)}, {part[1].text(each.values[0])}"
-                for part, table in ranking.tables.get(row["level"], {}).items() for each in table if each.place == 1
+                f"{ranking.leaderboard_name(board)} {plain(each.run.player)}, {board[1].text(each.values[0])}"
+                for board, table in ranking.tables.get(row["level"], {}).items() for each in table if each.place == 1
             ]  # fmt: skip
             first = f"first now: {'; '.join(leaders) or 'nobody'}"
             yield f"gone: {_place(key)}: {plain(row['player'])} on {plain(row['level_name'])}; {first}"

@@ -681,8 +681,7 @@ def test_what_is_pasted_has_its_buttons_and_esc_leads_back_to_what_was_selected(
     room.choose("Mirror")
     assert tools.ghost not in (None, before_turn)
     room.press("escape")
-    assert not tools.ghost
-    assert (tools.selection, tools.tool) == (before, "select")
+    assert (bool(tools.ghost), tools.selection, tools.tool) == (False, before, "select")
 
 
 def test_find_has_the_keys_from_the_start_until_it_is_left(room: Maker) -> None:
