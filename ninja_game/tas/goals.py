@@ -184,8 +184,8 @@ _GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened":
 
 
 def piece_splits(recording: Recording) -> tuple[Split, ...]:
-    """What a run reaches of that which pieces of it lead to. Raises what ``run_splits`` does."""
-    return run_splits(recording, tuple(_GOALS), memory="auto").splits
+    """What a run reaches of that which pieces of it lead to, without a compiler. Raises what ``run_splits`` does."""
+    return run_splits(recording, tuple(_GOALS)).splits
 
 
 def pieces_of(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
