@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
-from ninja_game.formats.recording import Recording
 from ninja_game.runs.compare import Split, run_splits
 from ninja_game.search.formula.task import LONGEST_SPAN
 from ninja_game.sim.kinds import GOLD
@@ -180,19 +179,14 @@ class RunPiece(NamedTuple):
 
 
 SHORTEST_PIECE = 10  # ticks; what is reached sooner belongs to the piece before
-_GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened": "opened({})", "won": "won"}
-
-
-def piece_splits(recording: Recording) -> tuple[Split, ...]:
-    """What a run reaches of that which pieces of it lead to, without a compiler. Raises what ``run_splits`` does."""
-    return run_splits(recording, tuple(_GOALS)).splits
+GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened": "opened({})", "won": "won"}
 
 
 def pieces_of(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
     """The pieces of a span, from one piece of gold, switch or exit to the next; from the last one to the exit.
 
-    ``splits``: the ``piece_splits`` of the run. Where the run reaches the exit, the rest of it follows, and a span with
-    nothing to reach has two halves. Where it does not, or the span goes to the exit, the last one is the whole run.
+    ``splits``: of the run, of the events in GOALS. Where the run reaches the exit, the rest of it follows, and a span
+    with nothing to reach has two halves. Where it does not, or the span goes to the exit, the whole run comes last.
     """
     first, pieces = span.first, list[RunPiece]()
     end, outcome = span.session.timeline.end
@@ -200,7 +194,7 @@ def pieces_of(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
     to_exit = not passes or span.last >= end
     for split in splits:
         if span.first <= split.tick < span.last + to_exit and split.tick - first + 1 >= SHORTEST_PIECE:
-            goal, behind = _GOALS[split.event].format(split.object_id), split.tick + 1
+            goal, behind = GOALS[split.event].format(split.object_id), split.tick + 1
             rest = passes and behind <= end
             pieces.append(RunPiece(first, behind, f"To {split.name}", SpanGoal(goal, rest=rest)))
             first = behind
@@ -209,13 +203,15 @@ def pieces_of(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
         pieces.append(RunPiece(first, last, "To exit", SpanGoal("won")))
     elif not to_exit and len(pieces) < 2:
         half = (span.first + span.last) // 2
-        bounds = (span.first, half, span.last) if not pieces else (first, span.last)
-        ends = [SearchedSpan(span.session, *each) for each in pairwise(bounds) if each[1] - each[0] >= SHORTEST_PIECE]
-        pieces += [RunPiece(each.first, each.last, f"To tick {each.last - 1}", same_end(each)) for each in ends]
+        for bounds in pairwise((first, span.last) if pieces else (first, half, span.last)):
+            if bounds[1] - bounds[0] >= SHORTEST_PIECE:
+                wanted = same_end(SearchedSpan(span.session, *bounds))
+                pieces.append(RunPiece(*bounds, f"To tick {bounds[1] - 1}", wanted))
     if len(pieces) < 2:
         pieces.clear()  # that was the span
     if to_exit:
-        pieces.append(RunPiece(0, (wanted := whole_run(span)).last, "Whole run", wanted))
+        wanted = whole_run(span)
+        pieces.append(RunPiece(0, wanted.last, "Whole run", wanted))
     return pieces
 
 

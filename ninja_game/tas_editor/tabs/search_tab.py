@@ -14,7 +14,7 @@ from ninja_game.files.shown_text import counted
 from ninja_game.formats.recording import Recording
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.workspace import Commands
-from ninja_game.runs.compare import Split
+from ninja_game.runs.compare import Split, run_splits
 from ninja_game.runtime import NewestJob, cores
 from ninja_game.search.certificate import moved_markers
 from ninja_game.search.formula.background import RunSearch, SpanSearch
@@ -24,6 +24,7 @@ from ninja_game.sim.inputs import fit_inputs, with_press_bits
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.goals import (
+    GOALS,
     IMPROVE,
     IMPROVE_GOLD,
     IMPROVES,
@@ -31,7 +32,6 @@ from ninja_game.tas.goals import (
     RunPiece,
     SearchedSpan,
     SpanGoal,
-    piece_splits,
     pieces_of,
     whole_run,
 )
@@ -77,6 +77,10 @@ _EXPLAINED = (
     "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "
     "the greatest or smallest then. Other keys for these ticks are searched; a click puts a result into the run."
 )
+
+
+Cut = tuple[InputTrack, Recording]
+Splits = tuple[InputTrack, tuple[Split, ...]]
 
 
 class SpanResults:
@@ -293,8 +297,7 @@ class SearchTab(Tab):
         self._in_pieces: Span | None = None
         self._cut: InputTrack | None = None
         self._asked: InputTrack | None = None
-        self._splits: NewestJob[tuple[InputTrack, Recording], tuple[InputTrack, tuple[Split, ...]]]
-        self._splits = NewestJob(lambda job: (job[0], piece_splits(job[1])))
+        self._splits = NewestJob[Cut, Splits](lambda cut: (cut[0], run_splits(cut[1], tuple(GOALS)).splits))
         fields = ("x > 400, taken(12), distance(300, 200) < 6 ...", "speed; vx, y, gold ...")
         self.goal, self.measure = (
             EntryField(prompt, self.start, longest=LONGEST, hint=_NAMES, put=self._typed) for prompt in fields

@@ -252,11 +252,13 @@ def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
     """The run is played beside the window, which has to stay alive."""
     monkeypatch.setattr(module, "PATIENCE", 0.0)
     threads: list[object] = []
-    monkeypatch.setattr(module, "piece_splits", lambda _: (threads.append(current_thread()), ())[1])
+    play = module.run_splits
+    monkeypatch.setattr(module, "run_splits", lambda *args: (threads.append(current_thread()), play(*args))[1])
     monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
     wish(at, "Same end, sooner")
     at.wait(lambda: bool(tab.pieces), "pieces")
-    assert [piece[:3] for piece in tab.pieces] == [(100, 115, "To tick 114"), (115, 130, "To tick 129")]
+    expected = [(100, 115, "To tick 114"), (115, 130, "To tick 129")]
+    assert [piece[:3] for piece in tab.pieces] == expected
     assert all(piece.wanted.rest for piece in tab.pieces)
     assert current_thread() not in threads
 
