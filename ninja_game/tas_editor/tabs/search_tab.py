@@ -489,7 +489,7 @@ class SearchTab(Tab):
             self._cut, self.pieces = track, tuple(pieces_of(SearchedSpan(session, *self._in_pieces), known[1]))
         elif self._asked is not track:
             self._asked = track
-            self._splits.ask((track, session.recording()))  # beside the window: runs may be long
+            self._splits.ask((track, session.recording()))  # in a thread: runs may be long
 
     def _put(self, index: int) -> None:
         """Take a result, or search a piece; the others stay, for later."""

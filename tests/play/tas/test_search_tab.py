@@ -249,7 +249,7 @@ def test_the_way_to_the_exit_is_proposed_as_the_whole_run_too(
 def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
     at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The run is played beside the window, which has to stay alive."""
+    """The run is played in a thread, so that the window stays alive."""
     monkeypatch.setattr(module, "PATIENCE", 0.0)
     threads: list[object] = []
     play = module.run_splits
