@@ -231,7 +231,7 @@ def _first_change(before: InputTrack, after: InputTrack) -> int:
 
 
 def _change_text(before: InputTrack, after: InputTrack, asked: int) -> str:
-    """What was changed; ``asked``: the tick of the edit, which is told where ticks came or went just there."""
+    """What was changed; ``asked``: the tick of the edit, which is named where ticks came or went just there."""
     more, tick = len(after) - len(before), _first_change(before, after)
     short, long = sorted((before.inputs, after.inputs), key=len)
     tick = asked if more and short == long[:asked] + long[asked + abs(more) :] else tick
