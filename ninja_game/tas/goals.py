@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from math import ceil, floor
 from typing import NamedTuple
 
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
-from ninja_game.runs.compare import run_splits
+from ninja_game.runs.compare import Split, run_splits
 from ninja_game.search.formula.task import LONGEST_SPAN
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -169,7 +170,7 @@ def _is_passed(span: SearchedSpan) -> bool:
 
 
 class RunPiece(NamedTuple):
-    """The ticks ``first`` … ``last`` - 1 of a run, up to something that it reaches: its name, and how to want it."""
+    """The ticks ``first`` … ``last`` - 1 of a run: what is searched in them, in words, and how to want it."""
 
     first: int
     last: int
@@ -178,25 +179,39 @@ class RunPiece(NamedTuple):
 
 
 SHORTEST_PIECE = 10  # ticks; what is reached sooner belongs to the piece before
-_GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened": "opened({})", "won": "won"}
+GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened": "opened({})", "won": "won"}
 
 
-def pieces_of(span: SearchedSpan) -> list[RunPiece]:
+def pieces_of(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
     """The pieces of a span, from one piece of gold, switch or exit to the next; from the last one to the exit.
 
-    Where the run reaches the exit, the rest of it follows.
+    ``splits``: of the run, of the events in GOALS. Where the run reaches the exit, the rest of it follows, and a span
+    with nothing to reach has two halves. Where it does not, or the span goes to the exit, the whole run comes last.
     """
-    session, first, pieces = span.session, span.first, list[RunPiece]()
-    end, outcome = session.timeline.end
-    for split in run_splits(session.recording(), tuple(_GOALS), memory="auto").splits:
-        if span.first <= split.tick < span.last and split.tick - first + 1 >= SHORTEST_PIECE:
-            goal, behind = _GOALS[split.event].format(split.object_id), split.tick + 1
-            rest = outcome == "exit" and behind <= end
-            pieces.append(RunPiece(first, behind, split.name, SpanGoal(goal, rest=rest)))
+    first, pieces = span.first, list[RunPiece]()
+    end, outcome = span.session.timeline.end
+    passes = outcome == "exit"
+    to_exit = not passes or span.last >= end
+    for split in splits:
+        if span.first <= split.tick < span.last + to_exit and split.tick - first + 1 >= SHORTEST_PIECE:
+            goal, behind = GOALS[split.event].format(split.object_id), split.tick + 1
+            rest = passes and behind <= end
+            pieces.append(RunPiece(first, behind, f"To {split.name}", SpanGoal(goal, rest=rest)))
             first = behind
-    if outcome != "exit" and pieces:
+    if not passes and pieces:
         last = min(max(span.last, first + EXIT_TICKS), first + LONGEST_SPAN)
-        pieces.append(RunPiece(first, last, "exit", SpanGoal("won")))
+        pieces.append(RunPiece(first, last, "To exit", SpanGoal("won")))
+    elif not to_exit and len(pieces) < 2:
+        half = (span.first + span.last) // 2
+        for bounds in pairwise((first, span.last) if pieces else (first, half, span.last)):
+            if bounds[1] - bounds[0] >= SHORTEST_PIECE:
+                wanted = same_end(SearchedSpan(span.session, *bounds))
+                pieces.append(RunPiece(*bounds, f"To tick {bounds[1] - 1}", wanted))
+    if len(pieces) < 2:
+        pieces.clear()  # that was the span
+    if to_exit:
+        wanted = whole_run(span)
+        pieces.append(RunPiece(0, wanted.last, "Whole run", wanted))
     return pieces
 
 

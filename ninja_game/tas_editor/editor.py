@@ -65,6 +65,7 @@ class TasEditor:
         self.theme: Theme = app.theme
         self.cursor = 0
         self.anchor: int | None = None
+        self._selected: Span | None = None
         self.others: list[OtherRun] = []
         self.chosen = 0
         self.ghosts = True
@@ -97,13 +98,14 @@ class TasEditor:
         """Put the cursor on a tick; ``select``: what lies between is selected."""
         if not select:
             self.anchor = None
-        elif self.anchor is None:
+        elif self.anchor is None or (tick > self.cursor and (self.cursor, self.anchor) == self._selected):
             self.anchor = self.cursor
+        self._selected = None
         self.cursor = min(max(0, tick), self.last_tick)
 
     def select(self, first: int, last: int) -> None:
-        """Select the ticks ``first`` … ``last`` - 1."""
-        self.cursor, self.anchor = first, max(first, last - 1)
+        """Select the ticks ``first`` … ``last`` - 1; ``go`` selects on from either end of them."""
+        self._selected = self.cursor, self.anchor = first, max(first, last - 1)
 
     def refuse(self, why: str) -> None:
         self._refusal = why

@@ -302,9 +302,10 @@ def _tabs(at: TasDriver) -> Iterator[str]:
     fixed = search.results.search  # type: ignore[attr-defined]
     found, own = fixed.found, fixed.own
     fixed.found, fixed.own, fixed.miss = (), None, replace(fixed.own, score=np.inf, missed_by=14.25)
+    search._cut = at.editor.track  # type: ignore[attr-defined]  # its pieces would come at any time
     at.frames(2)
     yield "tas-search-miss"
-    pieces = RunPiece(0, 60, "gold 5", SpanGoal("taken(5)")), RunPiece(60, 130, "exit", SpanGoal("won"))
+    pieces = RunPiece(0, 60, "To gold 5", SpanGoal("taken(5)")), RunPiece(60, 130, "To exit", SpanGoal("won"))
     search._in_pieces, search._cut, search.pieces = (0, 130), at.editor.track, pieces  # type: ignore[attr-defined]
     at.frames(2)
     yield "tas-search-pieces"

@@ -150,7 +150,9 @@ class RollCommands:
         if not step():
             editor.app.notify(refusal)
             return
-        editor.app.notify(f"{done}: {_change_text(before, editor.track)}")
+        cursor, anchor = editor.places.get(editor.track, place)
+        asked = cursor if anchor is None else min(cursor, anchor)
+        editor.app.notify(f"{done}: {_change_text(before, editor.track, asked)}")
         if editor.track in editor.places:
             editor.places[before] = place
         first = _first_change(before, editor.track)
@@ -228,8 +230,11 @@ def _first_change(before: InputTrack, after: InputTrack) -> int:
     return min((tick for tick, _ in set(before.markers) ^ set(after.markers)), default=0)
 
 
-def _change_text(before: InputTrack, after: InputTrack) -> str:
+def _change_text(before: InputTrack, after: InputTrack, asked: int) -> str:
+    """What was changed; ``asked``: the tick of the edit, which is named where ticks came or went just there."""
     more, tick = len(after) - len(before), _first_change(before, after)
+    short, long = sorted((before.inputs, after.inputs), key=len)
+    tick = asked if more and short == long[:asked] + long[asked + abs(more) :] else tick
     if before.inputs == after.inputs:
         return f"a marker in tick {tick}"
     length = f", {counted(abs(more), 'tick', 'ticks')} {'more' if more > 0 else 'fewer'}" if more else ""

@@ -18,7 +18,8 @@ from ninja_game.ui.widgets import Choice
 
 PAUSE_MS = 300  # how long a run must stay as it is before it is compared
 
-_COLUMNS = (214, 144, 74)  # where the ticks and the lead stand, px from the right of a row
+_COLUMNS = (256, 200, 144, 58)  # where ticks, lead and its change stand, px from the right of a row
+_HEADS = ("Tick here", "Tick there", "Ahead + or behind -", "Since above")
 
 Pair = tuple[InputTrack, InputTrack]
 Job = tuple[Pair, Recording, Recording, tuple[Marker, ...]]
@@ -139,7 +140,7 @@ class LeadTab(Tab):
         x, y, w, _ = self.area
         theme.text(surface, "Against", x + 6, y + 8, size=11)
         theme.text(surface, self.summary, x + 6, y + 26, size=SMALL, width=w - 16)
-        self.list.draw_heads(surface, theme, "Place", ("Tick here", "Tick there", "Ahead + or behind -"), _COLUMNS)
+        self.list.draw_heads(surface, theme, "Place", _HEADS, _COLUMNS)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
         if self.table is None or index >= len(self.table.rows):
@@ -153,10 +154,12 @@ class LeadTab(Tab):
         )
         for at, tick in zip(_COLUMNS, (row.tick, row.other), strict=False):
             theme.text(surface, str(tick), right - at, y, size=SMALL, colour=colour)
-        if current and row.ahead:
-            colour = palette.good if row.ahead > 0 else palette.bad
-        theme.text(surface, f"{row.ahead:+d}" if row.ahead else "0", right - _COLUMNS[2], y, size=SMALL, bold=True,
-                   colour=colour)  # fmt: skip
+        since = row.ahead - (self.table.rows[index - 1].ahead if index else 0)
+        for at, ticks in zip(_COLUMNS[2:], (row.ahead, since), strict=True):
+            if current and ticks:
+                colour = palette.good if ticks > 0 else palette.bad
+            theme.text(surface, f"{ticks:+d}" if ticks else "0", right - at, y, size=SMALL, bold=True, colour=colour)
+            colour = palette.faint
 
 
 def lead_text(ahead: int) -> str:

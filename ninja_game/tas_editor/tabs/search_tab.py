@@ -11,9 +11,11 @@ import pygame
 
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.files.shown_text import counted
+from ninja_game.formats.recording import Recording
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.workspace import Commands
-from ninja_game.runtime import cores
+from ninja_game.runs.compare import Split, run_splits
+from ninja_game.runtime import NewestJob, cores
 from ninja_game.search.certificate import moved_markers
 from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.methods import KEPT, fewest_ticks
@@ -22,6 +24,7 @@ from ninja_game.sim.inputs import fit_inputs, with_press_bits
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.goals import (
+    GOALS,
     IMPROVE,
     IMPROVE_GOLD,
     IMPROVES,
@@ -50,7 +53,7 @@ COMPILING = (
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet."
 PATIENCE = 5.0  # seconds of a search after which pieces of its span are proposed
-PIECES = "Nothing better so far. A click searches one of its pieces:"
+PIECES = "Nothing better so far. A click searches one of these:"
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
 
 LONGEST = 300  # characters of a formula that one can type
@@ -74,6 +77,10 @@ _EXPLAINED = (
     "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "
     "the greatest or smallest then. Other keys for these ticks are searched; a click puts a result into the run."
 )
+
+
+Cut = tuple[InputTrack, Recording]
+Splits = tuple[InputTrack, tuple[Split, ...]]
 
 
 class SpanResults:
@@ -289,6 +296,8 @@ class SearchTab(Tab):
         self.pieces: tuple[RunPiece, ...] = ()
         self._in_pieces: Span | None = None
         self._cut: InputTrack | None = None
+        self._asked: InputTrack | None = None
+        self._splits = NewestJob[Cut, Splits](lambda cut: (cut[0], run_splits(cut[1], tuple(GOALS)).splits))
         fields = ("x > 400, taken(12), distance(300, 200) < 6 ...", "speed; vx, y, gold ...")
         self.goal, self.measure = (
             EntryField(prompt, self.start, longest=LONGEST, hint=_NAMES, put=self._typed) for prompt in fields
@@ -473,10 +482,14 @@ class SearchTab(Tab):
         nothing = late and all(each.missed_by is not None for each in self.found)
         if self._in_pieces is None and nothing and self.method not in IMPROVES:
             self._in_pieces = self.span
-        if self._in_pieces is not None and self._cut is not self.editor.track:
-            self._cut = self.editor.track
-            found = pieces_of(SearchedSpan(self.editor.session, *self._in_pieces))
-            self.pieces = tuple(found) if len(found) > 1 else ()
+        session, track, known = self.editor.session, self.editor.track, self._splits.result
+        if self._in_pieces is None or self._cut is track:
+            return
+        if known is not None and known[0] is track:
+            self._cut, self.pieces = track, tuple(pieces_of(SearchedSpan(session, *self._in_pieces), known[1]))
+        elif self._asked is not track:
+            self._asked = track
+            self._splits.ask((track, session.recording()))  # in a thread: runs may be long
 
     def _put(self, index: int) -> None:
         """Take a result, or search a piece; the others stay, for later."""
@@ -548,7 +561,7 @@ class SearchTab(Tab):
         x, y, w, _ = area
         ticks = f"ticks {piece.first} to {piece.last - 1}"
         now = (piece.first, piece.last) == self.span
-        theme.text(surface, f"To {piece.name}", x + _LEFT, y + 3, size=SMALL, bold=now, width=w - _COLUMNS[0] - _LEFT)
+        theme.text(surface, piece.name, x + _LEFT, y + 3, size=SMALL, bold=now, width=w - _COLUMNS[0] - _LEFT)
         theme.text(surface, ticks, x + w - _COLUMNS[0], y + 3, size=SMALL, width=104)
         what = "is searched" if now else "search it"
         theme.text(surface, what, x + w - 6, y + 3, size=SMALL, align="right", colour=theme.palette.faint)

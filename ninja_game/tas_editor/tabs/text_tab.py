@@ -28,17 +28,18 @@ _WORD = re.compile(r'#"[^"]*"|\S+')
 
 
 @lru_cache(maxsize=1)
-def starts_of(track: InputTrack, unfolded: Span | None = None) -> NDArray[np.int64]:
+def starts_of(track: InputTrack, unfolded: Span | None = None, kept: int = 0) -> NDArray[np.int64]:
     """The first ticks of a run's lines, in order; the last line is empty and begins behind the end.
 
-    ``unfolded``: the section whose lines are shown, of each other one the first; None: all.
+    ``unfolded``: the section whose lines are shown, of each other one the first; None: all. ``kept``: a tick with which
+    a line begins though its keys are those before.
     """
     inputs = np.frombuffer(track.inputs, np.uint8)
     odd = inputs != np.frombuffer(with_press_bits(track.inputs), np.uint8)
     # Keys that are down, and of a jump that no keyboard makes 16, and 8 where it is pressed.
     looks = inputs & np.uint8(KEYS_DOWN) | (odd * (inputs & np.uint8(JUMP_PRESSED) | np.uint8(16))).astype(np.uint8)
     named = [tick for tick, _ in track.markers]
-    found = np.unique([0, *(np.flatnonzero(looks[1:] != looks[:-1]) + 1), *named, len(inputs)])
+    found = np.unique([0, min(kept, len(inputs)), *(np.flatnonzero(looks[1:] != looks[:-1]) + 1), *named, len(inputs)])
     if unfolded is None:
         return found
     inside = (found >= unfolded[0]) & (found <= unfolded[1])
@@ -93,6 +94,7 @@ class TextTab(Tab):
         self.celeste = self.folded = False
         self._track = InputTrack(b"")
         self._unfolded: Span | None = None
+        self._typed_up_to = -1
         self.starts = starts_of(self._track)
         self._seen: tuple[object, ...] = ()
         self.list = Rows(self._draw_row, self._choose, hint="A click selects the ticks of a line")
@@ -114,7 +116,10 @@ class TextTab(Tab):
         if self.editor.tab == self.name and seen != self._seen:
             self._seen, self._track = seen, self.editor.track
             self._unfolded = section_at(self._track, self.editor.cursor) if self.folded else None
-            self.starts = starts_of(self._track, self._unfolded)
+            # One types on behind what was typed last, also where the keys there are the same.
+            kept = self.editor.cursor if self.editor.cursor == self._typed_up_to else 0
+            self._typed_up_to = kept or -1
+            self.starts = starts_of(self._track, self._unfolded, kept)
             self.list.index = int(np.searchsorted(self.starts, self.editor.cursor, "right")) - 1
             self.list.fill(range(len(self.starts)))
             self.field.show(self.text(self.list.index))
@@ -145,7 +150,7 @@ class TextTab(Tab):
         text, (first, last) = self.field.text.strip(), self.span(self.list.index)
         if text[:2].strip() == "#":
             if done := self.editor.edit_selected(lambda track: track.named(first, text[1:])):
-                self.editor.go(last)
+                self._go_on(last)
             return done
         try:
             try:
@@ -171,8 +176,14 @@ class TextTab(Tab):
             return made
 
         if done := self.editor.edit_selected(changed):
-            self.editor.go(first + len(typed.keys))
+            self._go_on(first + len(typed.keys))
         return done
+
+    def _go_on(self, tick: int) -> None:
+        """Go to the line behind what was typed; it is shown before the next key comes, which may be in no time."""
+        self.editor.go(tick)
+        self._typed_up_to = tick
+        self.update(0)
 
     def _choose(self, index: int) -> None:
         first, last = self.span(index)

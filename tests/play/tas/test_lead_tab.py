@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from unittest.mock import patch
+
 import pytest
 
 from ninja_game.tas_editor.roll.facts import row_facts
@@ -34,6 +36,19 @@ def test_the_lead_over_a_run_that_starts_earlier(at: TasDriver, tab: LeadTab) ->
     assert {"ledge", "exit"} <= {row.name for row in tab.table.rows}
     assert [row.tick for row in tab.table.rows] == sorted(row.tick for row in tab.table.rows)
     assert "3 ticks behind at exit" in tab.summary
+
+
+def test_what_is_lost_since_the_row_above_stands_beside_the_sum(at: TasDriver, tab: LeadTab) -> None:
+    at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
+    compared(at, tab)
+    assert tab.table
+    shown: list[str] = []
+    with patch.object(type(at.editor.theme), "text", lambda _, __, text, *___, **____: shown.append(text)):
+        for index in (0, 1):
+            tab._draw_row(at.app.window.surface, at.editor.theme, index, (0, 0, 400, 16), False)
+    sums = [row.ahead for row in tab.table.rows[:2]]
+    assert shown[3::5] == [f"{each:+d}" if each else "0" for each in sums]
+    assert shown[4::5] == [f"{each:+d}" if each else "0" for each in (sums[0], sums[1] - sums[0])]
 
 
 def test_a_click_puts_the_cursor_there(at: TasDriver, tab: LeadTab) -> None:

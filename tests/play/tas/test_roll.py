@@ -208,6 +208,28 @@ def test_broken_text_is_refused_in_words(at: TasDriver, clipboard: list[str], te
     assert at.editor.track == before
 
 
+def test_undo_tells_the_tick_where_ticks_came_in_though_those_behind_are_the_same(at: TasDriver) -> None:
+    at.session.change(InputTrack(bytes(14) + bytes([2] * 6)))
+    at.editor.select(6, 9)
+    at.screen.run("insert")
+    at.screen.run("undo")
+    assert at.app.notice == "Undone: keys from tick 6 on, 3 ticks fewer"
+    at.screen.run("redo")
+    assert at.app.notice == "Redone: keys from tick 6 on, 3 ticks more"
+
+
+def test_a_selection_of_a_line_is_extended_from_its_first_tick_down_and_its_last_up(at: TasDriver) -> None:
+    at.editor.select(10, 16)
+    for _ in range(30):
+        at.chord("down", pygame.KMOD_LSHIFT)
+    assert at.editor.selection == (10, 41)
+    at.editor.select(10, 16)
+    at.chord("up", pygame.KMOD_LSHIFT)
+    assert at.editor.selection == (9, 16)
+    at.chord("down", pygame.KMOD_LSHIFT)
+    assert at.editor.selection == (10, 16), "the way back"
+
+
 def test_undo_says_what_it_undid(at: TasDriver) -> None:
     at.editor.edit(lambda track: track.replaced(40, 40, [7] * 3))
     at.screen.run("undo")

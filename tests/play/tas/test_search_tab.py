@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from threading import Event
+from threading import Event, current_thread
 from typing import Any
 from unittest.mock import patch
 
@@ -206,10 +206,12 @@ def test_pieces_of_a_span_in_which_nothing_better_is_found_are_searched_by_a_cli
     assert all(found.missed_by for found in tab.found)
     reached = {"gold-taken", "exit-opened"}
     splits = [tick for tick, names in at.session.timeline.event_ticks if reached & {*names.split()}]
-    assert {piece.last - 1 for piece in tab.pieces} <= {*splits, end}
-    assert [piece.first for piece in tab.pieces] == [0, *(piece.last for piece in tab.pieces[:-1])]
-    assert all(piece.last - piece.first >= 10 for piece in tab.pieces)
-    assert (tab.pieces[-1].name, tab.pieces[-1].wanted.goal) == ("exit", "won")
+    *legs, whole = tab.pieces
+    assert {piece.last - 1 for piece in legs} <= {*splits, end}
+    assert [piece.first for piece in legs] == [0, *(piece.last for piece in legs[:-1])]
+    assert all(piece.last - piece.first >= 10 for piece in legs)
+    assert (whole.name, whole.wanted.method) == ("Whole run", IMPROVE)
+    assert (legs[-1].name, legs[-1].wanted.goal) == ("To exit", "won")
     proposed = tab.pieces
     row(at, tab, len(tab.found))
     assert tab.span == (0, proposed[0].last)
@@ -221,6 +223,44 @@ def test_pieces_of_a_span_in_which_nothing_better_is_found_are_searched_by_a_cli
     at.wait(lambda: not results_of(tab).running, "the end")
     at.choose("Use the selection")
     assert not tab.pieces
+
+
+@pytest.mark.parametrize("dies", [False, True])
+def test_the_way_to_the_exit_is_proposed_as_the_whole_run_too(
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch, dies: bool
+) -> None:
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    end = at.session.timeline.end[0]
+    if dies:
+        at.editor.edit(lambda track: track.replaced(30, len(track), b""))
+    at.editor.select(0, 20)
+    at.choose("Use the selection")
+    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
+    wish(at, "Reach the exit sooner")
+    at.wait(lambda: bool(tab.pieces), "pieces")
+    names = [piece.name for piece in tab.pieces]
+    assert names == ["Whole run"] if dies else names[-2:] == ["To exit", "Whole run"]
+    at.frames()
+    row(at, tab, len(tab.pieces) - 1)
+    assert (tab.method, tab.span) == (IMPROVE, (0, len(at.editor.track) if dies else end + 1))
+    assert isinstance(results_of(tab).search, background.RunSearch)
+
+
+def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The run is played in a thread, so that the window stays alive."""
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    threads: list[object] = []
+    play = module.run_splits
+    monkeypatch.setattr(module, "run_splits", lambda *args: (threads.append(current_thread()), play(*args))[1])
+    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
+    wish(at, "Same end, sooner")
+    at.wait(lambda: bool(tab.pieces), "pieces")
+    expected = [(100, 115, "To tick 114"), (115, 130, "To tick 129")]
+    assert [piece[:3] for piece in tab.pieces] == expected
+    assert all(piece.wanted.rest for piece in tab.pieces)
+    assert current_thread() not in threads
 
 
 def test_a_taken_result_leaves_the_cursor_in_its_place_and_undo_too(at: TasDriver, tab: SearchTab) -> None:

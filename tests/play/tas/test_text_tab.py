@@ -148,6 +148,36 @@ def test_enter_and_arrows_lead_from_line_to_line_while_one_types(at: TasDriver, 
     assert texts(tab)[-3:] == ["L*5", "R*6", ""]
 
 
+def test_what_is_typed_line_after_line_stays_also_where_its_keys_are_those_that_follow(
+    at: TasDriver, tab: TextTab
+) -> None:
+    at.session.change(InputTrack(bytes([0] * 6 + [2] * 8)))
+    at.editor.go(0)
+    at.frames()
+    typed(at, tab, ".*6 R*3")
+    assert tab.field.text == "R*8", "not those just typed"
+    typed(at, tab, "RJ*4")
+    assert texts(tab) == [".*6", "R*3", "RJ*4", ""]
+    at.editor.go(0)
+    at.frames()
+    typed(at, tab, ".*6 R*3")
+    at.press("up")
+    at.frames()
+    at.editor.go(9)
+    at.frames()
+    assert texts(tab)[1:3] == ["R*6", "RJ*4"], "elsewhere equal keys are one line"
+
+
+def test_lines_that_come_faster_than_pictures_are_all_put_in(at: TasDriver, tab: TextTab) -> None:
+    at.editor.go(0)
+    at.frames()
+    for line in ("L*2", "J*3"):
+        tab.field.edited.select_all()
+        tab.field.edited.put(line)
+        tab.put()
+    assert at.editor.track.inputs[:5] == bytes([1, 1, 12, 4, 4])
+
+
 def test_lines_are_added_at_the_end(at: TasDriver, tab: TextTab) -> None:
     at.editor.go(len(RUN))
     at.frames()
