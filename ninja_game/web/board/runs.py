@@ -70,13 +70,13 @@ class Ledger(NamedTuple):
     """What a board knew before: ``runs`` and what was ``rejected`` by file and record.
 
     ``withdrawn``: by level and way the runs that counted once, and are not there now or do not count; ``decisions``:
-    what the keeper of the board says of a run, and why.
+    what the keeper of the board says of a run, and why, by its level, way and player, folded.
     """
 
     runs: Rows
     rejected: Rows
     withdrawn: Rows
-    decisions: Rows
+    decisions: dict[tuple[str, ...], dict[str, Any]]
 
     @property
     def owners(self) -> Rows:
