@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ninja_game.web.board.runs import Ledger
     from ninja_game.web.pages.memo import Memo
 
-LAST_LEVELS = "/levels"  # what is remembered under it: no path of a run begins so
+LAST_LEVELS, LAST_LEDGER = "/levels", "/ledger"  # what is remembered under them: no path of a run begins so
 
 rules_option = click.option(
     "--rules",
@@ -243,7 +243,7 @@ def _ranking(
 ) -> tuple[Ranking, Ledger]:  # fmt: skip
     """The ranking of a folder's runs by the board's rules, and the ledger before, with what is decided now.
 
-    ``levels``: those that count; where nothing is decided, without them those of the last board of the folder.
+    ``levels``, ``ledger``: where nothing is decided, without them those of the last board of the folder.
     """
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
@@ -255,15 +255,18 @@ def _ranking(
     # Of many runs, all of which stay, a third of the time went into looking for garbage.
     gc.set_threshold(20_000)
     now = datetime.now(UTC)
-    before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
     categories = read_categories(rules) if rules else USUAL
     memo = memo_of("runs", folder, folder, again=again)
-    last = memo.recall(LAST_LEVELS)
+    last, kept = (_remembered(memo, key) for key in (LAST_LEVELS, LAST_LEDGER))
+    if not decide:
+        levels, ledger = levels or last, ledger or kept
+    before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
     if decide:
         decide(before, now)
         memo.note(LAST_LEVELS, str(levels.resolve()) if levels and levels.exists() else "")
-    elif not levels and isinstance(last, str) and last and Path(last).exists():
-        levels = Path(last)
+        memo.note(LAST_LEDGER, str((ledger or kept or Path()).resolve()) if ledger or kept else "")
+    elif not ledger:
+        click.echo(NO_DATES, err=True)
     shown = published_levels(levels or data_folder("levels"))
     given = read_dates(dates, now) if dates else {}
     known = dates_of(before, now, given) if ledger else None
@@ -275,6 +278,13 @@ def _ranking(
     return Ranking(judged, shown, categories), before
 
 
+def _remembered(memo: Memo, key: str) -> Path | None:
+    """The file or folder that a memo has under a key, if it is there."""
+    last = memo.recall(key)
+    return Path(last) if isinstance(last, str) and last and Path(last).exists() else None
+
+
+NO_DATES = "no ledger: copies are told by the names of files (name it with --ledger)"
 QUESTIONS = ("rank", "best", "inputs", "splits", "trace", "film")
 MOST_RUNS = 5  # side by side, where no players are named
 LONGEST = 400  # characters of a line
@@ -374,7 +384,7 @@ def _answer(
         click.echo(json.dumps(rows))
     else:
         entry, ladder = found[0].run.entry, " and ".join(ladders)
-        click.echo(shown_text(f"{entry.episode} {entry.title}, {category.name.lower()}, {ladder}:".strip(), LONGEST))
+        click.echo(shown_text(f"{entry.number} {entry.title}, {category.name.lower()}, {ladder}:".strip(), LONGEST))
         click.echo("\n".join(_line(form, row | {"player": name}) for row, name in zip(rows, names, strict=True)))
 
 
@@ -398,11 +408,11 @@ def _level(text: str, entries: Sequence[Entry]) -> Entry:
     """The level of a title, number, file or digest. Raises ArgumentError for an unknown one, and for several."""
     words = text.casefold()
     stems = {entry.digest: Path(entry.named.file).stem.casefold() for entry in entries}
-    exact = [entry for entry in entries if words in (entry.title.casefold(), entry.episode, stems[entry.digest])]
+    exact = [entry for entry in entries if words in (entry.title.casefold(), entry.number, stems[entry.digest])]
     found = exact or [entry for entry in entries if words in entry.title.casefold() or entry.digest.startswith(words)]
     if len(found) == 1:
         return found[0]
-    named = ", ".join(f"{entry.episode} {shown_text(entry.title)}".strip() for entry in (found or entries)[:5])
+    named = ", ".join(f"{entry.number} {shown_text(entry.title)}".strip() for entry in (found or entries)[:5])
     if found:
         raise ArgumentError(f"{text!a} is several levels: {named}")
     titles = {entry.title.casefold(): entry.title for entry in entries}

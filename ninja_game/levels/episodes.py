@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -16,6 +17,8 @@ from ninja_game.formats.replay.text import episode_key
 
 GAME, YOURS = "game", "yours"
 """Sources of levels that are no names of packs: the game's own pack, files in the player's folder."""
+
+_NUMBER = re.compile("[0-9]{1,2}-[0-9]")
 
 OURS = "ninja-game"  # in the name of every author that is part of the project
 
@@ -46,6 +49,11 @@ class Entry:
     @cached_property
     def all_gold(self) -> int:
         return self.named.level.gold
+
+    @property
+    def number(self) -> str:
+        """What players call it by: ``episode``, or a comment such as "18-2", as lists of N's levels have it; or ""."""
+        return self.episode or self.named.comment * bool(_NUMBER.fullmatch(self.named.comment))
 
     @property
     def position(self) -> tuple[int, int] | None:

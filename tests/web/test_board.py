@@ -144,7 +144,7 @@ def test_a_batch_is_one_row_of_the_first_page(
         index = (board_of(runs, levels, tmp_path / f"{most}") / "index.html").read_text("utf-8")
         newest = index.partition("<h2>Newest records")[2].partition("</tbody>")[0]
         assert (newest.count("<tr>") - 1, "2 runs with records came in together" in newest) == (rows, told)
-    assert index.index("<h2>Players, played") < index.index("<h2>Most") < index.index("<h2>Newest")
+    assert index.index("<h2>Players, played") < index.index("<h2>Newest")
     assert "UTC" not in index, "nobody knows a date"
     for text in ('<a href="levels.html">1 level</a>', "<td>2 players</td>"):
         assert text in newest
@@ -168,10 +168,45 @@ def test_levels_have_the_best_of_each_ladder(runs: Path, levels: Path, tmp_path:
 def test_a_count_that_is_the_same_everywhere_has_no_column(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"))
     put(runs, "b.txt", replay(level=GOLD_LATER, author="Bea"))
-    contested = (
-        (board_of(runs, levels, tmp_path / "site") / "index.html").read_text("utf-8").partition("<h2>Most cont")[2]
-    )
-    assert re.findall('<th scope="col">([^<]+)', contested.partition("</thead>")[0]) == ["Level", "Fastest", "First"]
+    page = (board_of(runs, levels, tmp_path / "one") / "index.html").read_text("utf-8")
+    assert "Most contested" not in page, "nobody is second, and no record was beaten"
+    put(runs, "c.txt", replay(bytes(8) + WALKING + b"\2", GOLD_LATER, author="Ann"))
+    put(runs, "d.txt", replay(author="Bea"))
+    page = (board_of(runs, levels, tmp_path / "site") / "index.html").read_text("utf-8")
+    contested = page.partition("<h2>Most cont")[2]
+    heads = re.findall('<th scope="col">([^<]+)', contested.partition("</thead>")[0])
+    assert heads == ["Level", "Fastest", "First", "Second behind"]
+    assert "<caption>By how close the second is, in Fastest</caption>" in contested
+    assert re.findall("<td>([0-9.]+)</td>", contested)[1::2][:2] == ["0.125", "0.200"]
+
+
+def test_a_list_shows_levels_with_their_numbers_and_pictures(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """Also those of a file of N, where the number is the comment."""
+    put(runs, "a.txt", replay(author="Ann"))
+    (file := tmp_path / "levels.txt").write_text(f"$Walk#metanet#18-2#{WALK}#\n", "utf-8")
+    page = (board_of(runs, file, tmp_path / "site") / "levels.html").read_text("utf-8")
+    assert "<td>18-2</td>" in page
+    (source,) = re.findall('<img src="([^"]+)"', page)
+    assert (tmp_path / "site" / "board" / source).read_bytes().startswith(b"\x89PNG")
+    result = CliRunner().invoke(cli, ["board", "ask", str(runs), "rank", "18-2", "--levels", str(file), "--jobs", "1"])
+    assert result.stdout.startswith("18-2 Walk, fastest, played:"), result.output
+
+
+def test_a_level_tells_in_which_second_time_goes(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", slow_walk(20, author="Ann"))
+    put(runs, "b.txt", slow_walk(26, author="Bea"))
+    page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    part = page.partition("<h2>Where time goes</h2>")[2].partition("</section>")[0]
+    assert re.findall("<p>([^<]+)</p>", part) == ["Bea loses most between 0 s and 1 s of the first: 0.150 s."]
+    assert re.findall("<td>([^<]+)</td>", part) == ["1 s", "+0.150"]
+
+
+def test_who_does_not_say_how_a_run_was_made_is_told_by_the_name(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", replay(author="Ann"))
+    put(runs, "b.txt", replay(bytes(8) + WALKING + b"\2", author="Bea", made=Provenance(played=True)))
+    page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    said = re.findall('>([A-Z][a-z]+)</a><div class="note">how it was made: not said</div>', page)
+    assert set(said) == {"Ann"}
 
 
 def test_a_player_sees_the_places_of_all_categories(runs: Path, levels: Path, tmp_path: Path) -> None:
@@ -250,7 +285,7 @@ def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path
     page = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     tables = page.split("<caption>Best run of each player</caption>")[1:]
     heads = [re.findall("<th [^>]*>([^<]+)", each.partition("</thead>")[0]) for each in tables]
-    others = ["Watch", "Gold", "Made", "Date", "File", "Remark"]
+    others = ["Watch", "Gold", "Made", "Date", "File"]
     assert heads == [
         ["Place", "Player", *units, "Behind", *others] for units in (["Fastest", "Highest score"], ["Time"])
     ], "same order, once"

@@ -154,6 +154,21 @@ def test_a_board_remembers_its_levels(folder: Path, levels: Path) -> None:
             assert told in CliRunner().invoke(cli, words).output
 
 
+def test_a_board_remembers_its_ledger(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """Without --ledger ask is about that of the last --json, so that it credits nobody whom the pages do not."""
+    put(runs, "z.txt", replay(author="Zed"))
+    words = ["board", "ask", str(runs), "rank", "Walk", "--jobs", "1"]
+    result = CliRunner().invoke(cli, [*words, "--levels", str(levels)])
+    assert "no ledger: copies are told by the names of files" in result.stderr
+    taken_in_earlier(runs, levels, tmp_path / "board.json")
+    put(runs, "a.txt", replay(author="Thief"))
+    for more in ([], ["--site", str(tmp_path / "site")]):
+        result = CliRunner().invoke(cli, words)
+        assert result.stdout.splitlines()[1:] == ["1. Zed: 0.575 (23 ticks, 1 gold, unknown) 2026-01-31"]
+        assert result.stderr == ""
+        assert CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), *more]).exit_code == 0
+
+
 def test_who_has_no_run_is_told_near_names_once(folder: Path, levels: Path) -> None:
     put(folder, "tool.txt", replay(bytes(3) + WALKING + b"\2", author="Ann", made=Provenance(edits=3)))
     assert ask(folder, levels, "best", "Walk", "Anne")[1].endswith("'Anne' has no run there; players: Ann\n")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
+from random import Random
 
 import pytest
 from click.testing import CliRunner
@@ -165,3 +167,76 @@ def test_a_batch_is_one_entry_of_the_feed(
         feed = (tmp_path / "site" / "board" / "feed.xml").read_text("utf-8")
         assert feed.count("<entry>") == entries
     assert "<title>2 runs with records came in together</title>" in feed
+
+
+def test_a_run_without_an_author_is_a_player_of_its_own(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """One that nobody signed stopped the whole board, and all of them were one player."""
+    put(runs, "a.txt", replay())
+    put(runs, "b.txt", slow_walk(author="\u200b"))
+    put(runs, "searched.txt", replay(bytes(3) + bytes([2] * 30), made=Provenance(edits=3)))
+    board(runs, levels, "--json", str(data := tmp_path / "board.json"))
+    players = [row["player"] for row in json.loads(data.read_text("utf-8"))["runs"]]
+    assert players == ["unknown (a.txt)", "unknown (b.txt)", "unknown (searched.txt)"]
+    assert board(runs, levels, "--check", str(data)).startswith("nothing has changed")
+    assert "moderated: a.txt" in board(runs, levels, "--json", str(data), "--reject", "a.txt", "--reason", "whose?")
+
+
+ODD: tuple[object, ...] = (
+    "",
+    " ",
+    "\u200b",
+    "\ud800",
+    "unknown (ann.txt)",
+    "x" * 1000,
+    HOSTILE,
+    "rejected",
+    None,
+    7,
+    [],
+    {},
+    True,
+)
+
+
+@pytest.mark.parametrize("part", ["runs", "rejected", "withdrawn", "decisions"])
+def test_no_value_in_a_ledger_stops_a_board_by_a_traceback(part: str, ledger: Path, runs: Path, levels: Path) -> None:
+    put(runs, "cid.txt", replay(author="Cid"))
+    put(runs, "nobody.txt", slow_walk(7, author=""))
+    put(runs, "gone.txt", slow_walk(8, author="Gone"))
+    board(runs, levels, "--json", str(ledger), "--reject", "bea.txt", "--reason", "spliced")
+    (runs / "gone.txt").unlink()
+    board(runs, levels, "--json", str(ledger))
+    whole = json.loads(ledger.read_text("utf-8"))
+    random = Random(part)
+    assert whole[part], part
+    for _ in range(12):
+        data = json.loads(json.dumps(whole))
+        row = random.choice(data[part])
+        for name in random.sample(sorted(row), 2):
+            row[name] = random.choice(ODD)
+        ledger.write_text(json.dumps(data), "utf-8")
+        words = "--levels", str(levels), "--check", str(ledger), "--jobs", "1"
+        result = CliRunner().invoke(cli, ["board", str(runs), *words])
+        assert result.exit_code in (0, 1, 2), (data[part], result.output)
+        assert result.exception is None or isinstance(result.exception, SystemExit), (row, result.exception)
+
+
+def test_of_the_same_runs_that_came_in_together_none_is_a_copy(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "mbd.txt", replay(author="mbd"))
+    put(runs, "tas.txt", replay(author="tas"))
+    put(runs, "tas-2.txt", replay(author="tas"))
+    words = "--json", str(data := tmp_path / "board.json"), "--site", str(site := tmp_path / "site")
+    assert board(runs, levels, *words).splitlines()[0] == "copy: tas.txt: the same run as tas-2.txt"
+    rows = json.loads(data.read_text("utf-8"))["runs"]
+    assert [row["player"] for row in rows] == ["mbd", "tas"]
+    page = level_page(site)
+    assert page.count("<td>1</td>") == 2
+    assert "the same run as that by mbd in mbd.txt, which came in together with it" in page
+    assert "the same run as that by tas in tas-2.txt, which came in together with it" in page
+    put(runs, "eve.txt", replay(author="Eve"))
+    taken = re.sub('"added": "[^"]*"', '"added": "2026-01-31T12:00:00Z"', data.read_text("utf-8"))
+    data.write_text(taken, "utf-8")
+    assert "copy: eve.txt: a copy of the run by mbd" in board(runs, levels, *words)
+    board(runs, levels, *words, "--reject", "mbd.txt", "--reason", "one")
+    board(runs, levels, *words, "--reject", "tas-2.txt", "--reason", "other")
+    assert len(json.loads(data.read_text("utf-8"))["decisions"]) == 2

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from hashlib import sha256
@@ -203,11 +203,12 @@ def edit_distance(ours: bytes, theirs: bytes) -> int:
 def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run], list[Rejected]]:
     """The runs without those that do what an earlier one does, and those; near copies of an earlier one are marked.
 
+    Of the same runs by several players, taken in at one moment, nobody knows which was first: all stay, with a remark.
     ``owners``: as of Ledger.
     """
     on_level: dict[str, list[Run]] = defaultdict(list)
     copies: list[Rejected] = []
-    ways: dict[tuple[str, str], Run] = {}
+    ways: dict[tuple[str, str], list[Run]] = defaultdict(list)
     for run in runs:
         way = run.level, run.way
         owner = owners.get(way)
@@ -215,22 +216,30 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
             why = f"a copy of an earlier run by {owner['player']}, which was withdrawn or does not count any more"
             copies.append(Rejected(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
             continue
-        first = ways.setdefault(way, run)
-        if first is run:
+        same = ways[way]
+        if not same or (run.added == same[0].added != "" and run.player not in (each.player for each in same)):
             on_level[run.level].append(run)
+            same.append(run)
         else:
+            first = next((each for each in same if each.player == run.player), same[0])
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
             copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added, first.key))
-    kept = [run for level in on_level.values() for run in _remarked(level, memo)]
+    together: dict[Key, str] = {}
+    for same in ways.values():
+        for run in same if len(same) > 1 else ():
+            others = " and ".join(f"{each.player} in {each.file}" for each in same if each is not run)
+            together[run.key] = f"the same run as that by {others}, which came in together with it: whose is not known"
+    kept = [run for level in on_level.values() for run in _remarked(level, memo, together)]
     return sorted(kept, key=lambda run: run.order), copies
 
 
-def _remarked(runs: list[Run], memo: Memo) -> Iterator[Run]:
+def _remarked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Iterator[Run]:
     """The runs of a level, in order, with a remark on each that is near to earlier ones of others alone.
 
-    Of two of one moment nobody knows which was first: the second has the remark, and is no near copy.
+    Of two of one moment nobody knows which was first: the second has the remark, and is no near copy. ``together``:
+    what is said instead of those that are the same run.
     """
     if len({run.player for run in runs}) == 1:
         yield from runs
@@ -241,8 +250,10 @@ def _remarked(runs: list[Run], memo: Memo) -> Iterator[Run]:
         for run in moment:
             said, earlier = compared.near(run)
             compared.add(run)
-            remarks = said + ", of the same moment" * bool(said and run.added and not earlier), run.remark
-            yield replace(run, remark="; ".join(filter(None, remarks)), near=said * earlier) if said else run
+            near = said * earlier
+            if not earlier:
+                said = together.get(run.key, said + ", of the same moment" * bool(said and run.added))
+            yield replace(run, remark="; ".join(filter(None, (said, run.remark))), near=near) if said else run
 
 
 class _Compared:

@@ -28,7 +28,7 @@ from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, MOVES, fit
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import without_copies
-from ninja_game.web.board.players import Players, folded
+from ninja_game.web.board.players import UNNAMED, Players, folded
 from ninja_game.web.board.runs import KINDS, NO_LEDGER, OWN, Dates, Judged, Ledger, Rejected, Run, ValidatedRuns
 from ninja_game.web.pages.gallery import PublishedLevels, shared_text
 from ninja_game.web.pages.memo import Memo, digest_of, program
@@ -80,12 +80,12 @@ def judge(
             runs[number] = replace(run, added=owner["added"], again=True)
     credited, moderated = list[Run](), list[Rejected]()
     for run in _of_players(sorted(runs, key=lambda run: run.order), players):
-        decision = ledger.decisions.get((run.level, run.way), {"player": ""})
-        decided = run.decided(decision) if folded(decision["player"]) == folded(run.player) else run
+        decision = ledger.decisions.get((run.level, run.way, folded(run.player)))
+        decided = run.decided(decision) if decision else run
         credited += [decided] if isinstance(decided, Run) else []
         moderated += [] if isinstance(decided, Run) else [decided]
     counted, copies = without_copies(credited, memo, owners)
-    counted = [_with_row(run, owners.get((run.level, run.way), {})) for run in counted]
+    counted = [_with_row(run, owners.get((run.level, run.way), {}), ledger.runs.get(run.key, {})) for run in counted]
     named = [run if run.kind == "unreadable" else replace(run, player=players.meet(run.player)[0]) for run in rejected]
     others = sorted([*named, *moderated, *copies], key=lambda run: (run.file, run.record))
     refused, again = (tuple(run for run in others if (run.kind == OWN) is own) for own in (False, True))
@@ -198,8 +198,12 @@ def _run(file: JudgedFile, row: Judged, entry: Entry, folder: RunFolder, added: 
     )
 
 
-def _with_row(run: Run, row: Mapping[str, Any]) -> Run:
-    """A run with what only its row of the ledger tells: it is confirmed, or near to one that may be gone."""
+def _with_row(run: Run, owner: Mapping[str, Any], own: Mapping[str, Any]) -> Run:
+    """A run with what only its row of the ledger tells: it is confirmed, or near to one that may be gone.
+
+    ``owner``: the row of who did it first; ``own``: that of its file, which is meant where several did it together.
+    """
+    row = own if own.get("way") == run.way else owner
     if row.get("confirmed") is True:
         return replace(run, near="", confirmed=True)
     if not run.near and (near := row.get("near")):
@@ -208,9 +212,10 @@ def _with_row(run: Run, row: Mapping[str, Any]) -> Run:
 
 
 def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
-    if not isinstance(result, Unreadable) and not sent.replay and not result.made:
+    nameless = not isinstance(result, Unreadable) and folded(result.author) == UNNAMED
+    if not isinstance(result, Unreadable) and (nameless or (not sent.replay and not result.made)):
         # A record of N names who made the level, and nobody who played; one of ours says how it was made, too.
-        place = result.file + f", record {result.record}" * (result.record > 0)
+        place = result.file + f", record {result.record}" * (result.record > 0 and not result.episode)
         result = replace(result, author=f"unknown ({place[-MOST_NAME // 2 :]})")
     if isinstance(result, Unreadable):
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # which a board has not

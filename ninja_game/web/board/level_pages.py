@@ -20,7 +20,8 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
-from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_splits, split_table, sum_of_best
+from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, aligned, run_splits, split_table, sum_of_best
+from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.board.ranking import Leaderboard, Ranked, Ranking
 from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
@@ -59,7 +60,7 @@ PER_PAGE = 100  # rows of a table that goes on on another page: a page has at mo
 
 LONGEST_NAME = 40  # characters of a name in a table
 
-RUN_HEADS = ("Watch", "Gold", "Made", "Date", "Medal", "File", "Remark")
+RUN_HEADS = ("Watch", "Gold", "Made", "Date", "Medal", "File")
 EPISODES = "episodes.html", "Episodes"
 LINKS = [
     ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), EPISODES,
@@ -68,6 +69,12 @@ LINKS = [
 
 FIRST = 10  # rows of a table
 TOGETHER = 5  # runs side by side
+PODIUM = 3  # places where it is said beside the name that nobody knows how a run was made
+NOT_SAID = "how it was made: not said"
+ENOUGH_SPLITS = 5  # with fewer the splits do not tell where time goes
+COARSE = 4  # each of so many ticks is compared place by place: all of them take a third of the time of a board
+LONGEST_ALIGNED = 8000  # ticks of a run; longer ones would take much memory
+MOST_SECONDS = 30 * TICKS_PER_SECOND  # a run of more has fewer rows, some seconds apart
 MOST_SPLITS = 60  # rows of splits; where there were more, gold is left out
 
 RECORDS = "records"
@@ -187,18 +194,21 @@ class LevelPages:
     def player_link(self, player: str, up: str = "") -> Content:
         return tag("a", self.shown_name(player), href=f"{up}{player_page(player)}.html") if player else ""
 
-    def run_cells(self, run: Run, *results: Content, timed: bool = True) -> tuple[Content, ...]:
-        """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time."""
+    def run_cells(self, run: Run, *results: Content, timed: bool = True, remark: str = "") -> tuple[Content, ...]:
+        """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time.
+
+        ``remark``: what stands below the player's name, before the run's own.
+        """
         gold, linked = f"{run.gold} of {run.entry.all_gold}", self.run_link(run, UP, str(results[0]))
         about = gold, run.made or "unknown", run.day, medal_mark(run.medal if timed else ""), self.run_link(run, UP)
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
+        notes = [tag("div", each, class_="note") for each in (remark, run.remark) if each]
         return (
-            joined(self.player_link(run.player, UP), others),
+            joined(self.player_link(run.player, UP), others, *notes),
             linked,
             *results[1:],
             self.watch_link([run], UP),
             *about,
-            run.remark,
         )
 
     def shown_value(self, category: Category, run: Run) -> str:
@@ -280,7 +290,8 @@ class LevelPages:
             shown = replace(run, remark="as above") if run.remark in above else run
             results = [category.text(each.values[0]) for category, each in zip(categories, same, strict=True)]
             late = self.behind(categories[0], same[0], next(iter(leaderboards.values()))[0])
-            rows.append((place or "", *self.run_cells(shown, *results, late, timed=timed)))
+            unsaid = NOT_SAID * (0 < place <= PODIUM and not run.made)
+            rows.append((place or "", *self.run_cells(shown, *results, late, timed=timed, remark=unsaid)))
             above |= {run.remark} - {""}
         names = [category.name if len(leaderboards) > 1 else category.unit for category in categories]
         heads = ("Place", "Player", *names, "Behind", *RUN_HEADS)
@@ -329,10 +340,47 @@ class LevelPages:
         splits = table(said, ("No.", "Split", names[0], "Fastest segment", *names[1:]), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
         drawn = joined(drawn, tag("p", f"The first {len(runs)} runs: {category.name}"), together)
-        return drawn, joined(section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS))
+        where = _where_time_goes(names, found) if len(rows) < ENOUGH_SPLITS else None
+        return drawn, joined(
+            section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS),
+            section("Where time goes", *where) if where else None,
+        )  # fmt: skip
 
     def _pair(self, run: Run, other: Run) -> Content:
         return "" if run is other else self.watch_link([run, other], UP, signed(run.tick - other.tick))
+
+
+def _where_time_goes(names: Sequence[str], found: Sequence[RunSplits]) -> list[Markup]:
+    """Where each run loses most on the first, and a table of how much later it is there at each of its seconds."""
+    first, *others = found
+    if max(each.ticks for each in found) > LONGEST_ALIGNED:
+        return []
+    ticks = range(step := TICKS_PER_SECOND * (1 + first.ticks // MOST_SECONDS), first.ticks, step)
+    late = [_leads(first.positions, each.positions, ticks) for each in others]
+    said = []
+    for name, leads in zip(names[1:], late, strict=True):
+        near = [(0, 0), *((tick, lead) for tick, lead in zip(ticks, leads, strict=True) if lead is not None)]
+        lost, start, end = max(((b[1] - a[1], a[0], b[0]) for a, b in pairwise(near)), default=(0, 0, 0))
+        span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of the first"
+        said += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
+    rows = [
+        (f"{tick // TICKS_PER_SECOND} s", *("" if each is None else signed(each) for each in leads))
+        for tick, *leads in zip(ticks, *late, strict=True)
+    ]
+    caption = f"Seconds by which each is later where {names[0]} is then; empty: it goes another way"
+    rows = [row for row in rows if any(row[1:])]
+    return [*said, table(caption, (names[0], *names[1:]), rows)] if rows else said
+
+
+def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
+    """How many ticks later the other run is where ours is at each of these; None: it is not near there."""
+    partner = aligned(ours[::COARSE], theirs[::COARSE])
+    found: list[int | None] = []
+    for tick in ticks:
+        start = max(0, COARSE * (int(partner[tick // COARSE]) - 1))
+        apart = np.hypot(*(theirs[start : start + 2 * COARSE + 1] - ours[tick]).T)
+        found.append(start + int(apart.argmin()) - tick if partner[tick // COARSE] >= 0 else None)
+    return found
 
 
 def _split_rows(found: Sequence[RunSplits]) -> list[SplitRow]:
@@ -359,6 +407,14 @@ def player_page(player: str) -> str:
 
 def level_link(entry: Entry, up: str = "") -> Markup:
     return tag("a", shown_text(entry.title, LONGEST_NAME), href=up + page_name(entry.digest))
+
+
+def pictured(entry: Entry) -> Markup:
+    """A link to a level with its picture, small."""
+    image = tag(
+        "img", src=picture_name(entry.digest), alt="", width=PICTURE_WIDTH, height=PICTURE_HEIGHT, loading="lazy"
+    )
+    return tag("a", image, shown_text(entry.title, LONGEST_NAME), href=page_name(entry.digest))
 
 
 def signed(ticks: int) -> str:

@@ -17,7 +17,16 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.web.board.level_pages import EPISODES, FIRST, HOW_TO_CONFIRM, NEAR, LevelPages, level_link, player_page
+from ninja_game.web.board.level_pages import (
+    EPISODES,
+    FIRST,
+    HOW_TO_CONFIRM,
+    NEAR,
+    LevelPages,
+    level_link,
+    pictured,
+    player_page,
+)
 from ninja_game.web.board.ranking import Ranked, Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.rules import HIGHEST
@@ -155,7 +164,7 @@ class BoardPages(LevelPages):
                 counts = len(self.ranking.history[digest, (PLAYED, self.main)]), self._counts(digest)[1]
                 spread = [self.main.difference(each.behind) for each in ranked[1:5:3]]
                 spread += [""] * (2 - len(spread))
-                rows.append([level_link(self.entries[digest]), *counts, *self._best(digest)])
+                rows.append([pictured(self.entries[digest]), *counts, *self._best(digest)])
                 rows[-1][5:5] = spread
         for at in (1, 2):
             if len(rows) > 1 and len({row[at] for row in rows}) == 1:
@@ -163,7 +172,8 @@ class BoardPages(LevelPages):
                     row[at] = ""  # it tells nothing
         heads = ["Level", "Records", "Players", *self._best_heads()]
         heads[5:5] = ["Second behind", "Fifth behind"]
-        caption = f"By how often a record was beaten; records are those in {self.main.name}{self._of_both()}"
+        often, close = "By how often a record was beaten; records are those in", "By how close the second is, in"
+        caption = f"{often if self.ranking.beaten else close} {self.main.name}{self._of_both()}"
         return [("contested", "Most contested levels", table(caption, heads, rows))] if rows else []
 
     def _of_both(self) -> str:
@@ -274,7 +284,7 @@ class BoardPages(LevelPages):
             return (row[1], level_link(run.entry, UP), *result, places, *leads)
 
         rows = [
-            [self.stems[run.key], run.entry.episode, run.medal, self._places(run), run.day]
+            [self.stems[run.key], run.entry.number, run.medal, self._places(run), run.day]
             for run in sorted(runs, key=lambda run: (order[run.level], run.added, run.key))
         ]
         heads = ("No.", "Level", "Time", "Watch", "Medal", "Score", "Gold", "Places", "Made", "Date", "File")
@@ -293,7 +303,7 @@ class BoardPages(LevelPages):
 
     def _levels(self) -> None:
         rows = [
-            (entry.episode, level_link(entry), *self._counts(digest), *self._best(digest))
+            (entry.number, pictured(entry), *self._counts(digest), *self._best(digest))
             for digest, entry in self.entries.items()
         ]
         heads = ("No.", "Level", "Runs", "Players", *self._best_heads())
@@ -342,9 +352,9 @@ class BoardPages(LevelPages):
     def _rejected(self) -> None:
         rejected, order = self.ranking.judged.rejected, list(KINDS)
         counts = Counter(each.kind for each in rejected)
-        said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title) in KINDS.items() if counts[kind])
+        said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title, _) in KINDS.items() if counts[kind])
         rows: list[tuple[Content, ...]] = [
-            (KINDS[each.kind][1], each.file + f", record {each.record}" * (each.record > 0),
+            (KINDS[each.kind][2], each.file + f", record {each.record}" * (each.record > 0),
              self.shown_name(each.player), each.level, each.why, self._first_run(each.first),
              each.added.partition("T")[0])
             for each in sorted(rejected, key=lambda each: order.index(each.kind))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from functools import cached_property
 from itertools import zip_longest
+from math import inf
 from operator import itemgetter
 
 from ninja_game.formats.pack.pars import MEDALS
@@ -228,13 +229,25 @@ class Ranking:
         return sorted(best.values(), key=itemgetter(1, 0))
 
     @cached_property
-    def contested(self) -> list[str]:
-        """The levels by how often their records were beaten, then by players."""
-        beaten: dict[str, int] = defaultdict(int)
+    def beaten(self) -> Counter[str]:
+        """By level how often its records were beaten; empty where all runs came in together."""
+        beaten = Counter[str]()
         for (level, _), runs in self.history.items():
             beaten[level] += len(runs) - 1
+        return +beaten
+
+    @cached_property
+    def contested(self) -> list[str]:
+        """The levels by how often their records were beaten, else those with a second by how close it is."""
         players = {level: len({run.player for run in runs}) for level, runs in self.by_level.items()}
-        return sorted(self.by_level, key=lambda level: (-beaten[level], -players[level]))
+        close = {each: 0.0 if self.beaten else self._close(each) for each in self.by_level}
+        found = [level for level in self.by_level if close[level] < inf]
+        return sorted(found, key=lambda level: (-self.beaten[level], close[level], -players[level]))
+
+    def _close(self, level: str) -> float:
+        """By how much the second played run is behind in the first category."""
+        placed = [each for each in self.tables[level].get((PLAYED, self.categories[0]), ()) if each.place]
+        return placed[1].behind if len(placed) > 1 else inf
 
     @cached_property
     def level_of_the_week(self) -> tuple[str, int, int] | None:

@@ -14,6 +14,7 @@ from ninja_game.errors import ArgumentError, FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.web.board.players import folded
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.runs import (
     DECISIONS,
@@ -92,7 +93,8 @@ def read_board(path: Path, now: datetime) -> Ledger:
             raise FormatError("a board of another version", str(path), found=found, expected=str(VERSION), hint=hint)
         for part in ("withdrawn", "decisions"):  # which ledgers did not have at first
             data.setdefault(part, [])
-        return Ledger(*(_rows(path, key, data[key], now) for key in _FIELDS))
+        runs, rejected, withdrawn, decided = (_rows(path, key, data[key], now) for key in _FIELDS)
+        return Ledger(runs, rejected, withdrawn, {_decided(row): row for row in decided.values()})
     except (ValueError, TypeError, KeyError, RecursionError):
         raise FormatError("not a board", str(path), expected="a file that `ninja-game board --json` wrote") from None
 
@@ -114,11 +116,16 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
         if row.get("what", REJECTED) not in DECISIONS:
             expected = ", ".join(DECISIONS)
             raise FormatError(f"{place}: 'what' is no decision", str(path), found=plain(row["what"]), expected=expected)
-        key = row[first], row[second]
+        key = row[first], _decided(row) if part == "decisions" else row[second]
         if key in found:
             raise FormatError(f"{place}: given twice", str(path), found=plain(key[0]))
         found[key] = row
     return found
+
+
+def _decided(row: Mapping[str, Any]) -> tuple[str, ...]:
+    """What a decision is of: level, way and player."""
+    return row["level"], row["way"], folded(row["player"])
 
 
 @lru_cache(4096)
@@ -149,7 +156,7 @@ def moderate(
         for row in _rows_of(name, [*ledger.runs.values(), *ledger.decisions.values()], what, "in that file"):
             decided = {"what": what, "reason": reason, "added": now.strftime(DATE)}
             of = {key: row[key] for key in _FIELDS["decisions"] if key not in decided}
-            ledger.decisions[row["level"], row["way"]] = of | decided
+            ledger.decisions[_decided(row)] = of | decided
 
 
 def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -> list[dict[str, Any]]:

@@ -30,13 +30,13 @@ DECISIONS = (REJECTED, PLAYED, ASSISTED)
 """What the keeper of a board decides of a run: it does not count, or the ladder that it is moved to."""
 
 KINDS = {
-    "moderated": ("by the keeper", "Rejected by the keeper"),
-    "practice": ("of practice", "Practice runs"),
-    "copy": ("copied", "Copies of runs"),
-    "refused": ("refused", "Runs that do not count"),
-    "unreadable": ("unreadable", "Files that are not runs"),
+    "moderated": ("by the keeper", "Rejected by the keeper", "Rejected by the keeper"),
+    "practice": ("of practice", "Practice runs", "Practice run"),
+    "copy": ("copied", "Copies of runs", "Copy"),
+    "refused": ("refused", "Runs that do not count", "Does not count"),
+    "unreadable": ("unreadable", "Files that are not runs", "Not a run"),
 }
-"""Why a run does not count: in a line of a report, and on a page."""
+"""Why a run does not count: in a line of a report, and on a page, of several and of one."""
 
 OWN = "own"  # what a level of an episode is that its player has sent before
 
@@ -70,13 +70,13 @@ class Ledger(NamedTuple):
     """What a board knew before: ``runs`` and what was ``rejected`` by file and record.
 
     ``withdrawn``: by level and way the runs that counted once, and are not there now or do not count; ``decisions``:
-    what the keeper of the board says of a run, and why.
+    what the keeper of the board says of a run, and why, by its level, way and player, folded.
     """
 
     runs: Rows
     rejected: Rows
     withdrawn: Rows
-    decisions: Rows
+    decisions: dict[tuple[str, ...], dict[str, Any]]
 
     @property
     def owners(self) -> Rows:

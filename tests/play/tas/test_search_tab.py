@@ -14,6 +14,7 @@ import pytest
 
 from ninja_game.backend.memories import compiled_available
 from ninja_game.play.menus.menu_screen import PANEL_WIDTH, Menu
+from ninja_game.runs.compare import RunSplits, run_splits
 from ninja_game.search import solve as solve_module
 from ninja_game.search.certificate import without_idle_keys
 from ninja_game.search.formula import background
@@ -252,8 +253,12 @@ def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
     """The run is played in a thread, so that the window stays alive."""
     monkeypatch.setattr(module, "PATIENCE", 0.0)
     threads: list[object] = []
-    play = module.run_splits
-    monkeypatch.setattr(module, "run_splits", lambda *args: (threads.append(current_thread()), play(*args))[1])
+
+    def watched(*args: Any) -> RunSplits:
+        threads.append(current_thread())
+        return run_splits(*args)
+
+    monkeypatch.setattr(module, "run_splits", watched)
     monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
     wish(at, "Same end, sooner")
     at.wait(lambda: bool(tab.pieces), "pieces")
