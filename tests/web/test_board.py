@@ -514,7 +514,7 @@ def test_of_two_runs_of_one_moment_the_later_file_is_marked_and_keeps_its_place(
     assert ">Me</a>" in all_levels
     assert "Fastest, played: 1.600 s, first" in index
     texts = [path.read_text("utf-8") for path in pages.glob("players/*.html")]
-    (mine,) = (text for text in texts if "<title>Me -" in text and "All runs" in text)
+    (mine,) = (text for text in texts if "<title>Me -" in text and "<caption>All runs" in text)
     assert "first on 1; total of ranks 1" in mine
 
 

@@ -181,21 +181,8 @@ def test_a_run_without_an_author_is_a_player_of_its_own(runs: Path, levels: Path
     assert "moderated: a.txt" in board(runs, levels, "--json", str(data), "--reject", "a.txt", "--reason", "whose?")
 
 
-ODD: tuple[object, ...] = (
-    "",
-    " ",
-    "\u200b",
-    "\ud800",
-    "unknown (ann.txt)",
-    "x" * 1000,
-    HOSTILE,
-    "rejected",
-    None,
-    7,
-    [],
-    {},
-    True,
-)
+_STRINGS = "", " ", "\u200b", "\ud800", "unknown (ann.txt)", "x" * 1000, HOSTILE, "rejected"
+ODD: tuple[object, ...] = (*_STRINGS, None, 7, [], {}, True)
 
 
 @pytest.mark.parametrize("part", ["runs", "rejected", "withdrawn", "decisions"])
