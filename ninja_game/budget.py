@@ -39,7 +39,8 @@ TICK_COST = 10
 
 def tick_cost(level: Level) -> int:
     """The most work that a tick of a level can be."""
-    return TICK_COST + sum(KIND_OF[spec.kind].cost for spec in level.objects if makes_object(spec))
+    objects = (KIND_OF.get(spec.kind) for spec in level.objects if makes_object(spec))
+    return TICK_COST + sum(kind.cost if kind else 1 for kind in objects)
 
 
 def affordable_ticks(level: Level, budget: int = RUN_BUDGET) -> int:

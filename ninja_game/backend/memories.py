@@ -113,7 +113,8 @@ def open_worlds(
         raise LevelError("too many objects for a page", found=found, expected=expected, hint="play it on a desktop")
     # The first time this imports Numba, which must come before NumPy.
     if not isinstance(memory, Plan):
-        begins = at_once and begin_plain(memory, ticks * max(map(tick_cost, several), default=0))
+        begins = at_once and memory == "auto"
+        begins = begins and begin_plain(memory, ticks * max(map(tick_cost, several), default=0))
         memory = Plan("plain" if begins else _usable_memory(memory), "compiled", checked=False)
     if memory.first == "plain":
         return PlainWorlds(several, count, box=box)

@@ -27,7 +27,7 @@ def test_all_commands_tell_the_same_time_of_a_run(tmp_path: Path) -> None:
         "improve", run, "--ticks", "20000", "--jobs", "1", "-o", tmp_path / "x.txt"
     )
     splits = said("splits", run)
-    assert f"exit after {WALK_END} ticks, {SECONDS}" in splits
+    assert f"exit in tick {WALK_END}, {SECONDS}" in splits
     assert f"sum of best: tick {WALK_END}, {SECONDS}" in splits
     assert f"to tick {WALK_END} at most, {SECONDS}" in said("info", run)
     # 90 s and two for the piece of gold, less the time

@@ -119,7 +119,7 @@ def test_a_run_on_another_level_fails_without_strict_too(tmp_path: Path) -> None
     words = ["verify", str(tmp_path / "forged.txt"), "--level", str(tmp_path / "walk.txt"), "--json"]
     result = CliRunner().invoke(cli, words)
     assert result.exit_code == 1
-    assert json.loads(result.stdout)["problems"][0].startswith("level_digest is ")
+    assert json.loads(result.stdout)["problems"][0].startswith("not run: its level is not one of those that count")
 
 
 def test_names_forge_no_rows_and_command_no_terminal(tmp_path: Path) -> None:

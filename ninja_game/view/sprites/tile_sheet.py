@@ -33,7 +33,7 @@ class TileSheet:
 
     def show(self, level: TileMap) -> None:
         seen, logical = self.canvas.stage, self.canvas.logical
-        (left, top), (right, bottom) = logical(seen.topleft), logical(seen.bottomright)
+        (left, top), (right, bottom) = logical(seen.topleft), logical((seen.right, seen.bottom))
         for row in range(GRID_ROWS)[int((top - 1) / 24) : int(bottom / 24) + 1]:
             for column in range(GRID_COLUMNS)[int((left - 1) / 24) : int(right / 24) + 1]:
                 self.draw(column, row, level.tiles[(row + 1) * STRIDE + column + 1])
