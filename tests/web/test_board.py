@@ -305,6 +305,25 @@ def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path
     assert re.findall("<td>([^<]+)</td>", tables[0].partition(">Bob<")[2])[1] == "0.025"
 
 
+def test_the_sum_of_segments_is_not_slower_than_the_fastest_run(runs: Path, tmp_path: Path) -> None:
+    """Which is assisted here, and leaves gold out that the first of those played takes."""
+    level = "0" * 713 + "|5^100,566!11^220,564,190,564!0^130,530!0^115,566"
+    (folder := tmp_path / "pack").mkdir()
+    text = write_ascii_level(parse_level_string(level), name="Gold")
+    (folder / "gold.txt").write_text(text, "utf-8")
+    put(runs, "fast.txt", replay(bytes([2] * 41), level, author="Fast", made=Provenance(edits=3)))
+    put(runs, "gold.txt", replay(bytes([2] * 6 + [14, 6, 6] + [2] * 38), level, author="Gold"))
+    put(runs, "late.txt", replay(bytes(5) + bytes([2] * 3 + [14, 6] + [2] * 42), level, author="Late"))
+    pages = board_of(runs, folder, tmp_path / "site") / "levels"
+    (page,) = (each.read_text("utf-8") for each in pages.glob("*.html") if "-runs" not in each.name)
+    assert "All runs: 3" in page
+    fastest, *_ = re.findall('aria-label="([0-9.]+): Fast on', page)
+    (total,) = re.findall("each from the row above: ([0-9.]+) s", page)
+    assert float(total) <= float(fastest)
+    kinds = re.findall(r'#place-[0-9]+">[0-9]+</a></td><td>([a-z ]+)', page)
+    assert kinds[:3] == ["gold", "switch of exit", "exit"], "the rows of the fastest"
+
+
 def test_medals_follow_from_the_par_times(runs: Path) -> None:
     certificates = [path for path in bundled_replays() if ".exit." in path.name][:3]
     for path in certificates:
