@@ -180,6 +180,25 @@ def test_a_count_that_is_the_same_everywhere_has_no_column(runs: Path, levels: P
     assert re.findall("<td>([0-9.]+)</td>", contested)[1::2][:2] == ["0.125", "0.200"]
 
 
+def test_the_most_contested_levels_are_in_the_order_of_their_column(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """Records of both ladders and all categories, without the first entry of each."""
+    for name, level, waits, made in (
+        ("a", WALK, (9, 5, 0), Provenance(played=True)), ("b", GOLD_LATER, (9, 0), Provenance(played=True)),
+        ("c", GOLD_LATER, (8, 5, 2), Provenance(edits=3)),
+    ):  # fmt: skip
+        for number, wait in enumerate(waits):
+            walk = replay(bytes(wait) + WALKING + b"\2", level, author=f"P{number}", made=made)
+            put(runs, f"{name}{number}.txt", walk)
+    days = {f"{name}{number}.txt": f"2026-01-0{number + 1}T12:00:00Z" for name in "abc" for number in range(3)}
+    shown = published_levels(levels)
+    judged = judge(runs, shown, jobs=1, dates=lambda key, _: days[key[0]])
+    BoardPages(tmp_path / "site", Ranking(judged, shown)).write()
+    page = (tmp_path / "site" / "board" / "index.html").read_text("utf-8").partition("<h2>Most cont")[2]
+    assert re.findall('<th scope="col">([^<]+)', page)[1] == "Records beaten"
+    assert "<caption>By how often records were beaten, of all categories and ladders; results are" in page
+    assert re.findall("</a></td><td>([0-9]+)</td>", page)[:2] == ["6", "4"]
+
+
 def test_a_list_shows_levels_with_their_numbers_and_pictures(runs: Path, levels: Path, tmp_path: Path) -> None:
     """Also those of a file of N, where the number is the comment."""
     put(runs, "a.txt", replay(author="Ann"))
