@@ -350,6 +350,9 @@ def ask(
         hint = f"; {ladder}: {len(other)}, {way} --assisted" if other else ""
         raise ArgumentError(f"nobody has a run in {chosen.name!r} on {shown_text(entry.title)} yet{hint}")
     _answer(what, found[:1] if what == "best" else found, chosen, output, as_data=as_data, keep=[folder])
+    if other and not (assisted or players or as_data) and other[0].place and other[0].values < table[0].values:
+        result, player = chosen.text(other[0].values[0]), other[0].run.player
+        click.echo(shown_text(f"assisted: {result} by {player} (--assisted)", LONGEST))
 
 
 def _answer(

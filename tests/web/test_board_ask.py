@@ -45,6 +45,19 @@ def test_a_level_with_assisted_runs_alone_says_so(runs: Path, levels: Path) -> N
     assert (code, "on Walk yet; assisted: 1, with --assisted" in text) == (2, True), text
 
 
+def test_a_faster_assisted_run_is_told(folder: Path, levels: Path, tmp_path: Path) -> None:
+    put(folder, "cid.txt", slow_walk(3, author="Cid"))
+    (folder / "ann.txt").unlink()
+    put(folder, "bot.txt", replay(bytes(2) + WALKING + b"\2", author="Bot", made=Provenance(edits=3)))
+    for what in (["rank"], ["best"], ["trace", "-o", str(tmp_path / "out.png")]):
+        assert ask(folder, levels, what[0], "Walk", *what[1:])[1].endswith("\nassisted: 0.625 by Bot (--assisted)\n")
+    for words in (["Bea"], ["--assisted"]):
+        assert "by Bot (" not in ask(folder, levels, "rank", "Walk", *words)[1]
+    assert len(answer(folder, levels, "rank", "Walk")) == 2
+    put(folder, "ann.txt", replay(author="Ann"))
+    assert "by Bot (" not in ask(folder, levels, "rank", "Walk")[1]
+
+
 def test_players_of_both_ladders_are_compared(folder: Path, levels: Path) -> None:
     put(folder, "tool.txt", replay(bytes(3) + WALKING + b"\2", author="Ann", made=Provenance(edits=3)))
     put(folder, "bot.txt", replay(bytes(4) + WALKING + b"\2", author="Bot", made=Provenance(edits=3)))
