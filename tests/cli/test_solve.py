@@ -115,7 +115,7 @@ def test_improve_leads_a_run_that_ends_before_the_exit_there(tmp_path: Path, dem
     assert result.exit_code == 0, result.output
     replay = parse_replay(out.read_text("utf-8"))
     assert (replay.outcome, replay.final_tick <= WALK_END + 20) == ("exit", True)
-    assert replay.made.searches == ("improve",)
+    assert (replay.made.searches, replay.made.begun_by) == (("improve",), "unknown (short.txt)")
 
 
 def test_improve_goes_on_from_its_best_run_and_says_so_in_its_log(tmp_path: Path) -> None:
