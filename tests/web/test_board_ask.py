@@ -157,6 +157,15 @@ def test_what_there_is_not_is_named(words: list[str], told: str, folder: Path, l
     assert (code, told in text) == (2, True), text
 
 
+def test_a_board_remembers_its_rules(folder: Path, levels: Path, tmp_path: Path) -> None:
+    (rules := tmp_path / "board.toml").write_text('[[category]]\nname = "Slow"\nrank = ["-ticks"]\n', "utf-8")
+    words = ["board", str(folder), "--levels", str(levels), "--jobs", "1"]
+    for more, told in ((["--rules", str(rules)], "00-0 Walk, slow, played:"), ([], "00-0 Walk, fastest, played:")):
+        assert CliRunner().invoke(cli, [*words, *more]).exit_code == 0
+        for _ in range(2):
+            assert told in CliRunner().invoke(cli, ["board", "ask", str(folder), "rank", "Walk"]).output
+
+
 def test_a_board_remembers_its_levels(folder: Path, levels: Path) -> None:
     """Without --levels, ask is about those of the last board on the folder."""
     words = ["board", "ask", str(folder), "rank", "Walk"]
