@@ -102,7 +102,7 @@ def test_improve_says_where_no_way_leads_to_the_exit(tmp_path: Path) -> None:
     dead = write_records(tmp_path / "dead.txt", ("Dead", SPIKED, running(60)))
     result = command("improve", dead, "--seconds", "0.5", "-o", tmp_path / "out.txt")
     assert result.exit_code == 1
-    assert "dead after" in result.stdout
+    assert "dead in tick 15: mine 1" in result.stdout
     assert "no way to the exit found from there" in result.stdout
     assert not (tmp_path / "out.txt").exists()
 
