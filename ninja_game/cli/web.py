@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ninja_game.web.board.runs import Ledger
     from ninja_game.web.pages.memo import Memo
 
-LAST_LEVELS, LAST_LEDGER = "/levels", "/ledger"  # what is remembered under them: no path of a run begins so
+LAST_LEVELS, LAST_LEDGER, LAST_RULES = "/levels", "/ledger", "/rules"  # keys of a memo: no path of a run begins so
 
 rules_option = click.option(
     "--rules",
@@ -243,7 +243,7 @@ def _ranking(
 ) -> tuple[Ranking, Ledger]:  # fmt: skip
     """The ranking of a folder's runs by the board's rules, and the ledger before, with what is decided now.
 
-    ``levels``, ``ledger``: where nothing is decided, without them those of the last board of the folder.
+    ``levels``, ``ledger``, ``rules``: where nothing is decided, without them those of the folder's last board.
     """
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
@@ -255,16 +255,17 @@ def _ranking(
     # Of many runs, all of which stay, a third of the time went into looking for garbage.
     gc.set_threshold(20_000)
     now = datetime.now(UTC)
-    categories = read_categories(rules) if rules else USUAL
     memo = memo_of("runs", folder, folder, again=again)
-    last, kept = (_remembered(memo, key) for key in (LAST_LEVELS, LAST_LEDGER))
+    last, kept, ruled = (_remembered(memo, key) for key in (LAST_LEVELS, LAST_LEDGER, LAST_RULES))
     if not decide:
-        levels, ledger = levels or last, ledger or kept
+        levels, ledger, rules = levels or last, ledger or kept, rules or ruled
+    categories = read_categories(rules) if rules else USUAL
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
     if decide:
         decide(before, now)
         memo.note(LAST_LEVELS, str(levels.resolve()) if levels and levels.exists() else "")
         memo.note(LAST_LEDGER, str((ledger or kept or Path()).resolve()) if ledger or kept else "")
+        memo.note(LAST_RULES, str(rules.resolve()) if rules else "")
     elif not ledger:
         click.echo(NO_DATES, err=True)
     shown = published_levels(levels or data_folder("levels"))
@@ -350,6 +351,9 @@ def ask(
         hint = f"; {ladder}: {len(other)}, {way} --assisted" if other else ""
         raise ArgumentError(f"nobody has a run in {chosen.name!r} on {shown_text(entry.title)} yet{hint}")
     _answer(what, found[:1] if what == "best" else found, chosen, output, as_data=as_data, keep=[folder])
+    if other and not (assisted or players or as_data) and other[0].place and other[0].values < table[0].values:
+        result, player = chosen.text(other[0].values[0]), other[0].run.player
+        click.echo(shown_text(f"assisted: {result} by {player} (--assisted)", LONGEST))
 
 
 def _answer(

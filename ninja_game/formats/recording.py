@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ninja_game.errors import DemoError, ReplayError
+from ninja_game.files.shown_text import file_stem
 from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
@@ -66,6 +67,13 @@ class Recording:
         One that says how its run was made was written by this program, which puts the player's name there.
         """
         return self.author if not self.of_n or self.replay.made.assisted is not None else ""
+
+    @property
+    def begun_by(self) -> str:
+        """Whose run one is that begins from it; of one that only commands have searched, whose that began from."""
+        made, file = self.replay.made, Path(self.file).name or self.name
+        searched = made.searches and not (made.played or made.edits)
+        return self.player or (made.begun_by if searched else f"unknown ({file_stem(file, 'no file')})")
 
     @property
     def level_author(self) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -135,8 +135,8 @@ def run_splits(
 class SplitRow(NamedTuple):
     """A row of a table: a split, its tick in each run (None: not reached), and the shortest way to it in ticks.
 
-    ``best_segment``: the fewest ticks that any run needs from the split of the row before; None where no run goes
-    from that one to this one.
+    ``best_segment``: the fewest ticks that any run needs from the split of the row before, whatever it reaches in
+    between that is not in the best run; None where no run goes from that one to this one.
     """
 
     split: Split
@@ -156,7 +156,7 @@ def split_table(runs: Sequence[RunSplits], best: RunSplits) -> list[SplitRow]:
     known = best.by_key
     order = [*best.splits, *sorted(split for key, split in others.items() if key not in known)]
     indexed = [run.by_key for run in runs]
-    segments = _shortest_segments([best, *runs])
+    segments = _shortest_segments([best, *runs], known)
     before: Key | None = None
     rows = []
     for split in order:
@@ -174,11 +174,11 @@ def sum_of_best(rows: Sequence[SplitRow]) -> int:
     return sum(row.best_segment for row in rows if row.best_segment is not None)
 
 
-def _shortest_segments(runs: Sequence[RunSplits]) -> dict[tuple[Key | None, Key], int]:
-    """The fewest ticks between each two splits that follow one another in some run; None is the start: tick 0."""
+def _shortest_segments(runs: Sequence[RunSplits], known: Container[Key]) -> dict[tuple[Key | None, Key], int]:
+    """The fewest ticks between each two known splits that follow one another in some run; None: the start, tick 0."""
     shortest: dict[tuple[Key | None, Key], int] = {}
     for run in runs:
-        points = [(None, 0), *((split.key, split.tick) for split in run.splits)]
+        points = [(None, 0), *((split.key, split.tick) for split in run.splits if split.key in known)]
         for (before, start), (key, end) in pairwise(points):
             assert key is not None  # noqa: S101 - only the start has none
             shortest[before, key] = min(end - start, shortest.get((before, key), end - start))

@@ -109,7 +109,7 @@ def improved_replay(run: Replay, recording: Recording, command: str) -> Replay:
     return replace(
         run, name=recording.name, author=recording.player, co_authors=old.co_authors,
         level_name=old.level_name or recording.name, level_author=recording.level_author,
-        made=old.made.searched(command, begun_by=recording.player),
+        made=old.made.searched(command, begun_by=recording.begun_by),
         markers=moved_markers(recording, run.inputs),
     )  # fmt: skip
 

@@ -3,19 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any, Self
 
-from ninja_game.files.shown_text import file_stem
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.provenance import names_of_text
-
-
-def _player_of(recording: Recording) -> str:
-    """Who made a run; of one that only commands have searched, whose run that began from, "" if from none."""
-    made, file = recording.replay.made, Path(recording.file).name or recording.name
-    searched = made.searches and not (made.played or made.edits)
-    return recording.player or (made.begun_by if searched else f"unknown ({file_stem(file, 'no file')})")
 
 
 @dataclass(frozen=True)
@@ -30,7 +21,7 @@ class Contributions:
     def of(cls, recording: Recording) -> Self:
         """Those of a run whose keys are taken; an author who is not known is called by the file."""
         replay = recording.replay
-        return cls(0, replay.made.searches, names_of_text(", ".join((_player_of(recording), *replay.co_authors))))
+        return cls(0, replay.made.searches, names_of_text(", ".join((recording.begun_by, *replay.co_authors))))
 
     def __add__(self, other: Contributions) -> Contributions:
         """Those of both; each command and name once."""
@@ -44,7 +35,7 @@ class Contributions:
         """A recording as it was opened, with what was done to it since then by a player."""
         old, author = about.replay, about.author or player
         names = names_of_text(", ".join((*old.co_authors, player, *self.names)))
-        begun_by = _player_of(about) if about.author != player else ""
+        begun_by = about.begun_by if about.author != player else ""
         made = old.made.edited(self.edits).searched(*self.commands, begun_by=begun_by)
         others = tuple(name for name in names if name != author)
         return replace(about, replay=replace(old, author=author, made=made, co_authors=others))

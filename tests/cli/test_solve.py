@@ -102,7 +102,7 @@ def test_improve_says_where_no_way_leads_to_the_exit(tmp_path: Path) -> None:
     dead = write_records(tmp_path / "dead.txt", ("Dead", SPIKED, running(60)))
     result = command("improve", dead, "--seconds", "0.5", "-o", tmp_path / "out.txt")
     assert result.exit_code == 1
-    assert "dead in tick 15: mine" in result.stdout
+    assert "dead in tick 15: mine 1" in result.stdout
     assert "no way to the exit found from there" in result.stdout
     assert not (tmp_path / "out.txt").exists()
 
@@ -115,7 +115,7 @@ def test_improve_leads_a_run_that_ends_before_the_exit_there(tmp_path: Path, dem
     assert result.exit_code == 0, result.output
     replay = parse_replay(out.read_text("utf-8"))
     assert (replay.outcome, replay.final_tick <= WALK_END + 20) == ("exit", True)
-    assert replay.made.searches == ("improve",)
+    assert (replay.made.searches, replay.made.begun_by) == (("improve",), "unknown (short.txt)")
 
 
 def test_improve_goes_on_from_its_best_run_and_says_so_in_its_log(tmp_path: Path) -> None:

@@ -87,6 +87,14 @@ def test_sum_of_best_takes_every_segment_from_the_run_that_is_fastest_there() ->
     assert sum_of_best(rows) == sum(expected) < min(early.ticks, late.ticks) - 1
 
 
+def test_what_the_best_run_leaves_out_does_not_end_a_segment_of_another() -> None:
+    best, other = run_splits(walk(5)), run_splits(walk(6))
+    early, *late = other.splits
+    faster = [each._replace(tick=each.tick - 3) for each in late]
+    rows = split_table([best, replace(other, splits=(early, early._replace(object_id=99), *faster))], best)
+    assert sum_of_best(rows) == best.splits[-1].tick - 3
+
+
 def test_splits_that_only_another_run_reaches_come_last_and_have_no_segment() -> None:
     nowhere, there = run_splits(replace(walk(0), replay=Replay.of_inputs(bytes(3), walk(0).level))), run_splits(walk(0))
     rows = split_table([nowhere, there], nowhere)

@@ -180,6 +180,25 @@ def test_a_count_that_is_the_same_everywhere_has_no_column(runs: Path, levels: P
     assert re.findall("<td>([0-9.]+)</td>", contested)[1::2][:2] == ["0.125", "0.200"]
 
 
+def test_the_most_contested_levels_are_in_the_order_of_their_column(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """Records of both ladders and all categories, without the first entry of each."""
+    for name, level, waits, made in (
+        ("a", WALK, (9, 5, 0), Provenance(played=True)), ("b", GOLD_LATER, (9, 0), Provenance(played=True)),
+        ("c", GOLD_LATER, (8, 5, 2), Provenance(edits=3)),
+    ):  # fmt: skip
+        for number, wait in enumerate(waits):
+            walk = replay(bytes(wait) + WALKING + b"\2", level, author=f"P{number}", made=made)
+            put(runs, f"{name}{number}.txt", walk)
+    days = {f"{name}{number}.txt": f"2026-01-0{number + 1}T12:00:00Z" for name in "abc" for number in range(3)}
+    shown = published_levels(levels)
+    judged = judge(runs, shown, jobs=1, dates=lambda key, _: days[key[0]])
+    BoardPages(tmp_path / "site", Ranking(judged, shown)).write()
+    page = (tmp_path / "site" / "board" / "index.html").read_text("utf-8").partition("<h2>Most cont")[2]
+    assert re.findall('<th scope="col">([^<]+)', page)[1] == "Records beaten"
+    assert "<caption>By how often records were beaten, of all categories and ladders; results are" in page
+    assert re.findall("</a></td><td>([0-9]+)</td>", page)[:2] == ["6", "4"]
+
+
 def test_a_list_shows_levels_with_their_numbers_and_pictures(runs: Path, levels: Path, tmp_path: Path) -> None:
     """Also those of a file of N, where the number is the comment."""
     put(runs, "a.txt", replay(author="Ann"))
@@ -303,6 +322,25 @@ def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path
     assert [(each.count(said), each.count("as above")) for each in tables] == [(1, 0), (0, 1)]
     assert "Sum of the fastest segments, each from the row above: 1.575 s." in page
     assert re.findall("<td>([^<]+)</td>", tables[0].partition(">Bob<")[2])[1] == "0.025"
+
+
+def test_the_sum_of_segments_is_not_slower_than_the_fastest_run(runs: Path, tmp_path: Path) -> None:
+    """Which is assisted here, and leaves gold out that the first of those played takes."""
+    level = "0" * 713 + "|5^100,566!11^220,564,190,564!0^130,530!0^115,566"
+    (folder := tmp_path / "pack").mkdir()
+    text = write_ascii_level(parse_level_string(level), name="Gold")
+    (folder / "gold.txt").write_text(text, "utf-8")
+    put(runs, "fast.txt", replay(bytes([2] * 41), level, author="Fast", made=Provenance(edits=3)))
+    put(runs, "gold.txt", replay(bytes([2] * 6 + [14, 6, 6] + [2] * 38), level, author="Gold"))
+    put(runs, "late.txt", replay(bytes(5) + bytes([2] * 3 + [14, 6] + [2] * 42), level, author="Late"))
+    pages = board_of(runs, folder, tmp_path / "site") / "levels"
+    (page,) = (each.read_text("utf-8") for each in pages.glob("*.html") if "-runs" not in each.name)
+    assert "All runs: 3" in page
+    fastest, *_ = re.findall('aria-label="([0-9.]+): Fast on', page)
+    (total,) = re.findall("each from the row above: ([0-9.]+) s", page)
+    assert float(total) <= float(fastest)
+    kinds = re.findall(r'#place-[0-9]+">[0-9]+</a></td><td>([a-z ]+)', page)
+    assert kinds[:3] == ["gold", "switch of exit", "exit"], "the rows of the fastest"
 
 
 def test_medals_follow_from_the_par_times(runs: Path) -> None:

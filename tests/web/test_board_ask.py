@@ -45,6 +45,19 @@ def test_a_level_with_assisted_runs_alone_says_so(runs: Path, levels: Path) -> N
     assert (code, "on Walk yet; assisted: 1, with --assisted" in text) == (2, True), text
 
 
+def test_a_faster_assisted_run_is_told(folder: Path, levels: Path, tmp_path: Path) -> None:
+    put(folder, "cid.txt", slow_walk(3, author="Cid"))
+    (folder / "ann.txt").unlink()
+    put(folder, "bot.txt", replay(bytes(2) + WALKING + b"\2", author="Bot", made=Provenance(edits=3)))
+    for what in (["rank"], ["best"], ["trace", "-o", str(tmp_path / "out.png")]):
+        assert ask(folder, levels, what[0], "Walk", *what[1:])[1].endswith("\nassisted: 0.625 by Bot (--assisted)\n")
+    for words in (["Bea"], ["--assisted"]):
+        assert "by Bot (" not in ask(folder, levels, "rank", "Walk", *words)[1]
+    assert len(answer(folder, levels, "rank", "Walk")) == 2
+    put(folder, "ann.txt", replay(author="Ann"))
+    assert "by Bot (" not in ask(folder, levels, "rank", "Walk")[1]
+
+
 def test_players_of_both_ladders_are_compared(folder: Path, levels: Path) -> None:
     put(folder, "tool.txt", replay(bytes(3) + WALKING + b"\2", author="Ann", made=Provenance(edits=3)))
     put(folder, "bot.txt", replay(bytes(4) + WALKING + b"\2", author="Bot", made=Provenance(edits=3)))
@@ -142,6 +155,15 @@ def test_the_first_path_is_on_top() -> None:
 def test_what_there_is_not_is_named(words: list[str], told: str, folder: Path, levels: Path) -> None:
     code, text = ask(folder, levels, *words)
     assert (code, told in text) == (2, True), text
+
+
+def test_a_board_remembers_its_rules(folder: Path, levels: Path, tmp_path: Path) -> None:
+    (rules := tmp_path / "board.toml").write_text('[[category]]\nname = "Slow"\nrank = ["-ticks"]\n', "utf-8")
+    words = ["board", str(folder), "--levels", str(levels), "--jobs", "1"]
+    for more, told in ((["--rules", str(rules)], "00-0 Walk, slow, played:"), ([], "00-0 Walk, fastest, played:")):
+        assert CliRunner().invoke(cli, [*words, *more]).exit_code == 0
+        for _ in range(2):
+            assert told in CliRunner().invoke(cli, ["board", "ask", str(folder), "rank", "Walk"]).output
 
 
 def test_a_board_remembers_its_levels(folder: Path, levels: Path) -> None:

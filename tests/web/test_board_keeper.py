@@ -119,7 +119,7 @@ def test_dates_of_an_older_board_are_kept(runs: Path, levels: Path, tmp_path: Pa
     put(runs, "b.txt", slow_walk(author="Bea"))
     put(runs, "cid.txt", replay(author="Cid"))
     board(runs, levels, "--json", str(data))
-    dates.write_text("a/new.txt,2021-05-06\nb.txt,2020-03-04T10:00:00Z\ncid.txt, 2022-01-01\n", "utf-8")
+    dates.write_text("File, date\na/new.txt,2021-05-06\nb.txt,2020-03-04T10:00:00Z\ncid.txt, 2022-01-01\n", "utf-8")
     words = "--json", str(data), "--site", str(site)
     assert "copy: cid.txt: a copy of the run by Ann" in board(runs, levels, *words, "--dates", str(dates))
     for _ in range(2):
@@ -139,6 +139,7 @@ def test_dates_of_an_older_board_are_kept(runs: Path, levels: Path, tmp_path: Pa
     "text, error",
     [
         ("ann.txt", "row 1: no date of a file"),
+        ("ann.txt,2020-01-01\nFILE,DATE", "row 2: no date of a file"),
         ("ann.txt,soon", "row 1: no date of a file"),
         ("ann.txt,2999-01-01", "row 1: no date of a file"),
         ("ann.txt,2020-01-01,x", "row 1: no date of a file"),

@@ -384,12 +384,13 @@ def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequen
 
 
 def _split_rows(found: Sequence[RunSplits]) -> list[SplitRow]:
-    """Rows of splits against the first run; gold that only others take is left out, all of it where it is too much."""
-    gold, rows = SPLIT_EVENTS[0], split_table(found, found[0])
+    """Rows of splits of the fastest run; gold that only others take is left out, all of it where it is too much."""
+    best = min(range(len(found)), key=lambda number: found[number].ticks)
+    gold, rows = SPLIT_EVENTS[0], split_table(found, found[best])
     if len(rows) > MOST_SPLITS:
         found = [replace(run, splits=tuple(each for each in run.splits if each.event != gold)) for run in found]
-        rows = split_table(found, found[0])
-    return [row for row in rows if row.ticks[0] is not None or row.split.event != gold][:MOST_SPLITS]
+        rows = split_table(found, found[best])
+    return [row for row in rows if row.ticks[best] is not None or row.split.event != gold][:MOST_SPLITS]
 
 
 def _cells(row: SplitRow) -> Iterator[str]:

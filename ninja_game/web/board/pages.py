@@ -161,7 +161,7 @@ class BoardPages(LevelPages):
         rows: list[list[Content]] = []
         for digest in self.ranking.contested[:CONTESTED]:
             if ranked := self._placed(digest, PLAYED):
-                counts = len(self.ranking.history[digest, (PLAYED, self.main)]), self._counts(digest)[1]
+                counts = self.ranking.beaten[digest], self._counts(digest)[1]
                 spread = [self.main.difference(each.behind) for each in ranked[1:5:3]]
                 spread += [""] * (2 - len(spread))
                 rows.append([pictured(self.entries[digest]), *counts, *self._best(digest)])
@@ -170,10 +170,11 @@ class BoardPages(LevelPages):
             if len(rows) > 1 and len({row[at] for row in rows}) == 1:
                 for row in rows:
                     row[at] = ""  # it tells nothing
-        heads = ["Level", "Records", "Players", *self._best_heads()]
+        heads = ["Level", "Records beaten", "Players", *self._best_heads()]
         heads[5:5] = ["Second behind", "Fifth behind"]
-        often, close = "By how often a record was beaten; records are those in", "By how close the second is, in"
-        caption = f"{often if self.ranking.beaten else close} {self.main.name}{self._of_both()}"
+        often = "By how often records were beaten, of all categories and ladders; results are those in"
+        order = often if self.ranking.beaten else "By how close the second is, in"
+        caption = f"{order} {self.main.name}{self._of_both()}"
         return [("contested", "Most contested levels", table(caption, heads, rows))] if rows else []
 
     def _of_both(self) -> str:

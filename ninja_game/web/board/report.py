@@ -168,10 +168,12 @@ def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -
 
 
 def read_dates(path: Path, now: datetime) -> dict[str, str]:
-    """Dates by file, from rows FILE,DATE. Raises FormatError that names the row, FileError, OSError."""
+    """Dates by file, of rows FILE,DATE, below a head or none. Raises FormatError with the row, FileError, OSError."""
     found: dict[str, str] = {}
     for number, row in enumerate(read_utf8(path).splitlines(), 1):
         file, _, day = map(str.strip, row.rpartition(","))
+        if number == 1 and (file.upper(), day.upper()) == ("FILE", "DATE"):
+            continue
         date = f"{day}T00:00:00Z" if len(day) == len("2026-01-31") else day
         if file in found or not _is_date(date, now):
             expected = "FILE,DATE, once for a file, with a date in the past as 2026-01-31 or 2026-01-31T12:00:00Z"
