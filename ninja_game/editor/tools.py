@@ -254,9 +254,8 @@ class EditorTools:
 
     @property
     def preview(self) -> Tiles:
-        """The tiles that a press would change: what is pasted, or else what the brush draws."""
-        ghost = self.pasted
-        after = self._pasted(ghost)[0] if ghost else self._with(stamps.Stamp({self.cell: self.tile}), self.draft)
+        """The tiles that a press of the brush would change."""
+        after = self._with(stamps.Stamp({self.cell: self.tile}), self.draft)
         return {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
@@ -475,15 +474,10 @@ class EditorTools:
             moves.append(by - step * max(0, ceil((high + by - end + CELL) / step)))
         return self.ghost.carried(Motion(dx=moves[0], dy=moves[1]))
 
-    def _pasted(self, stamp: stamps.Stamp) -> tuple[Draft, stamps.Selection]:
-        """The draft with a stamp on it, with slopes where they set themselves, and the selection of it."""
-        after, selection = stamps.pasted(self.draft, stamp)
-        return stamps.sloped(self.draft, after) if self.slopes else after, selection
-
     def _put_ghost(self) -> None:
         if stamp := self.pasted:
             self.tool = "select"
-            draft, self.selection = self._pasted(stamp)
+            draft, self.selection = stamps.pasted(self.draft, stamp)
             self.history.change(draft)
 
     @property
