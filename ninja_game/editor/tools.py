@@ -170,7 +170,9 @@ class EditorTools:
         self._pressed_at, self._bend = self.pointer, 0.0
         if pick or (self.tool == "pick" and not erase):
             self.pick()
-        elif self.tool == "select" and not erase:
+        elif self.tool == "select" and erase:
+            self.cancel()
+        elif self.tool == "select":
             self._choose(add=add)
         else:
             self.history.begin()

@@ -509,6 +509,20 @@ def test_chosen_objects_move_in_the_order_with_their_selection(tools: EditorTool
     assert [spec.values[0] for spec in tools.draft.objects] == [36, 84, 60, 108]
 
 
+def test_the_right_button_gives_up_the_selection_and_deletes_nothing_in_select(tools: EditorTools) -> None:
+    tools.pick_up(object_of_type("gold"))
+    drag(tools, (100, 100))
+    before, tools.tool = tools.draft, "select"
+    drag(tools, (100, 100))
+    assert tools.selection
+    drag(tools, (100, 100), erase=True)
+    drag(tools, (100, 100), erase=True)
+    assert (tools.draft, tools.selection, tools.tool) == (before, Selection(), "select")
+    drag(tools, (100, 100))
+    tools.delete()
+    assert not forms(tools)
+
+
 def test_a_paste_is_exact_also_where_slopes_set_themselves(tools: EditorTools) -> None:
     slope, half = TILE_CHARS.index("s"), FAMILIES[4].tiles[3]
     row = {(5 + k, 20): tile for k, tile in enumerate((slope, 1, 1, half, 0))}

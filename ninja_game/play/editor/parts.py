@@ -471,7 +471,7 @@ _TOOL_HINTS = {
     "line": "Drag a line; the wheel bends it meanwhile; objects lie along it. F1: help",
     "ellipse": "Drag an ellipse; tiles fill it, objects lie along it. F1: help",
     "fill": "A click fills what is joined and alike. F1: help",
-    "select": "Click or drag a frame; drag what is selected; Shift adds. Ctrl+C, Ctrl+V, H, J, U. F1: help",
+    "select": "Click or drag a frame; drag what is selected; Shift adds, right button gives up, Del deletes. F1: help",
     "pick": "Click what to draw with. F1: help",
 }
 
