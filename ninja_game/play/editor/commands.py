@@ -220,11 +220,11 @@ class EditorCommands(DocumentCommands):
     # --- files ---
 
     def menu(self) -> None:
-        """Give up what is half done, what is selected, the tool: one each time. Then it is said that the next opens."""
+        """Give up what is half done, the selection, a tool that draws: one each time. Then say that the next opens."""
         view, tools = self.view, self.session.tools
         if view.take(None) or tools.cancel():
             return
-        if tools.tool != TOOLS[0]:
+        if tools.tool not in (TOOLS[0], "select"):
             tools.tool = TOOLS[0]
         elif view.hint == _AGAIN:
             view.hint = ""

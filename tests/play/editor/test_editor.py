@@ -868,12 +868,13 @@ def test_escape_gives_up_step_by_step_and_says_that_the_next_opens_the_menu(room
     tools.tool = "select"
     room.drag((60, 542))
     assert tools.selection
-    left = []
-    for _ in range(3):
-        room.press("escape")
-        assert room.top() is room.editor
-        left.append((bool(tools.selection), tools.tool, "Esc again" in view.hint))
-    assert left == [(False, "select", False), (False, "brush", False), (False, "brush", True)]
+    for tool, kept in (("select", "select"), ("rectangle", "brush")):
+        left, tools.tool, view.hint = [], tool, ""
+        for _ in range(2):
+            room.press("escape")
+            assert room.top() is room.editor
+            left.append((bool(tools.selection), tools.tool, "Esc again" in view.hint))
+        assert left == [(False, kept, False), (False, kept, True)], tool
     room.mouse(*room.at(300, 300), click=False)
     room.press("escape")
     assert room.top() is room.editor, "something lay between"
