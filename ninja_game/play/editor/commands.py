@@ -162,7 +162,7 @@ class EditorCommands(DocumentCommands):
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with another speed, or no more."""
         self.session.next_start()
-        self.view.hint = f"What can be reached within a second from the pointer: {self.session.start}. Y: the next"
+        self.view.hint = ""
 
     def go_to_finding(self, index: int) -> None:
         findings = self.session.examine()
