@@ -154,24 +154,16 @@ class EditorTools:
         """The button goes down at the pointer. ``add``: to what is chosen already."""
         if pick and (self.placing_switch or self.ghost):
             return
-        if self._switchless is not None:
-            if erase:
-                self.cancel()
-            else:
-                self.finish()
-            return
-        if self.ghost is not None:
-            if erase:
-                self.cancel()
-            else:
-                self._put_ghost()
-            self.ghost = None
-            return
         self._pressed_at, self._bend = self.pointer, 0.0
-        if pick or (self.tool == "pick" and not erase):
-            self.pick()
-        elif self.tool == "select" and erase:
+        if erase and (self.placing_switch or self.ghost or self.tool == "select"):
             self.cancel()
+        elif self.placing_switch:
+            self.finish()
+        elif self.ghost:
+            self._put_ghost()
+            self.ghost = None
+        elif pick or (self.tool == "pick" and not erase):
+            self.pick()
         elif self.tool == "select":
             self._choose(add=add)
         else:
