@@ -154,23 +154,17 @@ class EditorTools:
         """The button goes down at the pointer. ``add``: to what is chosen already."""
         if pick and (self.placing_switch or self.ghost):
             return
-        if self._switchless is not None:
-            if erase:
-                self.cancel()
-            else:
-                self.finish()
-            return
-        if self.ghost is not None:
-            if erase:
-                self.cancel()
-            else:
-                self._put_ghost()
-            self.ghost = None
-            return
         self._pressed_at, self._bend = self.pointer, 0.0
-        if pick or (self.tool == "pick" and not erase):
+        if erase and (self.placing_switch or self.ghost or self.tool == "select"):
+            self.cancel()
+        elif self.placing_switch:
+            self.finish()
+        elif self.ghost:
+            self._put_ghost()
+            self.ghost = None
+        elif pick or (self.tool == "pick" and not erase):
             self.pick()
-        elif self.tool == "select" and not erase:
+        elif self.tool == "select":
             self._choose(add=add)
         else:
             self.history.begin()
@@ -254,9 +248,8 @@ class EditorTools:
 
     @property
     def preview(self) -> Tiles:
-        """The tiles that a press would change: what is pasted, or else what the brush draws."""
-        ghost = self.pasted
-        after = self._pasted(ghost)[0] if ghost else self._with(stamps.Stamp({self.cell: self.tile}), self.draft)
+        """The tiles that a press of the brush would change."""
+        after = self._with(stamps.Stamp({self.cell: self.tile}), self.draft)
         return {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
@@ -475,15 +468,10 @@ class EditorTools:
             moves.append(by - step * max(0, ceil((high + by - end + CELL) / step)))
         return self.ghost.carried(Motion(dx=moves[0], dy=moves[1]))
 
-    def _pasted(self, stamp: stamps.Stamp) -> tuple[Draft, stamps.Selection]:
-        """The draft with a stamp on it, with slopes where they set themselves, and the selection of it."""
-        after, selection = stamps.pasted(self.draft, stamp)
-        return stamps.sloped(self.draft, after) if self.slopes else after, selection
-
     def _put_ghost(self) -> None:
         if stamp := self.pasted:
             self.tool = "select"
-            draft, self.selection = self._pasted(stamp)
+            draft, self.selection = stamps.pasted(self.draft, stamp)
             self.history.change(draft)
 
     @property

@@ -509,21 +509,32 @@ def test_chosen_objects_move_in_the_order_with_their_selection(tools: EditorTool
     assert [spec.values[0] for spec in tools.draft.objects] == [36, 84, 60, 108]
 
 
-def test_what_is_pasted_is_joined_where_slopes_set_themselves(tools: EditorTools) -> None:
-    tools.history.change(tools.draft.with_tiles(dict.fromkeys([(column, 20) for column in range(5, 20)], 1)))
-    tools.selection = Selection((5, 20, 3, 1))
+def test_the_right_button_gives_up_the_selection_and_deletes_nothing_in_select(tools: EditorTools) -> None:
+    tools.pick_up(object_of_type("gold"))
+    drag(tools, (100, 100))
+    before, tools.tool = tools.draft, "select"
+    drag(tools, (100, 100))
+    assert tools.selection
+    drag(tools, (100, 100), erase=True)
+    drag(tools, (100, 100), erase=True)
+    assert (tools.draft, tools.selection, tools.tool) == (before, Selection(), "select")
+    drag(tools, (100, 100))
+    tools.delete()
+    assert not forms(tools)
+
+
+def test_a_paste_is_exact_also_where_slopes_set_themselves(tools: EditorTools) -> None:
+    slope, half = TILE_CHARS.index("s"), FAMILIES[4].tiles[3]
+    row = {(5 + k, 20): tile for k, tile in enumerate((slope, 1, 1, half, 0))}
+    tools.history.change(tools.draft.with_tiles({(column, 12): 1 for column in range(5, 20)} | row))
+    tools.slopes, tools.selection = True, Selection((5, 20, 5, 1))
     tools.copy()
-    for slopes in (False, True):
-        tools.slopes = slopes
-        tools.paste()
-        tools.pointer = 24 * 11 + 12.0, 24 * 19 + 12.0
-        shown, before = tools.preview, tools.draft
-        tools.press()
-        tools.release()
-        assert shown == {cell: tools.draft.tile(cell) for cell in changed_cells(before, tools.draft)}
-        made = [tools.draft.tile((column, 19)) for column in range(9, 14)]
-        assert (set(made) <= {0, 1}) is not slopes
-        tools.undo()
+    tools.paste()
+    drag(tools, (24 * 11 + 12.0, 24 * 11 + 12.0))
+    after = tools.draft
+    assert [tools.draft.tile((column, 11)) for column in range(9, 14)] == list(row.values())
+    tools.undo()
+    assert {cell[1] for cell in changed_cells(after, tools.draft)} == {11}, "nothing round it becomes another tile"
 
 
 def test_a_copied_piece_of_the_border_pastes_nothing(tools: EditorTools) -> None:

@@ -333,7 +333,7 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
     yield "editor-placing-a-switch"
     driver.press("escape", "m", "m", "m", "m", "f4")
     yield "editor-selected"
-    driver.press(*["escape"] * 4)
+    driver.press(*["escape"] * 3)
     yield "editor-menu"
     driver.press("escape", "f2")
     yield "editor-about"

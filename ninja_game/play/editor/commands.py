@@ -162,7 +162,7 @@ class EditorCommands(DocumentCommands):
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with another speed, or no more."""
         self.session.next_start()
-        self.view.hint = f"What can be reached within a second from the pointer: {self.session.start}. Y: the next"
+        self.view.hint = ""
 
     def go_to_finding(self, index: int) -> None:
         findings = self.session.examine()
@@ -220,11 +220,11 @@ class EditorCommands(DocumentCommands):
     # --- files ---
 
     def menu(self) -> None:
-        """Give up what is half done, what is selected, the tool: one each time. Then it is said that the next opens."""
+        """Give up what is half done, the selection, a tool that draws: one each time. Then say that the next opens."""
         view, tools = self.view, self.session.tools
         if view.take(None) or tools.cancel():
             return
-        if tools.tool != TOOLS[0]:
+        if tools.tool not in (TOOLS[0], "select"):
             tools.tool = TOOLS[0]
         elif view.hint == _AGAIN:
             view.hint = ""

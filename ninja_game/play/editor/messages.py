@@ -315,7 +315,11 @@ class MessagesScreen(MenuScreen):
             count = f"{length} of {MOST_LETTERS}"
             theme.text(surface, count, 36 + WIDE, row + 95, size=8.5, colour=colour, align="right")
             wrong = message.problem[1] if self._refused else ""
-            wrong = f"There is no {message.unknown}: the words are at the right" if message.unknown else wrong
+            if message.unknown:
+                wrong = f"There is no {message.unknown}: the words are at the right"
+            elif not message.problem[1]:
+                unseen = unseen_messages(message.source, self._ground)
+                wrong = next((f"Never shown: {finding.text.rpartition(': ')[2]}" for finding in unseen), "")
             colour = theme.palette.bad if wrong else theme.palette.faint
             theme.text(surface, wrong or self._turn_of(message), 36, row + 95, size=8.5, colour=colour, width=WIDE - 56)
             if self.focus in self._row_widgets[number]:

@@ -451,7 +451,9 @@ class StatusLine(EditorPart):
         slopes = "Slopes by themselves. " * (
             tools.slopes and not tools.objects and tools.tool not in ("select", "pick")
         )
-        return self.view.hint or slopes + _TOOL_HINTS[tools.effective_tool]
+        start = self.session.start
+        shown = slopes + _TOOL_HINTS[tools.effective_tool] if start == "off" else _REACH.format(start)
+        return self.view.hint or shown
 
     def render_key(self) -> tuple[object, ...]:
         return self.session.tools.pointer, self._text(), self.view.camera.zoom
@@ -465,13 +467,14 @@ class StatusLine(EditorPart):
         theme.text(surface, self._text(), 140, top, size=9.5, colour=colour, width=584)
 
 
+_REACH = "Reached in 1 s, {}: squares, red deadly; red lines: dangers; dots: each 1/4 s; upright: last jumps. Y: next"
 _TOOL_HINTS = {
     "brush": "Left button draws, right erases, middle picks; wheel zooms, middle drag moves. F1: help",
     "rectangle": "Drag a rectangle; right button erases. F1: help",
     "line": "Drag a line; the wheel bends it meanwhile; objects lie along it. F1: help",
     "ellipse": "Drag an ellipse; tiles fill it, objects lie along it. F1: help",
     "fill": "A click fills what is joined and alike. F1: help",
-    "select": "Click or drag a frame; drag what is selected; Shift adds. Ctrl+C, Ctrl+V, H, J, U. F1: help",
+    "select": "Click or drag a frame; drag what is selected; Shift adds, right button gives up, Del deletes. F1: help",
     "pick": "Click what to draw with. F1: help",
 }
 

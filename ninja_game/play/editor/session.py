@@ -73,6 +73,9 @@ def _examine(question: Question) -> Examined:
     odd = level_findings(level, says)
     # What the ninja cannot reach at all need not be told of the solver too.
     out_of_reach = {number for each in odd if each.code in UNREACHABLE for number in each.records}
+    # Of an exit that is shut in, one line is enough: its switch is told of once the exit can be reached.
+    shut = {number for each in odd if each.code == "unreachable" for number in each.records}
+    odd = [each for each in odd if each.code != "unreachable-switch" or not shut.issuperset(each.records)]
     return level, [*(each for each in found if not out_of_reach.intersection(each.records)), *odd]
 
 

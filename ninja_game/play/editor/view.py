@@ -8,7 +8,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor.certify import NO_TESTS, SQUARE, Reach, Route
-from ninja_game.editor.draft import Draft, Tiles
+from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, Stamp, area_between, nearest
@@ -133,9 +133,9 @@ class Overlay:
         pygame.draw.rect(self.target.surface, colour, rect, self.canvas.px(1.6))
         self._note(rect)
 
-    def _ghost(self, stamp: Stamp, tiles: Tiles) -> None:
-        """What would be pasted, and the tiles that this would change."""
-        for cell, tile in tiles.items():
+    def _ghost(self, stamp: Stamp) -> None:
+        """What would be pasted."""
+        for cell, tile in stamp.tiles.items():
             self._ghost_tile(cell, tile)
         for each in self.sheet.pictures.sprites_of(stamp.objects).values():
             each.draw(self.target, alpha=GHOST)
@@ -147,7 +147,7 @@ class Overlay:
         if tools.placing_switch:
             return
         if ghost := tools.pasted:
-            self._ghost(ghost, tools.preview)
+            self._ghost(ghost)
             return
         draws = tools.effective_tool not in ("select", "pick")
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))

@@ -13,6 +13,8 @@ from ninja_game.editor import packs
 from ninja_game.editor.brush import object_of_type, placed, with_switch
 from ninja_game.editor.certify import Search, passed_by, search_of
 from ninja_game.editor.files import open_source
+from ninja_game.editor.specs import BODY, SWITCH, points
+from ninja_game.formats.ascii.places import cell_of, is_inside
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay, parse_replay
@@ -204,6 +206,18 @@ def test_a_pass_of_ones_own_certifies_the_level_as_it_is(room: Maker, tmp_path: 
 def test_a_pass_with_help_certifies_nothing(room: Maker) -> None:
     assert passed(room, helped="period") == "", "a single step"
     assert passed(room) != ""
+
+
+def test_an_exit_in_one_wall_with_its_switch_is_one_problem(room: Maker) -> None:
+    exit_ = next(n for n, spec in enumerate(room.draft.objects) if spec.kind == EXIT)
+    (column, row), (at, on) = (cell_of(*points(room.draft.objects[exit_])[part]) for part in (BODY, SWITCH))
+    around = {(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)} - {(0, 0)}
+    walls = [{(a + i, b + j) for i, j in around if is_inside((a + i, b + j))} for a, b in ((column, row), (at, on))]
+    found = []
+    for shut in (walls[0] | walls[1], walls[1]):
+        level = room.draft.with_tiles(dict.fromkeys(shut, 1)).level
+        found.append([each.code for each in _examine((level, (), ""))[1] if exit_ in each.records])
+    assert found == [["unreachable"], ["unreachable-switch"]]
 
 
 def test_a_search_for_an_exit_that_cannot_be_reached_is_asked_about(

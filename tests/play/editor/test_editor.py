@@ -26,8 +26,9 @@ from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.commands import TABLE, TryScreen
 from ninja_game.play.editor.palette_view import entry_of_key
-from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList
+from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine
 from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import FormPanel, Menu
@@ -447,7 +448,10 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
 
     before = room.app.surface.copy()
     room.press("y")
-    assert "standing" in room.editor.view.hint
+    status = next(each for each in room.editor.parts if isinstance(each, StatusLine))
+    assert status._text().startswith("Reached in 1 s, standing: squares, red deadly; ")
+    room.mouse(*LAYOUT.file[:2], click=False)
+    assert status._text().startswith("Reached in 1 s"), "as long as it is shown"
     standing = shown(396, 541)
     left, right = edges(standing)
     assert abs((396 - left) - (right - 396)) <= 2 * SQUARE, "standing, both sides are alike"
@@ -472,6 +476,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     assert 440 < edge[0][0] < 474, "the last place to jump from is at the edge"
     room.press("y", "y")
     assert session.reach is None
+    assert "Reached" not in status._text()
 
 
 def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_once(room: Maker) -> None:
@@ -868,12 +873,13 @@ def test_escape_gives_up_step_by_step_and_says_that_the_next_opens_the_menu(room
     tools.tool = "select"
     room.drag((60, 542))
     assert tools.selection
-    left = []
-    for _ in range(3):
-        room.press("escape")
-        assert room.top() is room.editor
-        left.append((bool(tools.selection), tools.tool, "Esc again" in view.hint))
-    assert left == [(False, "select", False), (False, "brush", False), (False, "brush", True)]
+    for tool, kept in (("select", "select"), ("rectangle", "brush")):
+        left, tools.tool, view.hint = [], tool, ""
+        for _ in range(2):
+            room.press("escape")
+            assert room.top() is room.editor
+            left.append((bool(tools.selection), tools.tool, "Esc again" in view.hint))
+        assert left == [(False, kept, False), (False, kept, True)], tool
     room.mouse(*room.at(300, 300), click=False)
     room.press("escape")
     assert room.top() is room.editor, "something lay between"

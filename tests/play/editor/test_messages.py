@@ -109,7 +109,8 @@ def test_all_moments_are_listed_and_one_is_taken(room: Maker) -> None:
 
 
 def test_those_of_one_moment_are_numbered_with_their_seconds(room: Maker) -> None:
-    room.editor.session.tools.history.change(replace(room.draft, says="start: a | gold: b | start: c | switch: d"))
+    draft = put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),)))
+    room.editor.session.tools.history.change(replace(draft, says="start: a | gold: b | start: c | switch: d"))
     opened(room)
     shown = drawn(room.app)
     for text in ("'No. 1 of 2, 6 s'", "'6 s'", "'No. 2 of 2, 6 s'", "'12 s'"):
@@ -417,6 +418,10 @@ def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
         screen.messages = [Message(when, "", "x")]
         screen.enter()
         assert ("is never shown: there is no" in drawn(room.app)) is never
+        assert ("Never shown: there is no" in drawn(room.app)) is never
+    screen.messages = [Message("start", "", "x"), Message("trap", "", "y: z")]
+    screen.enter()
+    assert "text 'Never shown: there is no trap door'" in drawn(room.app), "also under one that is not selected"
 
 
 def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:
