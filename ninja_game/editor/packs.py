@@ -11,6 +11,7 @@ from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from itertools import count
+from math import ceil
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -456,9 +457,9 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
 
     def report(name: str, progress: Progress) -> None:
         over = monotonic() - began
-        so_far, left = f"{progress.seconds:.0f} s; {done} of {total} done", max(0.0, longest - over)
-        text = f"Looking for {names[name]}: {so_far}, at most {left:.0f} s left"
-        say(text, min(1.0, max(done / len(files), over / longest)))
+        left = f"at most {ceil(longest - over)} s left" if over < longest else "longer than usual"
+        text = f"Looking for {names[name]}: {progress.seconds:.0f} s; {done} of {total} done, {left}"
+        say(text, max(done / len(files), over / longest if over < longest else 0.0))
 
     if levels:
         say(f"{COMPILING}. You can go on with something else meanwhile", None)

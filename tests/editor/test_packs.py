@@ -222,6 +222,26 @@ def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch)
     assert said[2].startswith("Looking for a run with all gold of Springtime: 2 s; ")
 
 
+def test_a_search_that_takes_longer_says_so_with_no_full_bar(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (pack / RUN).unlink()
+    for file in Pack(pack).levels:
+        packs.accept(pack, file, "no-gold-run", "a joke")
+    clock, said = [0.0], list[tuple[str, float | None]]()
+
+    def search(
+        levels: list[NamedLevel], *_: object, report: Callable[[str, Progress], None], **__: object
+    ) -> list[Any]:
+        for clock[0] in (10.0, 39.7, 40.0):
+            report(Path(levels[0].file).stem, Progress(seconds=16.0))
+        return [{} for _ in levels]
+
+    monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
+    monkeypatch.setattr(packs, "monotonic", lambda: clock[0])
+    make_ready(pack, seconds=20.0, jobs=1, say=lambda text, share: said.append((text.rpartition(", ")[2], share)))
+    reports = [each for each in said if each[0].startswith(("at most", "longer"))]
+    assert reports == [("at most 30 s left", 0.25), ("at most 1 s left", 39.7 / 40), ("longer than usual", 0.0)]
+
+
 def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     searched: list[str] = []
 
