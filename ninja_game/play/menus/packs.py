@@ -610,11 +610,11 @@ class PackScreen(ThumbnailScreen):
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
         super().draw_widgets(surface)
-        if landing := self._landing():
-            self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *landing, 2)
         if self.held and self.pointer:
             x, y = self.pointer
             if self.held.level:
                 self.thumbnails.draw(surface, self.held.level, x + 6, y + 6, 60)
             else:
                 self.theme.row(surface, (x + 6, y + 6, 2 * WIDE, HIGH / 4), chosen=True, focused=True)
+        if landing := self._landing():
+            self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *landing, 2)

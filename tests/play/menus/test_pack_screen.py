@@ -42,7 +42,7 @@ from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.level import Level
 from ninja_game.ui.input.gamepad import BUTTONS
 from ninja_game.ui.theme import Area
-from tests.support.draw_log import drawn
+from tests.support.draw_log import drawn, px
 from tests.support.level_maker import ROOM
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
@@ -88,6 +88,8 @@ def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriv
     driver.carry(shelves.row_area(1), half(screen, 5, right=True), drop=False)
     x, y, w, _ = shelves.row_area(5)
     assert screen._landing() == (x + w - 2, y + 4, 4, shelves.cell_height - 8), "a mark shows where"
+    seen, mark = drawn(driver.app), f"fill accent {px(x + w - 2, y + 4)} 4 x"
+    assert seen.index(mark) > seen.index("First Steps' at 577,"), "not behind what is held"
     driver.mouse_up(half(screen, 5, right=True))
     assert layout(path)[0] == ["00-1", "00-2", "00-3", "00-4", "00-0"]
     driver.carry(shelves.row_area(5), half(screen, 2, right=True))
