@@ -901,6 +901,15 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
         assert problem.go
         problem.go()
     assert len(set(shown)) == len(shown) == len(inside) > 1
+    assert inside[0].accept
+    inside[0].accept()
+    typed(driver, "meant")
+    [accepted] = [problem for problem in screen.problems() if problem.accepted]
+    both = [problem.text.removeprefix("First Steps: ") for problem in inside]
+    assert accepted.text == f"First Steps: {'; '.join(both)}. Accepted: meant"
+    assert accepted.go
+    accepted.go()
+    assert shown[-1] == shown[0]
 
 
 def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
