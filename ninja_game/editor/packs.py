@@ -470,6 +470,7 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
     if levels:
         say(f"{COMPILING}. You can go on with something else meanwhile", None)
         compile_solver()
+        say("Starting the search", None)
     began = monotonic()
     all_found = certify_all(list(levels.values()), files, wanted, jobs=jobs, report=report)
     for named, found in zip(levels.values(), all_found, strict=True):
