@@ -367,7 +367,11 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     assert driver.button("Stop")
     [entry] = [cell.level for cell in screen.shelves.cells if cell.level and cell.level.title == "First Steps"]
     assert screen.status.state(entry) == "no run yet", "though its time is measured"
-    assert screen.status.counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
+    driver.choose("Problems")
+    [to_do] = [problem.text for problem in driver.shown(ProblemsScreen).problems if problem.to_do]
+    assert to_do.startswith("Make ready is at work, and will certify 1 level"), "it has begun"
+    driver.press("escape")
+    assert to_do in screen.status.counts()
     go_on.set()
 
     def state() -> str:
