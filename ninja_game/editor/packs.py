@@ -11,6 +11,7 @@ from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from itertools import count
+from math import ceil
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -358,6 +359,8 @@ Obstacles = dict[tuple[Level, str], Finding]
 _MISSING = {"no-certificate": "exit", "no-gold-run": "gold"}
 """Findings that a run is not there, by code: of which kind."""
 
+_SOUGHT = {"exit": "run to the exit", "gold": "run with all gold"}
+
 MADE_READY = (*_MISSING, "certificate", "no-pars", "old-pars")
 """Codes of what ``make_ready`` mends, unless it has tried in vain."""
 
@@ -405,8 +408,18 @@ def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Ob
 
 
 def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
-    """What is odd about a pack; where a run is missing, with what kept the solver from it."""
-    return [finding._replace(text=_with_obstacle(pack, finding, obstacles)) for finding in lint(pack, with_gold=True)]
+    """What is odd about a pack; where a run was searched in vain, why: to the exit alone where there is none."""
+    found, no_exit = dict[PackFinding, None](), set[Level]()
+    for finding in lint(pack, with_gold=True):
+        said, missing = finding, missing_run(pack, finding)
+        if missing and (why := obstacles.get(missing)):
+            level, kind = missing
+            if kind == "gold" and level in no_exit:
+                continue
+            no_exit |= {level} if kind == "exit" else set()
+            said = finding._replace(text=f"the search found no {_SOUGHT[kind]}: {why.sentence}")
+        found[said] = None
+    return list(found)
 
 
 def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:
@@ -427,11 +440,6 @@ def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
     return level, next(iter(broken), _MISSING.get(code, ""))
 
 
-def _with_obstacle(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> str:
-    why = obstacle_of(pack, finding, obstacles)
-    return f"{finding.text}. The search found none: {why.sentence}" if why else finding.text
-
-
 def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstacles: Obstacles) -> None:
     """Certify the levels of which anything is not known yet, nor accepted."""
     from ninja_game.search.certify import CertifyOptions, certify_all
@@ -448,21 +456,21 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
     levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in KINDS)}
     wanted = CertifyOptions({"exit": 0, "gold": -1}, {"seconds": seconds})
     files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
-    sought = {"exit": "a run to the exit", "gold": "a run with all gold"}
-    goals = {file: " and ".join(sought[kind] for kind in KINDS if is_open(file, kind)) for file in levels}
+    goals = {file: " and ".join(f"a {_SOUGHT[kind]}" for kind in KINDS if is_open(file, kind)) for file in levels}
     names = {Path(file).stem: f"{goals[file]} of {shown_text(named.name)}" for file, named in levels.items()}
     total = counted(len(files), "level")
     done, longest = 0, max(1.0, -(-len(files) // jobs) * len(KINDS) * seconds)
 
     def report(name: str, progress: Progress) -> None:
         over = monotonic() - began
-        so_far, left = f"{progress.seconds:.0f} s; {done} of {total} done", max(0.0, longest - over)
-        text = f"Looking for {names[name]}: {so_far}, at most {left:.0f} s left"
-        say(text, min(1.0, max(done / len(files), over / longest)))
+        left = f"at most {ceil(longest - over)} s left" if over < longest else "longer than usual"
+        text = f"Looking for {names[name]}: {progress.seconds:.0f} s; {done} of {total} done, {left}"
+        say(text, max(done / len(files), over / longest if over < longest else 0.0))
 
     if levels:
         say(f"{COMPILING}. You can go on with something else meanwhile", None)
         compile_solver()
+        say("Starting the search", None)
     began = monotonic()
     all_found = certify_all(list(levels.values()), files, wanted, jobs=jobs, report=report)
     for named, found in zip(levels.values(), all_found, strict=True):

@@ -19,6 +19,7 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.index import PackIndex
 from ninja_game.formats.pack.pack import CERTIFICATES, Pack, PackFiles, certificate_name, is_pack
 from ninja_game.formats.replay.text import Replay, parse_replay
+from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.episodes import GAME, YOURS, Entry, Episode, EpisodeSet, Mood, episode_set
 from ninja_game.sim.level import Level
 
@@ -83,6 +84,12 @@ class Catalogue:
     def episode_of(self, entry: Entry) -> Episode | None:
         pack = self._pack_of(entry)
         return pack.episodes.get(entry.position[0]) if pack and entry.position else None
+
+    def is_own(self, entry: Entry) -> bool:
+        """Whether the player has made a level: it is in no pack that was received, nor in that of days."""
+        pack = self._pack_of(entry)
+        made = pack and pack.changeable and not pack.received and pack.path and pack.path.name != DAILY
+        return entry.source == YOURS or bool(made)
 
     def _pack_of(self, entry: Entry) -> EpisodeSet | None:
         return self.ours if entry.source == GAME else self._known.get(entry.source)

@@ -12,7 +12,7 @@ from ninja_game.files.writing import remove_leftovers
 from ninja_game.formats.pack.pack import certificate_name
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.levels.episodes import GAME, YOURS, Entry, Episode
+from ninja_game.levels.episodes import Entry, Episode
 from ninja_game.player import progress
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
@@ -37,6 +37,7 @@ class PlayerData:
         self._messages: list[str] = []
         self._reported: set[str] = set()
         self._progress: dict[str, Progress] = {}
+        self._is_maker = True
         self._certified: dict[str, tuple[object, Replay | None]] = {}
         try:
             make_user_folder(self.folder)
@@ -57,7 +58,7 @@ class PlayerData:
     def newcomer(self) -> PlayerData:
         """The same levels, for somebody without a name who has played nothing; what is played so is forgotten."""
         other = PlayerData(self.folder, store=Store(None, "this is a preview"), catalogue=self.catalogue)
-        other.settings = self.settings.changed(name="")
+        other.settings, other._is_maker = self.settings.changed(name=""), False
         return other
 
     @property
@@ -123,8 +124,7 @@ class PlayerData:
         episode = None if mark else self.catalogue.episode_of(entry)
         if episode and entry.position and self.beaten_in(episode) > entry.position:
             return "Skipped, not passed yet"
-        mine = entry.source == YOURS or (entry.source != GAME and entry.named.author == self.settings.name != "")
-        run = self._certificate(entry) if mine and mark is None else None
+        run = self._certificate(entry) if mark is None and self._is_maker and self.catalogue.is_own(entry) else None
         certified = f"Certified: {seconds_text(run.end_tick)} s" if run else ""
         return progress.reached(entry, mark) or certified or "Not passed yet"
 

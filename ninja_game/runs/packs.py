@@ -45,7 +45,7 @@ class Certificate:
         digest = level_digest(self.level)
         verdict = with_demands(self.verdict, {digest: self.place}, only_these=True, strict=True)
         if verdict.level_digest != digest:
-            return ["it is a run of another level, or the level was changed after it"]
+            return ["the certificate is of an older version of the level, or of another level"]
         problems = [str(problem) for problem in verdict.problems]
         gold = self.level.gold
         if self.kind == "gold" and verdict.gold < gold:

@@ -165,10 +165,11 @@ def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Pa
             file.unlink()
     text = (pack / FIRST).read_text("utf-8")
     (pack / FIRST).write_text(text.replace("ox...", "o....").replace("22 |##", "22 |x#"), "utf-8")
+    shutil.copy(pack / RUN, pack / RUN.replace("exit", "gold"))
     obstacles: Obstacles = {}
     ready = make_ready(pack, seconds=4.0, jobs=1, say=_quiet, obstacles=obstacles)
-    told = "The search found none: exit at 30,18 (object 6): the solver never touched its switch"
-    assert [finding.code for finding in ready.findings if finding.text.endswith(told)] == ["certificate"]
+    told = "the search found no run to the exit: exit at 30,18 (object 6): the solver never touched its switch"
+    assert [finding.text for finding in ready.findings if finding.code == "certificate"] == [told], "not of gold too"
     level = Pack(pack).levels[FIRST].level
     assert list(obstacles) == [(level, "exit"), (level, "gold")]
 
@@ -191,7 +192,7 @@ def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(
     assert searched == []
     assert {finding.code for finding in ready.findings} == {"no-gold-run"}
     assert len(ready.findings) == len(levels) - 1
-    assert ready.findings[0].text.endswith("The search found none: 1 at most were collected at once, never gold")
+    assert ready.findings[0].text.startswith("the search found no run with all gold: 1 at most were collected at once")
     packs.take_back(pack, FIRST, "no-gold-run")
     assert "accept" not in (pack / "pack.toml").read_text("utf-8")
     make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
@@ -216,10 +217,31 @@ def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch)
     said: list[str] = []
     make_ready(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
     assert said[0].startswith("The solver is compiled, the first time on a machine a minute or more. You can go on")
-    assert said[1].startswith(
+    assert said[1] == "Starting the search", "compiled once, it takes its time too"
+    assert said[2].startswith(
         "Looking for a run to the exit and a run with all gold of First Steps: 2 s; 0 of 2 levels"
     )
-    assert said[2].startswith("Looking for a run with all gold of Springtime: 2 s; ")
+    assert said[3].startswith("Looking for a run with all gold of Springtime: 2 s; ")
+
+
+def test_a_search_that_takes_longer_says_so_with_no_full_bar(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (pack / RUN).unlink()
+    for file in Pack(pack).levels:
+        packs.accept(pack, file, "no-gold-run", "a joke")
+    clock, said = [0.0], list[tuple[str, float | None]]()
+
+    def search(
+        levels: list[NamedLevel], *_: object, report: Callable[[str, Progress], None], **__: object
+    ) -> list[Any]:
+        for clock[0] in (10.0, 39.7, 40.0):
+            report(Path(levels[0].file).stem, Progress(seconds=16.0))
+        return [{} for _ in levels]
+
+    monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
+    monkeypatch.setattr(packs, "monotonic", lambda: clock[0])
+    make_ready(pack, seconds=20.0, jobs=1, say=lambda text, share: said.append((text.rpartition(", ")[2], share)))
+    reports = [each for each in said if each[0].startswith(("at most", "longer"))]
+    assert reports == [("at most 30 s left", 0.25), ("at most 1 s left", 39.7 / 40), ("longer than usual", 0.0)]
 
 
 def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -190,7 +190,9 @@ class PackStatus:
         work["look for all gold in"] = gold, "level"
         parts = [f"{what} {counted(*count)}" for what, count in work.items() if count[0]]
         parts = parts or ["renew the medal times"] * bool(known)
-        return f"Make ready will {', '.join(parts[:-1])}{' and ' * (len(parts) > 1)}{parts[-1]}" if parts else ""
+        begun = self.packer.busy and self.pack is not None and self.packer.path == self.pack.path
+        will = "Make ready is at work, and will" if begun else "Make ready will"
+        return f"{will} {', '.join(parts[:-1])}{' and ' * (len(parts) > 1)}{parts[-1]}" if parts else ""
 
     def state(self, level: Entry) -> str:
         """How far a level is, in a word: its time where it is measured."""

@@ -551,10 +551,13 @@ class PackScreen(ThumbnailScreen):
         self._edit(entry, known or next((each for each in odd if each.sentence == sentence), None))
 
     def _accepted(self, accepted: Accepted) -> Problem:
-        entry, code = self._entry(accepted.file), accepted.code.replace("-", " ")
+        entry = self._entry(accepted.file)
+        every = level_findings(entry.named.level, entry.named.says) if entry else []
+        odd = [each for each in every if each.code == accepted.code]
+        said = "; ".join(each.sentence for each in odd) or accepted.code.replace("-", " ")
         take_back = partial(packs.take_back, self.path, accepted.file, accepted.code)
-        text = f"{entry.title if entry else accepted.file}: {code}. Accepted: {accepted.reason}"
-        go = partial(self.change, partial(self._edit, entry, None), "Edit") if entry else None
+        text = f"{entry.title if entry else accepted.file}: {said}. Accepted: {accepted.reason}"
+        go = partial(self.change, partial(self._edit, entry, next(iter(odd), None)), "Edit") if entry else None
         return Problem(text, "", go, lambda: self.change(take_back, "Take it back"), accepted=True)
 
     def update(self, real_ms: int) -> None:
@@ -610,11 +613,11 @@ class PackScreen(ThumbnailScreen):
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
         super().draw_widgets(surface)
-        if landing := self._landing():
-            self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *landing, 2)
         if self.held and self.pointer:
             x, y = self.pointer
             if self.held.level:
                 self.thumbnails.draw(surface, self.held.level, x + 6, y + 6, 60)
             else:
                 self.theme.row(surface, (x + 6, y + 6, 2 * WIDE, HIGH / 4), chosen=True, focused=True)
+        if landing := self._landing():
+            self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *landing, 2)

@@ -24,6 +24,7 @@ from ninja_game.formats.links import write_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay
+from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.findings import level_finding, pack_finding
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
@@ -42,7 +43,7 @@ from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.level import Level
 from ninja_game.ui.input.gamepad import BUTTONS
 from ninja_game.ui.theme import Area
-from tests.support.draw_log import drawn
+from tests.support.draw_log import drawn, px
 from tests.support.level_maker import ROOM
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
@@ -88,6 +89,8 @@ def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriv
     driver.carry(shelves.row_area(1), half(screen, 5, right=True), drop=False)
     x, y, w, _ = shelves.row_area(5)
     assert screen._landing() == (x + w - 2, y + 4, 4, shelves.cell_height - 8), "a mark shows where"
+    seen, mark = drawn(driver.app), f"fill accent {px(x + w - 2, y + 4)} 4 x"
+    assert seen.index(mark) > seen.index("First Steps' at 577,"), "not behind what is held"
     driver.mouse_up(half(screen, 5, right=True))
     assert layout(path)[0] == ["00-1", "00-2", "00-3", "00-4", "00-0"]
     driver.carry(shelves.row_area(5), half(screen, 2, right=True))
@@ -137,7 +140,7 @@ def test_the_authors_run_of_ones_own_level_needs_no_medal(driver: MenuDriver, pa
 
 
 def test_ones_own_level_with_its_certificate_is_certified(driver: MenuDriver, path: Path) -> None:
-    driver.app.change_settings(name="the ninja-game team")
+    assert driver.player.settings.name == "", "whoever has no name has levels too"
     gap = path / "00-1-mind-the-gap.txt"
     gap.write_text(gap.read_text("utf-8").replace("@", ".", 1), "utf-8")
     driver.open("Levels")
@@ -145,9 +148,13 @@ def test_ones_own_level_with_its_certificate_is_certified(driver: MenuDriver, pa
         driver.shown(Browser).list.index = index
         assert said in re.findall("text '(.*?)' at 436,408", drawn(driver.app))
     assert drawn(driver.app).count("text 'certified' at") == 7, "of the eight rows"
-    driver.app.change_settings(name="Ida")
-    assert driver.player.reached(driver.shown(Browser).shown[0], None) == "Not passed yet"
-    assert "text 'certified' at" not in drawn(driver.app)
+    (path / "received").touch()
+    for _ in ("received", "of days"):
+        driver.shown(Browser).enter()
+        assert driver.player.reached(driver.shown(Browser).shown[0], None) == "Not passed yet"
+        assert "text 'certified' at" not in drawn(driver.app)
+        path = path.rename(path.with_name(DAILY))
+        (path / "received").unlink(missing_ok=True)
 
 
 def test_a_full_episode_says_so(driver: MenuDriver, path: Path) -> None:
@@ -360,7 +367,11 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     assert driver.button("Stop")
     [entry] = [cell.level for cell in screen.shelves.cells if cell.level and cell.level.title == "First Steps"]
     assert screen.status.state(entry) == "no run yet", "though its time is measured"
-    assert screen.status.counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
+    driver.choose("Problems")
+    [to_do] = [problem.text for problem in driver.shown(ProblemsScreen).problems if problem.to_do]
+    assert to_do.startswith("Make ready is at work, and will certify 1 level"), "it has begun"
+    driver.press("escape")
+    assert to_do in screen.status.counts()
     go_on.set()
 
     def state() -> str:
@@ -899,6 +910,15 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
         assert problem.go
         problem.go()
     assert len(set(shown)) == len(shown) == len(inside) > 1
+    assert inside[0].accept
+    inside[0].accept()
+    typed(driver, "meant")
+    [accepted] = [problem for problem in screen.problems() if problem.accepted]
+    both = [problem.text.removeprefix("First Steps: ") for problem in inside]
+    assert accepted.text == f"First Steps: {'; '.join(both)}. Accepted: meant"
+    assert accepted.go
+    accepted.go()
+    assert shown[-1] == shown[0]
 
 
 def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
