@@ -94,7 +94,7 @@ class Rack(ListView):
     def _draw_level(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
         canvas, palette, state, right = theme.canvas, theme.palette, self.status.state(level), x + WIDE - 12
         self.thumbnails.draw(surface, level, x, y, WIDE - 12)
-        pars = level.pars if state not in NOT_CERTIFIED else None
+        pars = level.pars if state not in (*NOT_CERTIFIED, NOT_FOUND) else None
         gold = pars is not None and pars.gold is not None and level.all_gold > 0
         title, room = shown_text(level.title), w - 12 * gold
         top = y + (63 if len(wrapped(theme, title, room, 9.5)) > 1 else 69)
