@@ -365,6 +365,23 @@ def test_the_same_end_is_found_sooner_and_the_rest_follows(at: TasDriver, tab: S
     assert results.words(fewer)[0].endswith(", 2 gold fewer")
 
 
+@pytest.mark.parametrize("name", ["Reach the exit sooner", "Whole run"])
+@pytest.mark.parametrize("passed", [True, False])
+def test_gold_is_said_also_where_the_own_keys_do_not_reach_the_goal(
+    at: TasDriver, tab: SearchTab, name: str, passed: bool
+) -> None:
+    if not passed:
+        at.editor.edit(lambda track: track.replaced(130, len(track), b""))
+    at.editor.select(100, 130)
+    wish(at, name)
+    results, timeline = results_of(tab), at.session.timeline
+    gold = int(timeline.column("gold")[timeline.end[0]])
+    found = SpanResult(1.0, 1, np.zeros(1, np.uint8), b"\0", gold)
+    assert "gold" not in results.words(found)[0]
+    assert results.words(replace(found, gold=gold - 1))[0].endswith(", 1 gold fewer")
+    assert results.words(replace(found, gold=gold + 2))[0].endswith(", 2 gold more")
+
+
 @pytest.mark.parametrize("name", ["Be there sooner", "Go beyond sooner"])
 def test_a_run_gets_shorter_by_what_the_list_says(at: TasDriver, tab: SearchTab, name: str) -> None:
     at.editor.edit(lambda track: track.replaced(0, 0, [0] * 9))
