@@ -7,6 +7,7 @@ from functools import partial
 from math import hypot
 from time import monotonic
 
+import numpy as np
 import pygame
 
 from ninja_game.errors import ArgumentError, NinjaGameError
@@ -174,6 +175,15 @@ class SpanResults:
         same = (each for each in self._others if with_press_bits(fit_inputs(each.track.inputs, ticks)) == keys)
         return next(same, None)
 
+    def _like(self, found: SpanResult) -> str:
+        """The run beside whose way is nearest to that of a result, in words."""
+
+        def apart(other: OtherRun) -> float:
+            ticks = min(len(found.path), len(other.positions))
+            return float(np.hypot(*(found.path[:ticks] - other.positions[:ticks]).T).mean())
+
+        return f"like {min(self._others, key=apart).name}"
+
     def _taken(self, found: SpanResult) -> Contributions:
         """What found a result, and those whose routes may be in it."""
         whose = self._whose(found)
@@ -239,7 +249,7 @@ class SpanResults:
             words += f", {abs(self._gold - found.gold)} gold {'fewer' if found.gold < self._gold else 'more'}"
         if self._others:
             whose = self._whose(found)
-            route = "own route" if found.own_route else f"this is {whose.name}" if whose else "other routes"
+            route = "own route" if found.own_route else f"this is {whose.name}" if whose else self._like(found)
             words = f"{route}: {words.removeprefix('exit in ')}"
         gain = "new" if found.missed_by is None else "a miss"
         if own is not None:

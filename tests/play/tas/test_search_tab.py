@@ -610,8 +610,10 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     beside = replace(own, inputs=fast.inputs[: own.ticks], own_route=False)
     assert results.words(beside)[0].startswith("this is Cy: tick ")
     assert results._taken(beside) == at.editor.others[0].made
-    other = replace(own, own_route=False)
-    assert results.words(other)[0].startswith("other routes: tick ")
+    other = replace(own, own_route=False, path=at.editor.others[0].positions[: own.ticks])
+    cy = at.editor.others[0]
+    results._others = (replace(cy, name="Dee", trajectory=at.session.timeline.trajectory()), cy)
+    assert results.words(other)[0].startswith("like Cy: tick ")
     assert results.put(other)
     assert "Cy" in at.session.about.replay.co_authors
 
