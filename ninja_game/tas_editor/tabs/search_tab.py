@@ -250,7 +250,7 @@ class SpanResults:
         if self._others:
             whose = self._whose(found)
             route = "own route" if found.own_route else f"this is {whose.name}" if whose else self._like(found)
-            words = f"{route}: {words.removeprefix('exit in ')}"
+            words = f"{words.removeprefix('exit in ')}, {route}"  # long names are cut, gold is not
         gain = "new" if found.missed_by is None else "a miss"
         if own is not None:
             more = own.score - found.score

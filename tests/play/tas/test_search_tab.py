@@ -602,18 +602,19 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     at.wait(lambda: not results.running, "the end")
     at.frames(2)
     own = next(each for each in tab.found if each.own_route)
-    assert results.words(own)[0].startswith(f"own route: tick {own.ticks - 1}")
+    assert results.words(own)[0] == f"tick {own.ticks - 1}, own route"
+    assert results.words(replace(own, gold=own.gold - 1))[0].endswith(", 1 gold fewer, own route")
     assert results.put(own)
     assert "Cy" not in at.session.about.replay.co_authors
     at.session.undo()
     assert at.editor.track == slow
     beside = replace(own, inputs=fast.inputs[: own.ticks], own_route=False)
-    assert results.words(beside)[0].startswith("this is Cy: tick ")
+    assert results.words(beside)[0].endswith(", this is Cy")
     assert results._taken(beside) == at.editor.others[0].made
     other = replace(own, own_route=False, path=at.editor.others[0].positions[: own.ticks])
     cy = at.editor.others[0]
     results._others = (replace(cy, name="Dee", trajectory=at.session.timeline.trajectory()), cy)
-    assert results.words(other)[0].startswith("like Cy: tick ")
+    assert results.words(other)[0].endswith(", like Cy")
     assert results.put(other)
     assert "Cy" in at.session.about.replay.co_authors
 
