@@ -169,6 +169,17 @@ def test_the_last_three_splits_are_shown_and_gold_where_it_is_asked_for(
     assert ("gold-taken" in events, shown[-1]) == (gold, "0.225 s; 2; 3; 4")
 
 
+def test_splits_end_before_the_keys_and_the_newest_is_not_cut(
+    replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = list[str]()
+    monkeypatch.setattr(film, "split_texts", lambda *_: [(tick, f"{tick} {'x' * 28}") for tick in range(5)])
+    monkeypatch.setattr(Hud, "foot", lambda _hud, _surface, text, *_: shown.append(text) or [])
+    assert film_of(replay, "--splits", "--keys", "--to", 9, "-o", tmp_path / "told").exit_code == 0
+    assert shown[-1].startswith("0.225 s; 3 x")
+    assert shown[-1].endswith(f"; 4 {'x' * 28}")
+
+
 def test_a_large_gif_is_told(replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     said = "as .mp4 it would be smaller"
     assert said not in film_of(replay, "--to", 3, "-o", tmp_path / "a.gif").output

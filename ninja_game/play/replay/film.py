@@ -41,7 +41,7 @@ MOST_PICTURES = 20_000
 """Pictures of a film whose last tick nobody named: more than eight minutes."""
 
 
-SHOWN_SPLITS = 3  # the last ones of a run
+SHOWN_SPLITS = 3  # the last ones of a run, at most
 LONGEST_NAME = 28  # letters of a run's name among its splits
 LETTERS = 12.0  # the least size of what is written above and below the level, px: films are small
 MOST_LETTERS = 18.0  # the greatest, for which there is room in the border, px of the level
@@ -159,19 +159,20 @@ class _Panel:
             covered = hud.time_bar(surface, run.lifetime + GOLD_BONUS * world.gold - self.time)
         else:
             covered = [hud.label(surface, self.title, self.letters)]
-        words = [self.title] * bool(run.episode)
+        words, room = [self.title] * bool(run.episode), 670 if self.film.keys else 744
         if self.film.splits:
-            words += [
-                f"{seconds_text(self.time)} s",
-                *[text for tick, text in self.splits if tick < world.tick][-SHOWN_SPLITS:],
-            ]
+            words.append(f"{seconds_text(self.time)} s")
+            told = [text for tick, text in self.splits if tick < world.tick][-SHOWN_SPLITS:]
+            while len(told) > 1 and hud.theme.width("; ".join([*words, *told]), self.letters) > room:
+                told.pop(0)
+            words += told
         size = 0.8 * self.letters
         for name, ghost in self.ghosts if self.view.context.settings.show_ghost else ():
             x, y = ghost.place(1.0)
             if is_near(x, y):
                 above = y - 15 - size
                 covered.append(hud.theme.text(surface, name, x, above, size=size, colour=ghost.shade, align="centre"))
-        covered += hud.foot(surface, "; ".join(words), "", self.letters)
+        covered += hud.foot(surface, hud.theme.fit("; ".join(words), room, self.letters), "", self.letters)
         if self.film.keys:
             covered.append(hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))
         for each in covered:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError, ReplayError
-from ninja_game.files.reading import Skipped
+from ninja_game.files.reading import SUFFIXES, Skipped, files_in
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.links import is_link
 from ninja_game.formats.n14.level_string import level_digest
@@ -143,7 +143,8 @@ class OtherRunScreen(ReplaysScreen):
         """Beside the file of the run, too."""
         session = self.others.editor.session
         file = session.file.path or Path(session.about.file)
-        beside = sorted(each for each in file.parent.glob("*.txt") if each.name != file.name) if file.is_file() else []
+        names = [name for name in files_in(file.parent) if name.lower().endswith(SUFFIXES)] if file.is_file() else []
+        beside = [file.parent / name for name in names if name != file.name]
         return [("Same folder", beside[:FILES_SHOWN]), *super().places()]
 
     def bundled(self) -> list[Path]:

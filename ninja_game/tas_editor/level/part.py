@@ -232,8 +232,8 @@ class LevelPart(TasPart):
         take_over = self.take_over
         if take_over.on:
             now = "press a key to begin" if take_over.waiting else "tick by tick" if take_over.still else "your keys"
-            go_on = "go on" if take_over.still else "pause"
-            text = f"Taken over: {now}. Enter: end; Space: {go_on}; . and ,: step"
+            go_on = "" if take_over.waiting else " Space: go on;" if take_over.still else " Space: pause;"
+            text = f"Taken over: {now}. Enter: end;{go_on} . and ,: step"
         elif self.playing.on:
             text = "Playing. Space: stop"
         else:

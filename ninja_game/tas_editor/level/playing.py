@@ -122,7 +122,9 @@ class TakeOver:
             self.editor.session.timeline.simulate(self.editor.session.ticks_per_frame)
 
     def pause(self) -> None:
-        self.stand_still(still=not (self.still or self.waiting))
+        """Pause, or go on; before the first key it still waits for that."""
+        if not self.waiting:
+            self.stand_still(still=not self.still)
         self.editor.app.controls.stop_running()
 
     def stand_still(self, *, still: bool = True) -> None:

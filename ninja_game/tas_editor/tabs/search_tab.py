@@ -7,6 +7,7 @@ from functools import partial
 from math import hypot
 from time import monotonic
 
+import numpy as np
 import pygame
 
 from ninja_game.errors import ArgumentError, NinjaGameError
@@ -94,10 +95,16 @@ class SpanResults:
     def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int | None) -> None:
         self.editor = editor
         self.task = task
-        asked, jobs = editor.session.timeline.asked_memory, max(1, cores() - 1)
+        timeline, jobs = editor.session.timeline, max(1, cores() - 1)
+        self._to_exit = task.rest or task.goal == "won"
+        timeline.simulate(len(timeline) if self._to_exit else 0)
+        end = timeline.end[0]
+        self._gold = int(timeline.column("gold")[end if end >= 0 else len(task.inputs) - 1]) if self._to_exit else 0
         self._others = tuple(editor.others) if every is None else ()
         self.search = (
-            self._whole(method, jobs) if every is None else SpanSearch(task, method, jobs, every=every, memory=asked)
+            self._whole(method, jobs)
+            if every is None
+            else SpanSearch(task, method, jobs, every=every, memory=timeline.asked_memory)
         )
         # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
         # searched and those that results were put into.
@@ -110,7 +117,7 @@ class SpanResults:
         self._started = monotonic()
 
     def _whole(self, method: str, jobs: int) -> RunSearch:
-        gold = int(self.editor.session.timeline.column("gold")[self.task.last - 1]) if method == IMPROVE_GOLD else 0
+        gold = self._gold if method == IMPROVE_GOLD else 0
         return RunSearch(self.task, jobs, gold=gold, others=tuple(other.track.inputs for other in self._others))
 
     @property
@@ -167,6 +174,15 @@ class SpanResults:
         ticks, keys = len(found.inputs), with_press_bits(found.inputs)
         same = (each for each in self._others if with_press_bits(fit_inputs(each.track.inputs, ticks)) == keys)
         return next(same, None)
+
+    def _like(self, found: SpanResult) -> str:
+        """The run beside whose way is nearest to that of a result, in words."""
+
+        def apart(other: OtherRun) -> float:
+            ticks = min(len(found.path), len(other.positions))
+            return float(np.hypot(*(found.path[:ticks] - other.positions[:ticks]).T).mean())
+
+        return f"like {min(self._others, key=apart).name}"
 
     def _taken(self, found: SpanResult) -> Contributions:
         """What found a result, and those whose routes may be in it."""
@@ -229,12 +245,12 @@ class SpanResults:
         own, words = self.search.own, score_text(self.task, found)
         if found.missed_by == 0.0:
             words += f": {self.looked_at(found)[1] or 'it goes on'}"
-        if own is not None and (self.task.rest or self.task.goal == "won") and found.gold != own.gold:
-            words += f", {abs(own.gold - found.gold)} gold {'fewer' if found.gold < own.gold else 'more'}"
+        if self._to_exit and found.missed_by is None and found.gold != self._gold:  # of the run as it was
+            words += f", {abs(self._gold - found.gold)} gold {'fewer' if found.gold < self._gold else 'more'}"
         if self._others:
             whose = self._whose(found)
-            route = "own route" if found.own_route else f"this is {whose.name}" if whose else "other routes"
-            words = f"{route}: {words.removeprefix('exit in ')}"
+            route = "own route" if found.own_route else f"this is {whose.name}" if whose else self._like(found)
+            words = f"{words.removeprefix('exit in ')}, {route}"  # long names are cut, gold is not
         gain = "new" if found.missed_by is None else "a miss"
         if own is not None:
             more = own.score - found.score

@@ -285,6 +285,23 @@ def test_runs_that_reach_the_exit_are_listed_first_also_those_that_claim_nothing
     at.close()
 
 
+@pytest.mark.parametrize("name", ["one.demo", "two.tas", "three.TXT"])
+def test_records_of_n_in_the_same_folder_are_listed_whatever_their_suffix(tmp_path: Path, name: str) -> None:
+    folder = tmp_path / "runs"
+    folder.mkdir()
+    write_records(folder / name, ("theirs", WALK, running(WALK_END)))
+    write_records(folder / "ours.demo", ("ours", WALK, running(9)))
+    at = TasDriver(tmp_path / "player", folder / "ours.demo", record=0)
+    at.chord("o", pygame.KMOD_LCTRL)
+    listed = at.shown(OtherRunScreen)
+    for _ in range(300):
+        if listed.rows:
+            break
+        at.frames()
+    assert [(row.text.split()[0], row.when) for row in listed.rows] == [(name, "Same folder")]
+    at.close()
+
+
 def test_a_run_that_costs_much_is_listed_as_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ninja_game.tas_editor.level.other_runs.QUICK", 1)
     file = write_records(tmp_path / "demos.txt", ("exit", WALK, running(WALK_END)))

@@ -365,6 +365,23 @@ def test_the_same_end_is_found_sooner_and_the_rest_follows(at: TasDriver, tab: S
     assert results.words(fewer)[0].endswith(", 2 gold fewer")
 
 
+@pytest.mark.parametrize("name", ["Reach the exit sooner", "Whole run"])
+@pytest.mark.parametrize("passed", [True, False])
+def test_gold_is_said_also_where_the_own_keys_do_not_reach_the_goal(
+    at: TasDriver, tab: SearchTab, name: str, passed: bool
+) -> None:
+    if not passed:
+        at.editor.edit(lambda track: track.replaced(130, len(track), b""))
+    at.editor.select(100, 130)
+    wish(at, name)
+    results, timeline = results_of(tab), at.session.timeline
+    gold = int(timeline.column("gold")[timeline.end[0]])
+    found = SpanResult(1.0, 1, np.zeros(1, np.uint8), b"\0", gold)
+    assert "gold" not in results.words(found)[0]
+    assert results.words(replace(found, gold=gold - 1))[0].endswith(", 1 gold fewer")
+    assert results.words(replace(found, gold=gold + 2))[0].endswith(", 2 gold more")
+
+
 @pytest.mark.parametrize("name", ["Be there sooner", "Go beyond sooner"])
 def test_a_run_gets_shorter_by_what_the_list_says(at: TasDriver, tab: SearchTab, name: str) -> None:
     at.editor.edit(lambda track: track.replaced(0, 0, [0] * 9))
@@ -585,16 +602,19 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     at.wait(lambda: not results.running, "the end")
     at.frames(2)
     own = next(each for each in tab.found if each.own_route)
-    assert results.words(own)[0].startswith(f"own route: tick {own.ticks - 1}")
+    assert results.words(own)[0] == f"tick {own.ticks - 1}, own route"
+    assert results.words(replace(own, gold=own.gold - 1))[0].endswith(", 1 gold fewer, own route")
     assert results.put(own)
     assert "Cy" not in at.session.about.replay.co_authors
     at.session.undo()
     assert at.editor.track == slow
     beside = replace(own, inputs=fast.inputs[: own.ticks], own_route=False)
-    assert results.words(beside)[0].startswith("this is Cy: tick ")
+    assert results.words(beside)[0].endswith(", this is Cy")
     assert results._taken(beside) == at.editor.others[0].made
-    other = replace(own, own_route=False)
-    assert results.words(other)[0].startswith("other routes: tick ")
+    other = replace(own, own_route=False, path=at.editor.others[0].positions[: own.ticks])
+    cy = at.editor.others[0]
+    results._others = (replace(cy, name="Dee", trajectory=at.session.timeline.trajectory()), cy)
+    assert results.words(other)[0].endswith(", like Cy")
     assert results.put(other)
     assert "Cy" in at.session.about.replay.co_authors
 

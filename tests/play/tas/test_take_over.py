@@ -66,6 +66,18 @@ def test_keys_that_are_down_already_begin_when_pressed_again(at: TasDriver) -> N
     assert at.editor.cursor == START + 1
 
 
+def test_before_the_first_key_space_begins_nothing(at: TasDriver) -> None:
+    before, taken = at.editor.track, take_over(at)
+    at.press("space")
+    at.frames(5)
+    assert (at.editor.cursor, at.editor.track, taken.waiting) == (START, before, True)
+    at.keys.script = [2] * 3
+    at.frames(3)
+    assert at.editor.cursor == START + 2
+    at.press("space")
+    assert taken.still
+
+
 def test_frame_advance_takes_the_keys_that_are_held(at: TasDriver) -> None:
     taken = take_over(at)
     for keys in (1, 5, 0, 2):
