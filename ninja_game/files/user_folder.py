@@ -18,6 +18,7 @@ HOME_VARIABLE = "NINJA_GAME_HOME"  # environment variable that moves the folder
 
 # Folders in it.
 LEVELS = "levels"
+DAILY = "daily-levels"  # in that of levels: the pack of the levels of days
 REPLAYS = "replays"
 EXPORTS = "exports"  # what the game writes on request
 EDITING = "editing"  # levels that are being edited

@@ -13,7 +13,7 @@ from threading import Event
 
 from ninja_game.files.reading import read_text
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.user_folder import DAILY, data_folder
 from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
@@ -22,8 +22,6 @@ from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars, write_pars
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.generator.packed import AUTHOR, PACKED, generated_levels
-
-FOLDER = "daily-levels"  # the pack's folder, in the player's folder of levels
 
 FIRST = date(2026, 11, 23)
 """The Monday from which on the packed levels are taken in turn, each week's seven of seven difficulties."""
@@ -36,7 +34,7 @@ _NEXT_SEED = 10**8  # how far apart they are: no date is as high a number
 
 def daily_file(levels: Path, day: date) -> Path:
     """Where the level of a day is kept, below the player's folder of levels."""
-    return levels / FOLDER / f"{day.isoformat()}.txt"
+    return levels / DAILY / f"{day.isoformat()}.txt"
 
 
 def daily_difficulty(day: date) -> int:

@@ -14,12 +14,11 @@ from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import Skipped, files_below, files_in, stamp_of
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.user_folder import DAILY, data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.index import PackIndex
 from ninja_game.formats.pack.pack import CERTIFICATES, Pack, PackFiles, certificate_name, is_pack
 from ninja_game.formats.replay.text import Replay, parse_replay
-from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.episodes import GAME, YOURS, Entry, Episode, EpisodeSet, Mood, episode_set
 from ninja_game.sim.level import Level
 

@@ -174,7 +174,12 @@ def test_splits_end_before_the_keys_and_the_newest_is_not_cut(
 ) -> None:
     shown = list[str]()
     monkeypatch.setattr(film, "split_texts", lambda *_: [(tick, f"{tick} {'x' * 28}") for tick in range(5)])
-    monkeypatch.setattr(Hud, "foot", lambda _hud, _surface, text, *_: shown.append(text) or [])
+
+    def foot(_hud: Hud, _surface: object, text: str, *_: object) -> list[object]:
+        shown.append(text)
+        return []
+
+    monkeypatch.setattr(Hud, "foot", foot)
     assert film_of(replay, "--splits", "--keys", "--to", 9, "-o", tmp_path / "told").exit_code == 0
     assert shown[-1].startswith("0.225 s; 3 x")
     assert shown[-1].endswith(f"; 4 {'x' * 28}")

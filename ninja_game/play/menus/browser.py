@@ -12,11 +12,10 @@ from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.shown_text import name_problem
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import free_path
+from ninja_game.files.user_folder import DAILY, free_path
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import RECEIVED
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.episodes import GAME, YOURS, Entry, author_name
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link

@@ -14,11 +14,10 @@ from ninja_game.editor import packs
 from ninja_game.editor.packs import ReadyPack, missing_run, obstacle_of
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.files.user_folder import LEVELS, short_path
+from ninja_game.files.user_folder import DAILY, LEVELS, short_path
 from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
 from ninja_game.formats.pack.pack import INDEX, RECEIVED, Pack
-from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.episodes import GAME, Entry, EpisodeSet
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.levels.warnings import level_findings

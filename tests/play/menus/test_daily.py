@@ -11,6 +11,7 @@ from typing import Self
 import pytest
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.files.user_folder import DAILY
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.generator import daily
@@ -97,7 +98,7 @@ def test_a_hundred_weeks_of_days_come_with_the_game(tmp_path: Path) -> None:
     seen = set()
     for day in (daily.FIRST, daily.FIRST + timedelta(1), daily.FIRST + timedelta(7), last):
         assert daily.take_packed(tmp_path, day)
-        found = certificate(Pack(tmp_path / daily.FOLDER), f"{day}.txt", "exit")
+        found = certificate(Pack(tmp_path / DAILY), f"{day}.txt", "exit")
         assert found is not None
         assert found.problems == []
         seen.add(level_digest(found.level))
@@ -109,7 +110,7 @@ def test_a_hundred_weeks_of_days_come_with_the_game(tmp_path: Path) -> None:
 def test_a_second_day_joins_the_first(tmp_path: Path, making: MenuDriver) -> None:
     assert PACKED(tmp_path, date(2026, 11, 24))
     assert daily.make_daily(tmp_path, DAY, report=lambda _: None, stop=Event())
-    pack = Pack(tmp_path / daily.FOLDER)
+    pack = Pack(tmp_path / DAILY)
     assert len(pack.levels) == len(pack.pars) == 2
     for file in pack.levels:
         found = certificate(pack, file, "exit")

@@ -19,12 +19,11 @@ from ninja_game.editor import packs
 from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.files import ascii_text
 from ninja_game.editor.packs import Obstacles, ReadyPack, Say
-from ninja_game.files.user_folder import short_path
+from ninja_game.files.user_folder import DAILY, short_path
 from ninja_game.formats.links import write_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay
-from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.findings import level_finding, pack_finding
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
