@@ -8,7 +8,7 @@ from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.states import BULLET, EXPLOSIVE
 from ninja_game.simulation import Simulation
-from ninja_game.view.ninja.figure import STAND
+from ninja_game.view.ninja.figure import SKID, STAND
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.view.ninja.ragdoll import STICKS, Ragdoll
 
@@ -55,6 +55,18 @@ def test_it_stays_out_of_every_shape() -> None:
                 assert 24 <= particle.x <= 768
                 assert 24 <= particle.y <= 576
                 assert not solid_at(run.tiles, particle.x, particle.y), (tile, push)
+
+
+def test_a_hand_that_was_in_the_wall_does_not_hold_it_there() -> None:
+    run = cave()
+    at = SKID.placed(-1, 0.0).moved(758, 300)
+    doll = Ragdoll(at, at, (0.0, 1.0), -1, Random(1), lambda *_: None)
+    assert any(solid_at(run.tiles, particle.x, particle.y) for particle in doll.particles)
+    for _ in range(300):
+        doll.step(run.tiles, run.world)
+    for particle in doll.particles:
+        assert 24 <= particle.x <= 768
+        assert particle.y > 540
 
 
 def test_it_is_heard_where_it_falls_and_slides_on() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import product
 from math import cos, hypot, pi, sin
 from random import Random
 from typing import NamedTuple
@@ -263,6 +264,14 @@ def tile_push(level: TileMap, world: World, box: Box) -> list[tuple[float, float
     cell = cell_at(x, y)
     if not level.tiles[cell] and max(abs(x - CENTRE_X[cell]), abs(y - CENTRE_Y[cell])) < HALF - half:
         return []
+    if solid_at(level, x, y):
+        # No ray leads out: a hand was in the wall when the ninja died, or an object has pushed a limb there.
+        for reach, (wx, wy) in product(range(1, 25), _WAYS):
+            box.x, box.y = x + reach * wx, y + reach * wy
+            if cell_at(box.x, box.y) and not solid_at(level, box.x, box.y):
+                return [(wx, wy, 0.0)]
+        box.x, box.y = x, y
+        return []
     shut = {cell + step for side, step in _BEHIND.items() if world.edges[4 * cell + side] == SOLID}
     points = [(x + wx * half, y + wy * half, wx, wy) for wx, wy in _WAYS]
     touched = [way for px, py, *way in points if solid_at(level, px, py) or cell_at(px, py) in shut]
@@ -271,7 +280,7 @@ def tile_push(level: TileMap, world: World, box: Box) -> list[tuple[float, float
     if length < 1e-6:
         return []
     hits = [cast_ray(level, world, x, y, wx, wy) for wx, wy in touched]
-    depth = half - min(hypot(hit_x - x, hit_y - y) for _, hit_x, hit_y in hits)
+    depth = max(0.0, half - min(hypot(hit_x - x, hit_y - y) for _, hit_x, hit_y in hits))
     box.x += depth * nx / length
     box.y += depth * ny / length
     return [(nx / length, ny / length, 0.0)]
