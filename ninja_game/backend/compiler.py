@@ -96,9 +96,8 @@ class Compiler:
         for name, value in source.items():
             if isinstance(value, FunctionType) and value in REGISTERED:
                 namespace[name] = self._twin(value)
-            elif (
-                isinstance(value, (list, tuple)) and value and {*map(type, value)} <= {int, float}
-            ):  # a table of numbers
+            elif isinstance(value, (list, tuple)) and value and {*map(type, value)} <= {int, float}:
+                # A table of numbers, which a rule may index.
                 namespace[name] = np.array(value)
             elif not name.startswith("__"):
                 namespace[name] = value
