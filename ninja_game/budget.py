@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ninja_game.errors import BudgetError
 from ninja_game.sim.inputs import MAX_TICKS
-from ninja_game.sim.kinds import KIND_OF
+from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level, makes_object
 
 RUN_BUDGET = 320_000_000
@@ -36,11 +36,12 @@ NO_LIMIT = 2**63
 TICK_COST = 10
 """Work of a tick without objects: the ninja's own. One is what most objects cost, some 10 ns compiled."""
 
+_COSTS = {kind.number: kind.cost for kind in KINDS}
+
 
 def tick_cost(level: Level) -> int:
     """The most work that a tick of a level can be."""
-    objects = (KIND_OF.get(spec.kind) for spec in level.objects if makes_object(spec))
-    return TICK_COST + sum(kind.cost if kind else 1 for kind in objects)
+    return TICK_COST + sum(_COSTS.get(spec.kind, 1) for spec in level.objects if makes_object(spec))
 
 
 def affordable_ticks(level: Level, budget: int = RUN_BUDGET) -> int:
