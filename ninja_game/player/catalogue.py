@@ -73,7 +73,7 @@ class Catalogue:
         pack, file = self._pack_of(entry), Path(entry.named.file)
         name = certificate_name(file.name, "exit")
         try:
-            files = PackFiles(file.parent) if entry.source == YOURS and file.is_file() else pack and pack.files
+            files = PackFiles(file.parent) if entry.source != GAME and file.is_file() else pack and pack.files
             replay = parse_replay(files.text(name)) if files and name in files.names else None
         except (NinjaGameError, OSError):
             return None

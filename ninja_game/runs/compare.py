@@ -327,6 +327,11 @@ class LeadTable:
     comparison: Comparison
     apart: int
 
+    @cached_property
+    def leads(self) -> dict[int, int]:
+        """The leads at splits and markers, by the first run's ticks."""
+        return {row.tick: row.ahead for row in self.rows if row.at}
+
 
 def lead_table(ours: Recording, theirs: Recording, markers: Sequence[Marker]) -> LeadTable:
     """Compare a run, with its markers, to another one. Raises what ``compare_runs`` does."""

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tools.soak.kills import Drawing, kill_test
+from tools.soak.kills import Drawing, Track, digest_of_track, kill_test, opened_run
 
 
 @pytest.mark.slow
@@ -27,3 +27,25 @@ def test_killed_processes_lose_nothing(
 def test_the_trial_sees_what_is_lost(tmp_path: Path) -> None:
     said = [("edited", "a", 10**9), ("edited", "b", 3 * 10**9)]
     assert list(Drawing(tmp_path).losses(tmp_path, said, 6 * 10**9)) == ["5.00 s lost"]
+
+
+@pytest.mark.parametrize(
+    "noted, said, wrong",
+    [
+        ("ABCBA", "ABCB", []),  # killed before the last undo was said
+        ("A", "ABCD", ["3 edits lost"]),
+        ("ABC", "ABCD", []),
+        ("AE", "ABCD", ["3 edits lost"]),  # what was not said is no excuse
+    ],
+)
+def test_an_undo_that_was_not_said_loses_nothing(noted: str, said: str, wrong: list[str], tmp_path: Path) -> None:
+    state = Track(tmp_path / "home")
+    session = opened_run(tmp_path / "home")
+    tracks = {name: session.track.named(number, name) for number, name in enumerate("ABCDE")}
+    for name in noted:
+        session.change(tracks[name])
+    session.close(keep=True)
+    facts = [("edited", digest_of_track(tracks[name]), 0) for name in said]
+    assert list(state.losses(tmp_path / "home", facts)) == wrong
+    assert state.last == digest_of_track(tracks[noted[-1]])
+    assert list(state.losses(tmp_path / "home", [])) == [], "it is as it was found"

@@ -150,13 +150,14 @@ class RollCommands:
         if not step():
             editor.app.notify(refusal)
             return
+        first = _first_change(before, editor.track)
         cursor, anchor = editor.places.get(editor.track, place)
         asked = cursor if anchor is None else min(cursor, anchor)
-        editor.app.notify(f"{done}: {_change_text(before, editor.track, asked)}")
+        editor.app.notify(f"{done}: {_change_text(before, editor.track, first, asked)}")
         if editor.track in editor.places:
             editor.places[before] = place
-        first = _first_change(before, editor.track)
-        cursor, anchor = editor.places.get(editor.track, (first, None))
+        else:
+            cursor, anchor = first, None
         near = abs(cursor - first) < self._page()
         editor.go(first if not near or anchor is None else anchor)
         editor.go(cursor if near else first, select=near and anchor is not None)
@@ -230,12 +231,12 @@ def _first_change(before: InputTrack, after: InputTrack) -> int:
     return min((tick for tick, _ in set(before.markers) ^ set(after.markers)), default=0)
 
 
-def _change_text(before: InputTrack, after: InputTrack, asked: int) -> str:
-    """What was changed; ``asked``: the tick of the edit, which is named where ticks came or went just there."""
-    more, tick = len(after) - len(before), _first_change(before, after)
-    short, long = sorted((before.inputs, after.inputs), key=len)
-    tick = asked if more and short == long[:asked] + long[asked + abs(more) :] else tick
+def _change_text(before: InputTrack, after: InputTrack, first: int, asked: int) -> str:
+    """What was changed, ``first`` tick; ``asked``: that of the edit, which is named where ticks came or went there."""
     if before.inputs == after.inputs:
-        return f"a marker in tick {tick}"
+        return f"a marker in tick {first}"
+    more = len(after) - len(before)
+    short, long = sorted((before.inputs, after.inputs), key=len)
+    tick = asked if more and short == long[:asked] + long[asked + abs(more) :] else first
     length = f", {counted(abs(more), 'tick', 'ticks')} {'more' if more > 0 else 'fewer'}" if more else ""
     return f"keys from tick {tick} on{length}"

@@ -93,10 +93,9 @@ class LeadTab(Tab):
                 session = self.editor.session
                 ours, theirs = session.recording(pair[0], "this run"), session.recording(pair[1], "the other run")
                 self._job.ask((pair, ours, theirs, pair[0].markers))
-        rows = self.table.rows if self.table else ()
-        self.list.fill(rows)
-        shown = self.editor.others and self.is_current
-        self.editor.leads = {row.tick: row.ahead for row in rows if row.at} if shown else {}
+        table = self.table
+        self.list.fill(table.rows if table else ())
+        self.editor.leads = table.leads if table and self.editor.others and self.is_current else {}
 
     @property
     def table(self) -> LeadTable | None:

@@ -978,3 +978,15 @@ def test_mine_first_counts_packs_and_a_name_is_found_before_a_comment(driver: Me
     assert [entry.title for entry in browser.shown][-1] == "Zz"
     browser._sort("author")
     assert browser.shown[0].title == "Rolling Hills"
+
+
+def test_a_certificate_that_comes_while_a_list_is_shown_is_seen(driver: MenuDriver, path: Path) -> None:
+    certificate = path / "certificates" / "00-1-mind-the-gap.exit.replay.txt"
+    text = certificate.read_bytes()
+    certificate.unlink()
+    driver.open("Levels")
+    shown = driver.shown(Browser).shown
+    entry = next(each for each in shown if each.named.file == str(path / "00-1-mind-the-gap.txt"))
+    assert driver.player.reached(entry, None) == "Not passed yet"
+    certificate.write_bytes(text)
+    assert driver.player.reached(entry, None).startswith("Certified: "), "the pack was read before"

@@ -234,10 +234,7 @@ def test_a_recovered_run_knows_its_file_and_the_runs_beside_it(tmp_path: Path) -
     assert again.session.about.file == str(file)
     assert [each.name for each in again.editor.others] == ["other.txt"]
     again.chord("o", CTRL)
-    for _ in range(300):
-        if again.shown(OtherRunScreen).rows:
-            break
-        again.frames()
+    again.wait(lambda: again.shown(OtherRunScreen).rows, "the list")
     assert "other.txt" in [row.text.split()[0] for row in again.shown(OtherRunScreen).rows]
     again.press("escape")
     again.chord("s", CTRL)

@@ -125,6 +125,9 @@ def test_the_lead_over_a_run_beside_stands_in_the_roll(at: TasDriver) -> None:
     end = at.session.timeline.end[0]
     assert at.editor.leads[end] == 3
     assert row_facts(at.editor, end, end + 1)[0].lead == 3
+    leads = at.editor.leads
+    at.frames(2)
+    assert at.editor.leads is leads, "not made again in each picture"
     at.editor.edit(lambda track: track.replaced(0, 0, [0]))
     at.frames(2)
     assert not at.editor.leads, "of the run as it was"

@@ -276,10 +276,7 @@ def test_runs_that_reach_the_exit_are_listed_first_also_those_that_claim_nothing
     at.chord("o", pygame.KMOD_LCTRL)
     listed = at.shown(OtherRunScreen)
     assert listed.list.empty.startswith("No other run of this level is known")
-    for _ in range(300):
-        if len(listed.rows) == 3:
-            break
-        at.frames()
+    at.wait(lambda: len(listed.rows) == 3, "the list")
     assert [row.what.partition(",")[0] for row in listed.rows] == ["all gold", "all gold", "unfinished"]
     assert listed.rows[0].what == f"all gold, {seconds_text(WALK_END)} s"
     at.close()
@@ -294,10 +291,7 @@ def test_records_of_n_in_the_same_folder_are_listed_whatever_their_suffix(tmp_pa
     at = TasDriver(tmp_path / "player", folder / "ours.demo", record=0)
     at.chord("o", pygame.KMOD_LCTRL)
     listed = at.shown(OtherRunScreen)
-    for _ in range(300):
-        if listed.rows:
-            break
-        at.frames()
+    at.wait(lambda: listed.rows, "the list")
     assert [(row.text.split()[0], row.when) for row in listed.rows] == [(name, "Same folder")]
     at.close()
 
@@ -308,10 +302,7 @@ def test_a_run_that_costs_much_is_listed_as_it_is(tmp_path: Path, monkeypatch: p
     at = TasDriver(tmp_path / "player", Path(copy(file, tmp_path / "one.txt")), record=0)
     at.chord("o", pygame.KMOD_LCTRL)
     listed = at.shown(OtherRunScreen)
-    for _ in range(300):
-        if listed.rows:
-            break
-        at.frames()
+    at.wait(lambda: listed.rows, "the list")
     assert {row.what.partition(",")[0] for row in listed.rows} == {"recording"}
     at.close()
 
