@@ -463,6 +463,10 @@ def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: py
     driver.choose("Make ready")
     driver.app.run(1)
     driver.wait(lambda: screen.packer._job.idle, "it ends with the program")
+    screen.packer.update()
+    with patch("ninja_game.play.menus.packer.Pack") as read:
+        driver.app.run(1)
+    assert not read.called, "where nothing is at work, no pack is read at the end"
 
 
 def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
