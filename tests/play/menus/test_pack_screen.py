@@ -834,6 +834,10 @@ def test_a_level_that_was_received_is_edited_only_if_that_is_meant(driver: MenuD
     before = folder_texts(path)
     driver.open("Levels")
     browser = driver.shown(Browser)
+    driver.choose("Edit")
+    with patch("ninja_game.play.menus.browser.Tree.remove", side_effect=PermissionError(13, "Permission denied")):
+        driver.choose("Change it all the same")
+    assert (driver.top(), "ermission denied" in driver.app.notice) == (browser, True)
     for answer, file in ("Copy it, to change that", None), ("Change it all the same", path / "00-0-first-steps.txt"):
         driver.choose("Edit")
         assert driver.shown(MenuScreen).title == "Received: Laundry"
