@@ -930,6 +930,13 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     assert accepted.go
     accepted.go()
     assert shown[-1] == shown[0]
+    packs.take_back(path, level.name, Pack(path).index.accepted[0].code)
+    packs.accept(path, level.name, "no-gold-run", "a joke")
+    screen._read()
+    with patch("ninja_game.play.menus.packs.level_findings") as examined:
+        said = [problem.text for problem in screen.problems() if problem.accepted]
+    assert said == ["First Steps: no gold run. Accepted: a joke"]
+    assert not examined.called, "no examination of the level tells of that"
 
 
 def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
