@@ -128,17 +128,22 @@ class Search:
         return min(1.0, self.progress.seconds / self.seconds) if self.progress else 0.0
 
 
+@lru_cache(maxsize=300)
+def _unlocked(level: Level, inputs: bytes) -> set[tuple[float, float]]:
+    """Where the switches are by which these inputs open doors, px. Kept, since the window's thread asks again."""
+    way, opened = Simulation(level), set[tuple[float, float]]()
+    for keys in inputs:
+        way.step_keys(keys)
+        events = way.world.events[: way.world.event_count]
+        opened.update((event.x, event.y) for event in events if event.kind == LOCK_OPENED)
+    return opened
+
+
 def passed_by(level: Level, runs: Sequence[bytes]) -> tuple[Finding, ...]:
     """The locked doors whose switches none of these runs touches."""
     made = [number for number, spec in enumerate(level.objects) if makes_object(spec)]
     names = [object_type_name(level.objects[number]) for number in made]
-    opened: set[tuple[float, float]] = set()
-    for inputs in runs if "locked door" in names else ():
-        way = Simulation(level)
-        for keys in inputs:
-            way.step_keys(keys)
-            events = way.world.events[: way.world.event_count]
-            opened.update((event.x, event.y) for event in events if event.kind == LOCK_OPENED)
+    opened = {place for inputs in (runs if "locked door" in names else ()) for place in _unlocked(level, inputs)}
     found = []
     for id_, (number, name) in enumerate(zip(made, names, strict=True)):
         spec = level.objects[number]

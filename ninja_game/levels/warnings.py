@@ -6,7 +6,7 @@ Where the ninja could ever get is a flood fill over cells that is generous, so t
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import cos, dist, isnan, pi, sin, sqrt
 
 from ninja_game.formats.ascii.places import place_text
@@ -24,6 +24,9 @@ from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import CAPACITY, TileMap, World
 from ninja_game.sim.objects.door import create_door
 from ninja_game.sim.states import LOCKED, TRAP
+
+Squares = dict[tuple[float, float], set[tuple[float, float]]]
+"""Places, px, by the square in which they lie: its column and row."""
 
 
 def _made_door(world: World, spec: ObjectSpec) -> Object:
@@ -62,9 +65,11 @@ class Ground:
         ninjas = [spec for spec in level.objects if spec.kind == kinds.NINJA]
         start = cell_at(*ninjas[-1].values) if ninjas and well_formed(ninjas[-1]) else 0
         exits = [spec.values for spec in self.objects if spec.kind == kinds.EXIT and well_formed(spec)]
-        self.ends = [("the exit", values[:2], _BARRING) for values in exits]
-        self.ends += [("the exit's switch", values[2:], _BARRING) for values in exits]
-        self.ends += [("the ninja's start", ninjas[-1].values, _DEADLY)] if start else []
+        self.ends = [
+            ("the exit", _in_squares((values[:2] for values in exits), _HIDES), _BARRING),
+            ("the exit's switch", _in_squares((values[2:] for values in exits), _HIDES), _BARRING),
+            ("the ninja's start", _in_squares([ninjas[-1].values] if start else [], _HIDES), _DEADLY),
+        ]
         # A ninja that starts in a tile may be pushed out on any side: nothing is certain then.
         self.certain = bool(start) and tiles.SHAPE[self.level.tiles[start]] == tiles.EMPTY
         self.cells: set[int] = set()
@@ -293,19 +298,23 @@ def _waits_for_its_turn(spec: ObjectSpec) -> bool:
 
 
 def _mines_over_gold(objects: Sequence[ObjectSpec]) -> set[ObjectSpec]:
-    gold: dict[tuple[float, float], list[tuple[float, ...]]] = {}
-    for spec in objects:
-        if spec.kind == kinds.GOLD and well_formed(spec):
-            x, y = spec.values
-            gold.setdefault((x // _OVER, y // _OVER), []).append(spec.values)
-    covering = set()
-    for spec in objects:
-        if gold and spec.kind == kinds.MINE and well_formed(spec):
-            column, row = (value // _OVER for value in spec.values)
-            places = [(column + a, row + b) for a in (-1, 0, 1) for b in (-1, 0, 1)]
-            if any(dist(spec.values, piece) < _OVER for place in places for piece in gold.get(place, ())):
-                covering.add(spec)
-    return covering
+    gold = _in_squares((spec.values for spec in objects if spec.kind == kinds.GOLD and well_formed(spec)), _OVER)
+    mines = (spec for spec in objects if gold and spec.kind == kinds.MINE and well_formed(spec))
+    return {spec for spec in mines if _is_near(spec.values, gold, _OVER)}
+
+
+def _in_squares(places: Iterable[tuple[float, ...]], side: float) -> Squares:
+    squares: Squares = {}
+    for x, y in places:
+        squares.setdefault((x // side, y // side), set()).add((x, y))
+    return squares
+
+
+def _is_near(at: tuple[float, ...], places: Squares, side: float) -> bool:
+    """Whether any of these places is nearer than the side of their squares, px: of thousands few are looked at."""
+    column, row = (value // side for value in at)
+    around = [(column + a, row + b) for a in (-1, 0, 1) for b in (-1, 0, 1)]
+    return any(dist(at, place) < side for square in around for place in places.get(square, ()))
 
 
 def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
@@ -345,8 +354,9 @@ def _place_oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     if isnan(x) or isnan(y):
         return
     cell = cell_at(x, y)
-    near = [what for what, place, barring in ground.ends if spec.kind in barring and dist((x, y), place) < _HIDES]
-    yield from (level_finding("covers", what=what) for what in dict.fromkeys(near))
+    for what, places, barring in ground.ends:
+        if spec.kind in barring and _is_near((x, y), places, _HIDES):
+            yield level_finding("covers", what=what)
     if spec.kind == kinds.FLOOR_GUARD:
         return
     if not cell:

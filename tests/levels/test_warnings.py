@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 import re
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.levels import warnings as warnings_module
 from ninja_game.levels.findings import DESIGN_RULES, LEVEL_RULES, PACK_RULES, RUN_RULES, Rule
 from ninja_game.levels.warnings import Ground, level_findings, level_warnings, object_name
 from ninja_game.sim import kinds
@@ -281,6 +283,22 @@ def test_a_flood_of_objects_is_told_in_one_warning_and_takes_no_time() -> None:
 def test_names_say_where_an_object_is_in_its_file() -> None:
     assert object_name(ObjectSpec(kinds.GOLD, (36.0, 42.0)), 3) == "gold at 1,1.25 (object 3)"
     assert object_name(ObjectSpec(kinds.GOLD, (math.nan, 42.0)), 3) == "gold at nan,42px (object 3)"
+
+
+def test_in_a_level_of_many_exits_and_mines_few_distances_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    exits = [ObjectSpec(kinds.EXIT, (30.0 + k, 40.0, 30.0 + k, 140.0)) for k in range(400)]
+    mines = [ObjectSpec(kinds.MINE, (430.0 + k, 340.0)) for k in range(340)]
+    over = ObjectSpec(kinds.MINE, (230.0, 52.0))
+    looked = list[Sequence[float]]()
+
+    def measured(a: Sequence[float], b: Sequence[float]) -> float:
+        looked.append(a)
+        return math.dist(a, b)
+
+    monkeypatch.setattr(warnings_module, "dist", measured)
+    found = level_findings(Level((0,) * TILES, (*PROPER, *exits, *mines, over)))
+    assert [(each.code, len(each.records)) for each in found if each.code == "covers"] == [("covers", 1)]
+    assert len(looked) < 2000
 
 
 def test_ids_skip_records_that_create_nothing() -> None:

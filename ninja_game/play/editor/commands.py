@@ -352,7 +352,8 @@ class EditorCommands(DocumentCommands):
     def _entry(self) -> Entry | None:
         """The level's file as it is played: in its place in a pack, or alone; None without a file."""
         alone = self.session.entry
-        levels = (each for pack in self.app.player.catalogue.packs() for each in pack.levels)
+        packs = self.app.player.catalogue.packs() if alone else ()
+        levels = (each for pack in packs for each in pack.levels)
         return alone and next((each for each in levels if each.named.file == alone.named.file), alone)
 
     def open(self) -> None:

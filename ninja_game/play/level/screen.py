@@ -241,7 +241,7 @@ class LevelScreen(Screen):
         """Put this run among the player's replays, even one that is not the best."""
         if self._is_spared():
             return
-        self.app.notify(keep_replay(self.app.player, self._replay()))
+        self.app.notify(keep_replay(self.context.data, self._replay()))
 
     def _is_spared(self) -> bool:
         """Whether the run was survived only by being invincible: then its keys alone are no replay, and it is said."""

@@ -203,8 +203,12 @@ class Browser(ThumbnailScreen):
         folder = Path(entry.named.file).parent
 
         def own() -> None:
-            Tree(folder).remove(RECEIVED)
-            edit(entry)
+            try:
+                Tree(folder).remove(RECEIVED)
+            except (NinjaGameError, OSError) as error:
+                self.app.notify(reason(error))
+            else:
+                edit(entry)
 
         if (folder / RECEIVED).is_file():
             ask_received(self.app, entry.source, lambda: edit(replace(entry, source=GAME)), own)

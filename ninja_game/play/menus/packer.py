@@ -72,6 +72,8 @@ class Packer(Aside):
 
     def end(self) -> None:
         """Stop; what was found is on the disk already."""
+        if not self.busy:
+            return
         self._stopped = True
         with suppress(NinjaGameError, OSError):
             pack = Pack(self.path)

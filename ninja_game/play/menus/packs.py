@@ -19,7 +19,7 @@ from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
 from ninja_game.formats.pack.pack import INDEX, RECEIVED, Pack
 from ninja_game.levels.episodes import GAME, Entry, EpisodeSet
-from ninja_game.levels.findings import Finding, PackFinding
+from ninja_game.levels.findings import LEVEL_RULES, Finding, PackFinding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link, pasted_text
@@ -551,7 +551,8 @@ class PackScreen(ThumbnailScreen):
 
     def _accepted(self, accepted: Accepted) -> Problem:
         entry = self._entry(accepted.file)
-        every = level_findings(entry.named.level, entry.named.says) if entry else []
+        named = entry.named if entry and accepted.code in LEVEL_RULES else None
+        every = level_findings(named.level, named.says) if named else []
         odd = [each for each in every if each.code == accepted.code]
         said = "; ".join(each.sentence for each in odd) or accepted.code.replace("-", " ")
         take_back = partial(packs.take_back, self.path, accepted.file, accepted.code)

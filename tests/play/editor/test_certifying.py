@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 from threading import Event
+from unittest.mock import patch
 
 import pygame
 import pytest
@@ -151,6 +152,9 @@ def test_a_door_that_the_certified_run_passes_by_is_told_of() -> None:
     assert (found.code, found.records) == ("unneeded-door", (3,)), "the other switch lies on its way"
     assert found.sentence.startswith("locked door at 13,22"), "and it is named"
     assert passed_by(ROOM.level, [run.inputs]) == ()
+    with patch("ninja_game.editor.certify.Simulation") as played:
+        search_of(level, run).take(run)
+    assert not played.called, "the window takes up a run that is known by now, and waits for no play"
 
 
 def test_a_search_of_what_no_file_holds_ends_with_the_level(room: Maker) -> None:

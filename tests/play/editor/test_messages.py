@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from types import SimpleNamespace
+from unittest.mock import patch
 
 import pygame
 import pytest
@@ -253,6 +254,12 @@ def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Mak
     assert entry
     _, way = LevelContext(room.app.player, entry).beginning()
     assert way == session.way != b""
+
+
+def test_for_a_level_without_a_file_no_packs_are_read(room: Maker) -> None:
+    with patch.object(room.app.player.catalogue, "packs") as read:
+        opened(room)
+    assert not read.called
 
 
 def test_a_level_about_which_something_is_said_keeps_its_messages(room: Maker) -> None:

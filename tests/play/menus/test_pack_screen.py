@@ -463,6 +463,10 @@ def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: py
     driver.choose("Make ready")
     driver.app.run(1)
     driver.wait(lambda: screen.packer._job.idle, "it ends with the program")
+    screen.packer.update()
+    with patch("ninja_game.play.menus.packer.Pack") as read:
+        driver.app.run(1)
+    assert not read.called, "where nothing is at work, no pack is read at the end"
 
 
 def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
@@ -777,6 +781,10 @@ def test_a_pack_is_previewed_as_somebody_who_has_played_nothing(driver: MenuDriv
     run = driver.shown(LevelScreen).context
     assert run.data is grid.player is not driver.player
     assert save_work(run.data, lambda: ["Best: saved"]) == ["Best", "Not saved yet: this is a preview"]
+    driver.shown(LevelScreen).attempt.tick(0)
+    driver.shown(LevelScreen).keep_replay()
+    assert driver.app.notice == "Not saved yet: this is a preview"
+    assert not driver.player.records.replays()
     driver.app.pop()
     driver.press("escape")
     assert driver.top() is screen
@@ -826,6 +834,10 @@ def test_a_level_that_was_received_is_edited_only_if_that_is_meant(driver: MenuD
     before = folder_texts(path)
     driver.open("Levels")
     browser = driver.shown(Browser)
+    driver.choose("Edit")
+    with patch("ninja_game.play.menus.browser.Tree.remove", side_effect=PermissionError(13, "Permission denied")):
+        driver.choose("Change it all the same")
+    assert (driver.top(), "ermission denied" in driver.app.notice) == (browser, True)
     for answer, file in ("Copy it, to change that", None), ("Change it all the same", path / "00-0-first-steps.txt"):
         driver.choose("Edit")
         assert driver.shown(MenuScreen).title == "Received: Laundry"
@@ -918,6 +930,13 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     assert accepted.go
     accepted.go()
     assert shown[-1] == shown[0]
+    packs.take_back(path, level.name, Pack(path).index.accepted[0].code)
+    packs.accept(path, level.name, "no-gold-run", "a joke")
+    screen._read()
+    with patch("ninja_game.play.menus.packs.level_findings") as examined:
+        said = [problem.text for problem in screen.problems() if problem.accepted]
+    assert said == ["First Steps: no gold run. Accepted: a joke"]
+    assert not examined.called, "no examination of the level tells of that"
 
 
 def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
