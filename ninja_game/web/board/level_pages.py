@@ -302,7 +302,7 @@ class LevelPages:
         category, runs = leaderboard[1], self.ranking.history[entry.digest, leaderboard]
         moved = "rose" if category.rising else "fell"
         numbers = [self.ranking.number(category, run) for run in runs]
-        better = ["", *(category.difference(before - now) for before, now in pairwise(numbers))]
+        better = ["", *(category.gain(before - now) for before, now in pairwise(numbers))]
         rows = [
             (run.moment, self.player_link(run.player, UP), category.text(number), gain, self.watch_link([run], UP))
             for run, number, gain in zip(runs, numbers, better, strict=True)
