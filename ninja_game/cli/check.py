@@ -19,7 +19,6 @@ from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.files.writing import check_output
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.runtime import cores
 from ninja_game.sim.kinds import DOOR
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -53,7 +52,7 @@ class GoldGoals(options.GoldCount):
 @options.work_option
 @options.seed_option
 @click.option("--first", "first_only", is_flag=True, help="Stop each search at the first run that it finds.")
-@click.option("--jobs", type=options.JOBS, default=cores, show_default="one per core", help="Levels at the same time.")
+@options.levels_jobs_option
 @options.body_option
 @click.option(
     "--replays", metavar="FOLDER", type=NEW_FOLDER, help="Keep runs in this folder; those still right are not searched."

@@ -17,7 +17,6 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.files.writing import check_output, write_atomically
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.formats.pack.pack import Pack
@@ -94,9 +93,9 @@ def pars(pack: Path) -> None:
 @click.command(name="pack")
 @click.argument("pack", type=OLD_FOLDER)
 @options.seconds_option(20.0)
-@click.option("--jobs", type=options.JOBS, help="Levels at the same time. [default: one per core]")
+@options.levels_jobs_option
 @click.option("--zip", "zip_path", type=NEW_FILE, help="[default: PACK.zip beside it]")
-def pack_up(pack: Path, seconds: float, jobs: int | None, zip_path: Path | None) -> int:
+def pack_up(pack: Path, seconds: float, jobs: int, zip_path: Path | None) -> int:
     """Make a pack ready to share: certificates, par times, difficulties, a list of what is odd, a zip and a link.
 
     Each level is certified to the exit and with all gold, --seconds each. What is there and still right is not done
@@ -114,7 +113,7 @@ def pack_up(pack: Path, seconds: float, jobs: int | None, zip_path: Path | None)
     path = zip_path or pack.resolve().with_name(f"{pack.resolve().name}.zip")
     check_output(path)
     with progress_line() as report:
-        ready = make_ready(pack, seconds=seconds, jobs=jobs or cores(), say=lambda text, _: report.say(text))
+        ready = make_ready(pack, seconds=seconds, jobs=jobs, say=lambda text, _: report.say(text))
     write_atomically(path, ready.zipped)
     _show(ready.findings)
     click.echo(

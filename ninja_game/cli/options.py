@@ -188,6 +188,9 @@ smooth_option = click.option(
 seed_option = click.option(
     "--seed", type=SEED, default=1, show_default=True, help="With one job, the same seed does the same work."
 )
+levels_jobs_option = click.option(
+    "--jobs", type=JOBS, default=cores, show_default="one per core", help="Levels at the same time."
+)
 search_jobs_option = click.option("--jobs", type=JOBS, default=cores, show_default="one per core", help="Threads.")
 shortening_options = together(
     click.option("--gold", type=GoldCount(), default=0, show_default=True, help="Collect this much gold on the way."),

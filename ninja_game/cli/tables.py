@@ -55,7 +55,7 @@ def show(tables: Sequence[Table]) -> None:
     for runs, rows in tables:
         best, (name, *others) = runs[0], titles([run.recording for run in runs])
         end = best.ticks - (best.outcome != "running")
-        ends = ending_text(best.outcome, end, best.death)
+        ends = ending_text(best.outcome, best.ticks - 1, best.death)
         console.print(f"{name}: {ends}, {seconds_text(end)} s, {best.gold} gold")
         table = RichTable(box=None, pad_edge=False, header_style="bold")
         table.add_column("split")

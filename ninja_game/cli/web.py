@@ -256,7 +256,8 @@ def _ranking(
     gc.set_threshold(20_000)
     now = datetime.now(UTC)
     memo = memo_of("runs", folder, folder, again=again)
-    last, kept, ruled = (_remembered(memo, key) for key in (LAST_LEVELS, LAST_LEDGER, LAST_RULES))
+    known_before = memo_of("runs", folder, folder, again=False) if again else memo
+    last, kept, ruled = (_remembered(known_before, key) for key in (LAST_LEVELS, LAST_LEDGER, LAST_RULES))
     if not decide:
         levels, ledger, rules = levels or last, ledger or kept, rules or ruled
     categories = read_categories(rules) if rules else USUAL
@@ -273,9 +274,9 @@ def _ranking(
     known = dates_of(before, now, given) if ledger else None
     judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
     here = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
+    memo.save()
     if unknown := given.keys() - here:
         raise FileError("a file that is not among the runs", str(dates), found=shown_text(min(unknown)))
-    memo.save()
     return Ranking(judged, shown, categories), before
 
 

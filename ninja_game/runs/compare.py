@@ -276,15 +276,19 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
     if n * m > MAX_PAIRS or n + m > MAX_TOGETHER:
         raise ArgumentError(f"runs of {n} and {m} ticks are too long to be compared place by place")
     came_from = np.zeros((n, m), np.uint8)
+    # Each diagonal is a slice: of these cells in steps of m - 1, and of the other run backwards.
+    cells, backwards = came_from.reshape(-1), theirs[::-1]
     # Costs of the last two diagonals, by the tick of ours plus one; all paths begin in front of both first ticks.
     costs, last, before = (np.full(n + 1, np.inf) for _ in range(3))
     before[0] = 0.0
     for diagonal in range(n + m - 1):
-        i = np.arange(max(0, diagonal - m + 1), min(n, diagonal + 1))
-        j = diagonal - i
-        ways = np.stack([before[i], last[i], last[i + 1]])
-        came_from[i, j] = way = np.argmin(ways, axis=0)
-        costs[i + 1] = ways[way, np.arange(len(i))] + np.hypot(*(ours[i] - theirs[j]).T)
+        start, end, shift = max(0, diagonal - m + 1), min(n, diagonal + 1), m - 1 - diagonal
+        both, left, right = before[start:end], last[start:end], last[start + 1 : end + 1]
+        one = np.minimum(left, right)
+        way = np.where(both <= one, 0, np.where(left <= right, 1, 2))
+        cells[start * (m - 1) + diagonal : (end - 1) * (m - 1) + diagonal + 1 : max(1, m - 1)] = way
+        apart = np.hypot(*(ours[start:end] - backwards[start + shift : end + shift]).T)
+        costs[start + 1 : end + 1] = np.minimum(both, one) + apart
         # What the oldest holds beyond the next diagonal is never read, but for the place in front of the first ticks.
         before[0] = np.inf
         costs, last, before = before, costs, last

@@ -50,9 +50,11 @@ def death_text(world: World) -> str:
 
 
 def ending_text(outcome: str, tick: int, death: str = "") -> str:
-    """How a run ends, in words.
+    """How a run ends, in words. ``tick``: its last one.
 
-    >>> ending_text("dead", 96, "mine 12"), ending_text("exit", 219)
-    ('dead in tick 96: mine 12', 'exit in tick 219')
+    >>> ending_text("dead", 96, "mine 12"), ending_text("exit", 219), ending_text("running", 59)
+    ('dead in tick 96: mine 12', 'exit in tick 219', 'still running after 60 ticks')
     """
+    if outcome == "running":
+        return f"still running after {tick + 1} ticks"
     return f"{outcome} in tick {tick}{f': {death}' if death else ''}"

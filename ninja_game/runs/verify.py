@@ -199,12 +199,10 @@ def _as_json(value: object) -> str:
 
 
 def _ending(recording: Recording, run: RunResult) -> str:
-    if run.outcome != "running":
-        return ending_text(run.outcome, run.end_tick, run.death)
-    if recording.missing:
+    if run.outcome == "running" and recording.missing:
         held = len(recording.replay.inputs)
         return f"the demo is truncated, it holds {held} of its {held + recording.missing} ticks"
-    return f"still running after {run.ticks} ticks"
+    return ending_text(run.outcome, run.ticks - 1, run.death)
 
 
 def _broken_claims(replay: Replay, run: RunResult) -> Iterator[RunProblem]:

@@ -106,6 +106,12 @@ def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_pa
     ]  # fmt: skip
     assert newest.count("<tr>") == 3, "a new record fills one row"
     assert re.findall("<td>([0-9-]{10})<", newest) == ["1970-01-03", "1970-01-02"]
+    neat = Category("Neat", ("gold", "ticks"))
+    BoardPages(tmp_path / "neat", Ranking(with_demands(runs, levels), published_levels(levels), (neat,))).write()
+    page = (tmp_path / "neat" / "board" / "index.html").read_text("utf-8")
+    assert re.findall("<div>([^<]+)</div>", page) == ["Neat: 1 gold, better by ticks", "Neat: 1 gold, first"]
+    level = (tmp_path / "neat" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    assert "<td>ticks</td>" in level.partition('id="records"')[2]
 
 
 def test_who_has_only_assisted_runs_is_among_the_players_too(runs: Path, levels: Path, tmp_path: Path) -> None:

@@ -184,7 +184,7 @@ def test_a_board_remembers_its_ledger(runs: Path, levels: Path, tmp_path: Path) 
     assert "no ledger: copies are told by the names of files" in result.stderr
     taken_in_earlier(runs, levels, tmp_path / "board.json")
     put(runs, "a.txt", replay(author="Thief"))
-    for more in ([], ["--site", str(tmp_path / "site")]):
+    for more in ([], ["--again"], ["--site", str(tmp_path / "site")]):
         result = CliRunner().invoke(cli, words)
         assert result.stdout.splitlines()[1:] == ["1. Zed: 0.575 (23 ticks, 1 gold, unknown) 2026-01-31"]
         assert result.stderr == ""

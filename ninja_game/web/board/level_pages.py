@@ -302,7 +302,7 @@ class LevelPages:
         category, runs = leaderboard[1], self.ranking.history[entry.digest, leaderboard]
         moved = "rose" if category.rising else "fell"
         numbers = [self.ranking.number(category, run) for run in runs]
-        better = ["", *(category.difference(before - now) for before, now in pairwise(numbers))]
+        better = ["", *(category.gain(before - now) for before, now in pairwise(numbers))]
         rows = [
             (run.moment, self.player_link(run.player, UP), category.text(number), gain, self.watch_link([run], UP))
             for run, number, gain in zip(runs, numbers, better, strict=True)
@@ -323,7 +323,8 @@ class LevelPages:
         if len(runs) == 1:
             return paths(UP + picture_name(runs[0].level), [(names[0], runs[0].path)]), None
         found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
-        rows, known = _split_rows(found), [path_data(each.positions) for each in found]
+        rows, kept = _split_rows(found), runs[0].folder.drawn
+        known = [kept.get(run.key) or path_data(each.positions) for run, each in zip(runs, found, strict=True)]
         places = [(row.split.x, row.split.y) for row in rows]
         drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)), places)
         together = tag("p", self.watch_link(runs, UP, f"Watch the first {len(runs)} together"))

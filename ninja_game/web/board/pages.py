@@ -147,7 +147,7 @@ class BoardPages(LevelPages):
         """The categories of a record, its results in them, and by how much it is better."""
         for category, amount in record.before.items():
             result = category.measured(self.ranking.number(category, record.run))
-            gain = "first" if amount is None else f"better by {category.difference(amount)}"
+            gain = "first" if amount is None else f"better by {category.gain(amount)}"
             yield f"{self.leaderboard_name((record.run.ladder, category))}: {result}, {gain}"
 
     def _week(self) -> list[Piece]:

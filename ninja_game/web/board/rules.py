@@ -110,6 +110,14 @@ class Category:
             return f"{amount:g}"
         return "-" * (amount < 0) + seconds_text(round(abs(amount)))
 
+    def gain(self, amount: float) -> str:
+        """By how much a first number is better than that of the record before, or by what else where it is equal.
+
+        >>> FASTEST.gain(5), FASTEST.gain(0)
+        ('0.125', 'gold')
+        """
+        return self.difference(amount) if amount else ", ".join(rank.strip(" -") for rank in self.rank[1:])
+
 
 def _all(values: Values) -> Callable[[], Values]:
     return lambda: values
