@@ -147,7 +147,7 @@ def _verify_all(
             if cluster:
                 done = _isolate_failing(pool, partial(_verify_as_text, options), all_jobs, results_from_text)
             else:
-                done = _isolate_failing(pool, partial(_verify, options), all_jobs, lambda found, _: list(found))
+                done = _isolate_failing(pool, partial(_verify, options), all_jobs, lambda results, _: list(results))
             yield from _record_results(done, log)
         except (CancelledError, ConnectionError) as error:
             if not cluster:
@@ -196,20 +196,20 @@ def _isolate_failing(
 
     ``read``: what turns an answer into the results of a job.
     """
-    for job, found in in_order(pool, function, jobs):
-        if isinstance(found, WorkerLostError) and len(job) > 1:
+    for job, results in in_order(pool, function, jobs):
+        if isinstance(results, WorkerLostError) and len(job) > 1:
             yield from _isolate_failing(pool, function, ((chunk,) for chunk in job), read)
         else:
-            yield job, found if isinstance(found, WorkerLostError) else read(found, job)
+            yield job, results if isinstance(results, WorkerLostError) else read(results, job)
 
 
 def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
     """The results of all jobs, noted in the checkpoint log as they come; what it has already is taken from it."""
-    for job, found in done:
-        if isinstance(found, WorkerLostError):
-            yield from (Lost(f"{chunk.file}: {found}") for chunk in job)
+    for job, answer in done:
+        if isinstance(answer, WorkerLostError):
+            yield from (Lost(f"{chunk.file}: {answer}") for chunk in job)
             continue
-        for chunk, results in zip(job, found, strict=True):
+        for chunk, results in zip(job, answer, strict=True):
             if log is not None and chunk.done:
                 yield from log[chunk.key]
                 continue
@@ -277,8 +277,8 @@ def trace_all(
     ``level``: what recordings that do not hold their level are played on; ``record``: only this one of each file.
     ``jobs``: how many run at a time, by default one a core. ``memory`` and ``options`` as for ``trace_recording``.
     """
-    found = recordings_in(paths, level)
-    rest = (item for item in found if record is None or isinstance(item, Unreadable) or item.record == record)
+    recordings = recordings_in(paths, level)
+    rest = (item for item in recordings if record is None or isinstance(item, Unreadable) or item.record == record)
     first = list(islice(rest, TRACES))
     options |= {"memory": memory}
     if len(first) < TRACES or jobs == 1:

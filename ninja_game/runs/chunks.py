@@ -146,15 +146,15 @@ def results_as_text(results: Sequence[Sequence[Result]]) -> str:
 def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result]]:
     """The results that ``results_as_text`` wrote of these chunks. Raises ClusterError for anything else."""
     try:
-        found = [[result_from_data(data) for data in of_chunk] for of_chunk in json.loads(str(text))]
-        if len(found) != len(chunks):
-            raise ValueError(f"{len(found)} answers to {len(chunks)} questions")
-        for chunk, results in zip(chunks, found, strict=True):
+        all_results = [[result_from_data(data) for data in of_chunk] for of_chunk in json.loads(str(text))]
+        if len(all_results) != len(chunks):
+            raise ValueError(f"{len(all_results)} answers to {len(chunks)} questions")
+        for chunk, results in zip(chunks, all_results, strict=True):
             # A text that was found in a folder may hold levels alone.
             wanted = 0 if chunk.done else 1 if chunk.problem else len(chunk.records) or int(chunk.named)
             if len(results) != wanted and (chunk.records or len(results) < wanted):
                 raise ValueError(f"{len(results)} results of {wanted}")
-        return found
+        return all_results
     except DAMAGED as error:
         raise ClusterError(f"a worker of the cluster answers with something else than results ({error})") from None
 
@@ -266,9 +266,9 @@ class CheckpointLog:
     def __getitem__(self, key: str) -> list[Result]:
         end = self._file.tell()
         self._file.seek(self._places[key])
-        found, results = _parse(self._file.readline())
+        written_key, results = _parse(self._file.readline())
         self._file.seek(end)
-        if found != key:
+        if written_key != key:
             raise FormatError(
                 "the checkpoint log was changed meanwhile", str(self.path), expected="one writer at a time"
             )

@@ -47,10 +47,10 @@ def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
             level, inputs, body=recording.body, name=recording.name, author=recording.player, budget=budget
         )
     markers = tuple(marker for marker in old.markers if marker.tick <= len(new.inputs))
-    claimed, found = ((run.outcome, run.final_tick, run.gold, run.digest or new.digest) for run in (old, new))
+    claimed, now = ((run.outcome, run.final_tick, run.gold, run.digest or new.digest) for run in (old, new))
     return replace(
         new, level_name=old.level_name, level_author=recording.level_author, markers=markers, co_authors=old.co_authors,
-        made=old.made if old.unclaimed or claimed == found else old.made.edited(1),
+        made=old.made if old.unclaimed or claimed == now else old.made.edited(1),
     )  # fmt: skip
 
 
@@ -127,22 +127,22 @@ def _records(text: str, file: str, level: Level | None) -> Iterator[LevelRecord]
     )
 
 
-def left_out(form: str, found: Sequence[NamedLevel | Recording], texts: Sequence[str]) -> list[str]:
+def left_out(form: str, records: Sequence[NamedLevel | Recording], texts: Sequence[str]) -> list[str]:
     """Sentences about what a form, as ``convert --to`` names them, cannot hold of what was found in texts."""
     lost = []
     if form in ("ascii", "string") and any(map(holds_recordings, texts)):
         lost.append("the recordings (--to replay or --to file keeps them)")
-    if form == "string" and any(named.author or named.comment for named in found):
+    if form == "string" and any(named.author or named.comment for named in records):
         lost.append("names, authors and comments of levels")
-    if form != "ascii" and any(isinstance(named, NamedLevel) and (named.teaches or named.says) for named in found):
+    if form != "ascii" and any(isinstance(named, NamedLevel) and (named.teaches or named.says) for named in records):
         lost.append("what levels teach and say")
     if form in ("celeste", "libtas"):
         lost.append("levels, names, authors and how runs were made")
-    if form in ("replay", "inputs", "episode") and any(recording.comment for recording in found):
+    if form in ("replay", "inputs", "episode") and any(recording.comment for recording in records):
         lost.append("comments of recordings")
     if any(map(_own_comments, filter(is_ascii_level, texts))):
         lost.append("comment lines")
-    if form in ("string", "file") and any(isinstance(named, NamedLevel) and _rounded(named.level) for named in found):
+    if form in ("string", "file") and any(isinstance(named, NamedLevel) and _rounded(named.level) for named in records):
         lost.append("the last bit of some numbers, which N cannot read")
     return lost
 

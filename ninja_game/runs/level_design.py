@@ -102,8 +102,8 @@ def design(level: Level, inputs: bytes) -> Design:
 
 
 def places(level: Level, kind: int) -> Points:
-    found = [record.values[:2] for record in level.objects if record.kind == kind and well_formed(record)]
-    return np.array(found, np.float64).reshape(-1, 2)
+    points = [record.values[:2] for record in level.objects if record.kind == kind and well_formed(record)]
+    return np.array(points, np.float64).reshape(-1, 2)
 
 
 def distances(points: Points, others: Points) -> NDArray[np.float64]:
@@ -133,7 +133,7 @@ def in_danger(level: Level, ground: Ground, still: RunTrace, points: Points) -> 
     moving = [rows[::5] for kind, rows in zip(still.kinds, still.objects.T, strict=True) if kind in by_touch]
     reached = [np.column_stack([rows["x"], rows["y"]]) for rows in moving]
     lanes = [lane(ground, record) for record in level.objects if record.kind in LANES and well_formed(record)]
-    reached += [np.array(list(each)).reshape(-1, 2) for each in lanes]
+    reached += [np.array(list(cells)).reshape(-1, 2) for cells in lanes]
     near = distances(points, np.concatenate([places(level, kinds.MINE), *reached])) < BAIT
     for kind in (kinds.TURRET, kinds.LAUNCHER):
         for gun in places(level, kind):
@@ -180,13 +180,13 @@ def most_bays(level: Level) -> int:
             block = tuple(tile for k in range(i, i + wide) for tile in level.tiles[k * ROWS + j : k * ROWS + j + high])
             if len(set(block)) > 2 and 6 <= sum(tile > 0 for tile in block) <= wide * high - 6:
                 where.setdefault(block, []).append((i, j))
-    return max((len(_apart(found)) for found in where.values()), default=0)
+    return max((len(_apart(cells)) for cells in where.values()), default=0)
 
 
-def _apart(found: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
+def _apart(cells: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
     """As many of the blocks at these cells as do not overlap, from the left."""
     kept: list[tuple[int, int]] = []
-    for i, j in found:
+    for i, j in cells:
         if all(abs(i - a) >= BAY[0] or abs(j - b) >= BAY[1] for a, b in kept):
             kept.append((i, j))
     return kept

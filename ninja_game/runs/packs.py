@@ -70,8 +70,8 @@ def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
 
 def is_certified(pack: Pack, file: str, kind: str) -> bool:
     try:
-        found = certificate(pack, file, kind)
-        return found is not None and not found.problems
+        run = certificate(pack, file, kind)
+        return run is not None and not run.problems
     except NinjaGameError:
         return False
 
@@ -117,7 +117,7 @@ def file_of(pack: Pack, finding: PackFinding) -> str:
 
 def level_of(pack: Pack, file: str) -> str:
     """The level file that a file is, or of which it is a certificate; else the file."""
-    return next((each for each in pack.files.levels for kind in KINDS if certificate_name(each, kind) == file), file)
+    return next((level for level in pack.files.levels for kind in KINDS if certificate_name(level, kind) == file), file)
 
 
 def lint(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> Iterator[PackFinding]:
@@ -215,9 +215,9 @@ def _about_certificates(pack: Pack) -> Iterator[PackFinding]:
     for file in pack.levels:
         for kind in KINDS:
             try:
-                found = certificate(pack, file, kind)
-                if found:
-                    yield from (pack_finding("certificate", found.place, why=problem) for problem in found.problems)
+                run = certificate(pack, file, kind)
+                if run:
+                    yield from (pack_finding("certificate", run.place, why=problem) for problem in run.problems)
                 elif kind == "exit":
                     yield pack_finding("no-certificate", pack.files.place(file))
             except NinjaGameError as error:

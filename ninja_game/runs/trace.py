@@ -229,13 +229,13 @@ def first_difference(ours: RunTrace, theirs: RunTrace, section: str = "") -> Dif
         id_ = min(key for key in mine.keys() | other.keys() if mine.get(key) != other.get(key))
         return Difference(0, f"object {id_}", "kind", mine.get(id_, "missing"), other.get(id_, "missing"), section)
     shared = min(len(ours.ninja), len(theirs.ninja))
-    found = _first_unequal(ours.ninja[:shared, np.newaxis], theirs.ninja[:shared, np.newaxis], (NINJA_NAME,))
+    first = _first_unequal(ours.ninja[:shared, np.newaxis], theirs.ninja[:shared, np.newaxis], (NINJA_NAME,))
     if with_objects:
         names = tuple(f"object {id_} ({kind})" for id_, kind in zip(ours.ids, ours.kinds, strict=True))
         in_objects = _first_unequal(ours.objects[:shared], theirs.objects[:shared], names)
-        found = in_objects if found is None or (in_objects and in_objects[0] < found[0]) else found
-    if found:
-        return Difference(*found, section)
+        first = in_objects if first is None or (in_objects and in_objects[0] < first[0]) else first
+    if first:
+        return Difference(*first, section)
     if len(ours.ninja) != len(theirs.ninja):
         return Difference(shared, "run", "number of ticks", len(ours.ninja), len(theirs.ninja), section)
     return None

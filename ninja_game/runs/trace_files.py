@@ -155,19 +155,19 @@ def read_npz(data: IO[bytes], path: Path) -> Iterator[FiledTrace]:
     """The traces of a file that ``write_npz`` wrote. Raises FormatError where it is something else."""
     try:
         with open_zip(data, most_files=MOST_ARRAYS, most_bytes=MOST_BYTES) as archive:
-            found = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
-            for number in sorted(int(name.removeprefix("ninja_")) for name in found if name.startswith("ninja_")):
-                yield _read_arrays(archive, found, number)
+            arrays = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
+            for number in sorted(int(name.removeprefix("ninja_")) for name in arrays if name.startswith("ninja_")):
+                yield _read_arrays(archive, arrays, number)
     except _UNREADABLE as error:
         raise FormatError(f"this is not a trace ({error})", file=str(path)) from None
 
 
-def _read_arrays(archive: ZipFile, found: Mapping[str, ZipInfo], number: int) -> FiledTrace:
+def _read_arrays(archive: ZipFile, arrays: Mapping[str, ZipInfo], number: int) -> FiledTrace:
     """One run. Raises an error of ``_UNREADABLE`` where its arrays are none or do not fit each other."""
 
     def array(name: str, dtype: DTypeLike = np.str_) -> NDArray[Any]:
         dimensions = 1 + (dtype is OBJECT_RECORD)
-        return read_array(archive, found[f"{name}_{number}"], np.dtype(dtype), most=MAX_TICKS, dimensions=dimensions)
+        return read_array(archive, arrays[f"{name}_{number}"], np.dtype(dtype), most=MAX_TICKS, dimensions=dimensions)
 
     run = _checked(
         ninja=array("ninja", NINJA_RECORD),

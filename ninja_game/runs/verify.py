@@ -187,9 +187,9 @@ def with_demands(
         demanded.append(run_problem("other-episode"))
     unknown = (None, NOT_RUN) if demanded else ()
     for field, expected in STRICT.items() if strict else ():
-        found = getattr(verdict, field)
-        if found != expected and found not in unknown:
-            demanded.append(run_problem("not-strict", field=field, found=_as_json(found), expected=_as_json(expected)))
+        value = getattr(verdict, field)
+        if value != expected and value not in unknown:
+            demanded.append(run_problem("not-strict", field=field, found=_as_json(value), expected=_as_json(expected)))
     name = levels.get(verdict.level_digest, "")
     return replace(verdict, level_name=name, problems=verdict.problems + tuple(demanded))
 
@@ -219,9 +219,9 @@ def _broken_claims(replay: Replay, run: RunResult) -> Iterator[RunProblem]:
     }
     if replay.digest:
         claims["digest"] = (run.digest, replay.digest)
-    for field, (found, claimed) in claims.items():
-        if found != claimed:
-            yield run_problem("wrong-claim", tick=replay.final_tick, field=field, found=found, claimed=claimed)
+    for field, (now, claimed) in claims.items():
+        if now != claimed:
+            yield run_problem("wrong-claim", tick=replay.final_tick, field=field, found=now, claimed=claimed)
 
 
 def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[RunProblem]:
@@ -231,9 +231,9 @@ def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[RunProblem]:
         if waypoint.tick >= run.ticks:
             return
         here = run.waypoint(waypoint.tick)
-        for field, found, claimed in zip(waypoint._fields, here, waypoint, strict=True):
-            if found != claimed:
-                values = {"field": field, "found": found, "claimed": claimed, "agrees": passed}
+        for field, now, claimed in zip(waypoint._fields, here, waypoint, strict=True):
+            if now != claimed:
+                values = {"field": field, "found": now, "claimed": claimed, "agrees": passed}
                 yield run_problem("missed-waypoint", tick=waypoint.tick, **values)
                 return
         passed = f"up to tick {waypoint.tick}"

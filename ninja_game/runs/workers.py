@@ -191,13 +191,13 @@ Workers: TypeAlias = Local | Cluster
 @contextmanager
 def workers(count: int, *, processes: bool = False, cluster: str = "") -> Iterator[Workers]:
     """Workers for a while: of the cluster at this address, else ``count`` threads or processes."""
-    found: Workers = Cluster(cluster) if cluster else Local(count, processes=processes)
+    pool: Workers = Cluster(cluster) if cluster else Local(count, processes=processes)
     try:
-        yield found
+        yield pool
     except BaseException:
-        found.kill()
+        pool.kill()
         raise
-    found.close()
+    pool.close()
 
 
 def in_order(pool: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> Iterator[tuple[J, R | WorkerLostError]]:

@@ -84,18 +84,18 @@ def _certify(
     stop: Event,
 ) -> dict[str, Certified]:
     """Certify a level: one goal after the other; a run that serves another goal better is its run too."""
-    found: dict[str, Certified] = {}
+    certified: dict[str, Certified] = {}
     amounts = {name: level.level.gold if gold < 0 else gold for name, gold in wanted.goals.items()}
     for name, gold in amounts.items():
         task = Task(level.level, gold=gold, **wanted.task)
         kept = read_certificate(level, where[name], body=task.body, gold=task.gold) if where else None
-        found[name] = _certify_goal(level, where.get(name), task, kept, found, report, stop, wanted.improve)
-    for name, other in [(name, other) for name in found for other in found if name != other]:
-        run, best = found[other].run, found[name].run
+        certified[name] = _certify_goal(level, where.get(name), task, kept, certified, report, stop, wanted.improve)
+    for name, other in [(name, other) for name in certified for other in certified if name != other]:
+        run, best = certified[other].run, certified[name].run
         if run and run.gold >= amounts[name] and (not best or run.end_tick < best.end_tick):
-            found[name] = replace(found[name], run=run, how="found")
+            certified[name] = replace(certified[name], run=run, how="found")
             _write(level, where.get(name), run)
-    return found
+    return certified
 
 
 def _certify_goal(

@@ -129,10 +129,10 @@ class GoldBeam:
                 if led_on == breadth or (frontier is not frontiers[0] and self._value(frontier) > self.ticks * HOPE):
                     break
                 for effort in EFFORTS:
-                    found, ends = self._leg(frontier, resolution, effort, spend)
-                    if found:
-                        self.add_run(found)
-                        return found
+                    run, ends = self._leg(frontier, resolution, effort, spend)
+                    if run:
+                        self.add_run(run)
+                        return run
                     if spend(0):
                         return None
                     if ends:

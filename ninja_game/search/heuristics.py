@@ -137,14 +137,14 @@ def widened(field: DistanceField, steps: int = 3) -> DistanceField:
 def points_about(x: float, y: float, radius: float) -> list[int]:
     """All points nearer to a place than a radius (px)."""
     reach = int(radius / SPACING) + 1
-    found = set()
+    points = set()
     for i in range(-reach, reach + 1):
         for j in range(-reach, reach + 1):
             point = point_at(x + i * SPACING, y + j * SPACING)
             dx, dy = SPACING * (point % ACROSS) - x, SPACING * (point // ACROSS) - y
             if dx * dx + dy * dy < radius * radius:
-                found.add(point)
-    return sorted(found)
+                points.add(point)
+    return sorted(points)
 
 
 DOOR_COST = 40.0

@@ -154,12 +154,12 @@ class Search:
 
     def ends(self, *, by_velocity: bool = False) -> list[Checkpoint]:
         """The checkpoints at which the leg has ended so far. ``by_velocity``: the velocity sets them apart, too."""
-        found = []
+        links = []
         for index in self.arrays.ends[: int(self.counters.ends)].tolist():
             compiled(load_node)(self.start, self.arrays, index)
             root, inputs = self._path(index)
-            found.append(self.checkpoint(self._roots[root], inputs, by_velocity=by_velocity))
-        return found
+            links.append(self.checkpoint(self._roots[root], inputs, by_velocity=by_velocity))
+        return links
 
     def checkpoint(self, before: Checkpoint | None, inputs: bytes, *, by_velocity: bool = False) -> Checkpoint:
         """The scratch world as a checkpoint."""

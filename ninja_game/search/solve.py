@@ -134,9 +134,9 @@ class _Job:
             return self._spend(played, played * SEARCH_COST)
 
         while self.work < until and not spend(0):
-            found = self._gold_beam.search_depths(spend)
-            if found:
-                self.state.submit(found)
+            run = self._gold_beam.search_depths(spend)
+            if run:
+                self.state.submit(run)
         best, plan = self.state.runs[0], self.plan
         self.shortener.search_spans(self.shortener.search_locally(best, plan.local), plan.spans_with_gold)
 
@@ -151,13 +151,13 @@ class _Job:
             self.state.count(played, f"{route.most}{doing}" if doing else "searching")
             return self._over or self.work >= until or bool(self.state.runs and first)
 
-        found = None
-        while not found and not spend(0):
-            found = route.step(spend)
+        run = None
+        while not run and not spend(0):
+            run = route.step(spend)
         never = [self.heuristics.gold_ids[piece] for piece in route.never_taken()] if route.gold else None
         self.state.note_unreached(route.search.untouched, route.most, never)
-        if found:
-            self.state.submit(found)
+        if run:
+            self.state.submit(run)
 
     def _search_other_route(self) -> None:
         """Search a run from the start, maybe by another route than that of the best; shorten what is found."""
@@ -168,12 +168,12 @@ class _Job:
         resolution = resolution._replace(slack=resolution.slack * shortest)
         given, early = bool(self.state.task.first), self._early
         bound = shortest + max(4, int(shortest * (GIVEN_BOUND if given else FOUND_BOUND)))
-        found = self._search_once(
+        way = self._search_once(
             resolution, OTHER_ROUTE_TICKS, seed=100 + turn, bound=bound, backed_up=resolution.slack > 0.0
         )
-        if not early and not found:
+        if not early and not way:
             return
-        run = self.shortener.search_locally(found or self.state.runs[0], self.plan.local)
+        run = self.shortener.search_locally(way or self.state.runs[0], self.plan.local)
         if not early and len(run) < shortest * (1.0 + FOUND_BOUND):
             self.shortener.search_spans(run, self.plan.spans)
 

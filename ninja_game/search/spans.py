@@ -89,9 +89,9 @@ class SpanSearches:
             settings = settings._replace(max_delay=settings.max_delay * self._delay_factor)
             chosen = int(random.integers(1 << 30))
             ticks = SPAN_TICKS << min(int(random.geometric(0.5)) - 1, DOUBLINGS)
-            found = self.search(first, first + length, settings, seed=chosen, ticks=ticks, spend=spend)
-            if found:
-                return found
+            run = self.search(first, first + length, settings, seed=chosen, ticks=ticks, spend=spend)
+            if run:
+                return run
         return None
 
     def search(
@@ -114,9 +114,9 @@ class SpanSearches:
         early, late = ended == EXHAUSTED and search.ticks < FEW_TICKS, search.ticks >= MANY_TICKS
         factor = self._delay_factor * (1.15 if early else 0.8 if late else 1.0)
         self._delay_factor = min(max(factor, LEAST_DELAY_FACTOR), MOST_DELAY_FACTOR)
-        found = search.best()
+        span = search.best()
         # A press is there where the key goes down; joined parts need it again.
-        return with_press_bits(self._inputs[:first] + found) if found else None
+        return with_press_bits(self._inputs[:first] + span) if span else None
 
 
 class RunShortener:
@@ -158,10 +158,10 @@ class RunShortener:
 
         while not spend(0):
             self._searches += 1
-            found = self._spans.shorter(inputs, seed=self.seed * 1000 + self._searches, spend=spend)
-            if found:
-                self._submit(found)
-                inputs = self.search_locally(found, SHORT_LOCAL_TICKS)
+            run = self._spans.shorter(inputs, seed=self.seed * 1000 + self._searches, spend=spend)
+            if run:
+                self._submit(run)
+                inputs = self.search_locally(run, SHORT_LOCAL_TICKS)
         return inputs
 
     def search_locally(self, inputs: bytes, ticks: int) -> bytes:

@@ -151,7 +151,7 @@ class RunCommands(DocumentCommands):
         Of a run that was recorded on another level ask whether it is to be edited on this one.
         """
         lost = list(recovered(self.app.player.folder))
-        own = next((found for found in lost if self._is_of_this_run(found)), None)
+        own = next((run for run in lost if self._is_of_this_run(run)), None)
         if own:
             self._offer(own)
         elif self.session.moved:
@@ -163,33 +163,33 @@ class RunCommands(DocumentCommands):
         elif lost:
             self.app.notify(f"Not saved last time: {_name_of(lost[0])}. Esc, Not saved last time")
 
-    def _is_of_this_run(self, found: RecoveredRun) -> bool:
-        opened, session = found.opened, self.session
+    def _is_of_this_run(self, recovered_run: RecoveredRun) -> bool:
+        opened, session = recovered_run.opened, self.session
         if opened.file.path or session.file.path:
             return opened.file.path == (session.file.path and session.file.path.absolute())
         return opened.track == session.track and same_level(opened.recording, session.about)
 
     def list_recovered(self) -> None:
         rows: list[Row] = [
-            (_name_of(found), partial(self._offer, found), _when(found))
-            for found in islice(recovered(self.app.player.folder), 8)
+            (_name_of(run), partial(self._offer, run), _when(run))
+            for run in islice(recovered(self.app.player.folder), 8)
         ]
         if rows:
             self.app.push(Menu(self.app, "Not saved last time", [*rows, ("Back", nothing, "")]))
         else:
             self.app.notify("All runs that were edited are saved")
 
-    def _offer(self, found: RecoveredRun) -> None:
-        recover, discard = partial(self._recover, found), partial(remove_abandoned, found.file)
-        self.ask_about_recovered(_name_of(found), recover, discard, about=f"{_when(found)}; every edit can be undone")
+    def _offer(self, run: RecoveredRun) -> None:
+        recover, discard = partial(self._recover, run), partial(remove_abandoned, run.file)
+        self.ask_about_recovered(_name_of(run), recover, discard, about=f"{_when(run)}; every edit can be undone")
 
 
-def _name_of(found: RecoveredRun) -> str:
-    home = found.opened.file.path
-    return home.name if home else found.opened.recording.name or "a run"
+def _name_of(run: RecoveredRun) -> str:
+    home = run.opened.file.path
+    return home.name if home else run.opened.recording.name or "a run"
 
 
-def _when(found: RecoveredRun) -> str:
-    count = len(found.tracks)
-    last = strftime("%Y-%m-%d %H:%M", localtime(found.file.stat().st_mtime)) if found.file.exists() else "gone"
+def _when(run: RecoveredRun) -> str:
+    count = len(run.tracks)
+    last = strftime("%Y-%m-%d %H:%M", localtime(run.file.stat().st_mtime)) if run.file.exists() else "gone"
     return f"{counted(count, 'edit')}, the last {last}"

@@ -276,8 +276,8 @@ class Splitters(TasPart):
         app = self.editor.app
         now = self.editor.theme.canvas.scale * 100
         largest = app.theme.canvas.scale * 100
-        sizes = [each for each in _TEXT_SCALES if (each - now) * by > 1 and each < largest]
-        text_scale = min(sizes, key=lambda each: abs(each - now), default=round(largest) if by > 0 else 0)
+        sizes = [scale for scale in _TEXT_SCALES if (scale - now) * by > 1 and scale < largest]
+        text_scale = min(sizes, key=lambda scale: abs(scale - now), default=round(largest) if by > 0 else 0)
         if not text_scale or (by > 0 and now > largest - 1):
             app.notify(f"The layout is as {'large as this window allows' if by > 0 else 'small as can be'}")
         else:

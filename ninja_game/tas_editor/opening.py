@@ -32,7 +32,7 @@ def open_tas_editor(app: App, recording: Recording, others: Sequence[Recording],
         from ninja_game.tas_editor.screen import TasScreen
 
         opened = open_recording(recording)
-        screen = TasScreen(app, opened, [each for each in others if same_level(each, recording)])
+        screen = TasScreen(app, opened, [other for other in others if same_level(other, recording)])
         screen.editor.go(tick)
         return screen
 

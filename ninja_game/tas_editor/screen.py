@@ -41,12 +41,12 @@ class TasScreen(WorkspaceScreen):
     table = TABLE
 
     def __init__(
-        self, app: App, opened: OpenedRun, others: Sequence[Recording] = (), found: RecoveredRun | None = None
+        self, app: App, opened: OpenedRun, others: Sequence[Recording] = (), recovered_run: RecoveredRun | None = None
     ) -> None:
         super().__init__(app)
         self.session = Session(opened, app.player.folder, player=app.settings.name)
-        if found is not None:
-            self.session.recover(found)
+        if recovered_run is not None:
+            self.session.recover(recovered_run)
         self.editor = TasEditor(app, self.session)
         values = ValuesTab(self.editor)
         self.tabs: list[Tab] = [values, *(tab(self.editor) for tab in (BranchesTab, LeadTab, SearchTab, TextTab))]
@@ -57,7 +57,7 @@ class TasScreen(WorkspaceScreen):
         self.level.others.open(others)
         placed = [self.head, self.level, self.roll, self.foot_line, self.strip, *self.tabs]
         self.splitters = Splitters(self.editor, placed)
-        self._entered = found is not None
+        self._entered = recovered_run is not None
 
     @property
     def tab(self) -> Tab:
@@ -96,9 +96,9 @@ class TasScreen(WorkspaceScreen):
         on = NamedLevel(about.replay.level_name or about.name, about.level_author, "", about.level, about.file)
         self.app.push(TasScreen(self.app, new_run(on, body=about.body)))
 
-    def _recover(self, found: RecoveredRun) -> None:
-        screen = TasScreen(self.app, found.opened, found=found)
-        if same_level(found.opened.recording, self.session.about):
+    def _recover(self, run: RecoveredRun) -> None:
+        screen = TasScreen(self.app, run.opened, recovered_run=run)
+        if same_level(run.opened.recording, self.session.about):
             screen.editor.others, screen.editor.chosen = self.editor.others, self.editor.chosen
         self.app.replace(screen)
 

@@ -121,11 +121,11 @@ class EditorCommands(DocumentCommands):
         """Do a command; of one that steps on, all steps are listed."""
         tools, view = self.session.tools, self.view
         steps: dict[str, dict[str, Action]] = {
-            "symmetry": {each: partial(self.mirror, each) for each in SYMMETRIES},
-            "grid": {each.name: partial(view.show_grid, each) for each in GRIDS},
-            "snap_next": {each: partial(setattr, tools, "snap", each) for each in SNAPS},
+            "symmetry": {symmetry: partial(self.mirror, symmetry) for symmetry in SYMMETRIES},
+            "grid": {grid.name: partial(view.show_grid, grid) for grid in GRIDS},
+            "snap_next": {snap: partial(setattr, tools, "snap", snap) for snap in SNAPS},
         }
-        rows: list[Row] = [(each[0].upper() + each[1:], do, "") for each, do in steps.get(name, {}).items()]
+        rows: list[Row] = [(label[0].upper() + label[1:], do, "") for label, do in steps.get(name, {}).items()]
         if rows:
             title = {"symmetry": "Mirror", "grid": "Grid", "snap_next": "Snap"}[name]
             now = {"symmetry": tools.symmetry, "grid": view.grid.name, "snap_next": tools.snap}[name]
@@ -244,7 +244,7 @@ class EditorCommands(DocumentCommands):
 
         at = ("Test with the ninja at a click", ask, f"Key at the pointer: {key_text(TABLE.by_name['test_here'])}")
         commands = map(TABLE.by_name.__getitem__, IN_MORE)
-        rows = [(each.label, partial(self.run, each.name), f"Key: {key_text(each)}") for each in commands]
+        rows = [(command.label, partial(self.run, command.name), f"Key: {key_text(command)}") for command in commands]
         self.app.push(Menu(self.app, "More", [at, *rows, CANCEL]))
 
     def file_menu(self) -> None:
@@ -286,16 +286,16 @@ class EditorCommands(DocumentCommands):
         saved, path = session.is_saved, session.source.path
 
         def follow() -> None:
-            found = session.changed_source()
-            if found is None:
+            source = session.changed_source()
+            if source is None:
                 return
             if saved:
-                session.take(found)
+                session.take(source)
                 self.app.notify(f"Another program has changed the file: this is the new level. {_UNDO}")
                 return
             rows: list[Row] = [
                 ("Keep what is here", nothing, "Saving asks again"),
-                ("Load the file", lambda: session.take(found), _UNDO),
+                ("Load the file", lambda: session.take(source), _UNDO),
             ]
             self.app.push(Menu(self.app, f"Another program has changed {path.name if path else ''}", rows))
 
@@ -338,8 +338,8 @@ class EditorCommands(DocumentCommands):
         """
         tools = self.session.tools
         tools.finish()
-        found = [points(tools.draft.objects[number]).get(part) for number, part in tools.selection.parts]
-        place = cell_of(*next(filter(None, found), tools.pointer))
+        selected = [points(tools.draft.objects[number]).get(part) for number, part in tools.selection.parts]
+        place = cell_of(*next(filter(None, selected), tools.pointer))
         here = min(max(1, place[0]), COLUMNS), min(max(1, place[1]), ROWS)
 
         def put(says: str) -> None:
@@ -353,8 +353,8 @@ class EditorCommands(DocumentCommands):
         """The level's file as it is played: in its place in a pack, or alone; None without a file."""
         alone = self.session.entry
         packs = self.app.player.catalogue.packs() if alone else ()
-        levels = (each for pack in packs for each in pack.levels)
-        return alone and next((each for each in levels if each.named.file == alone.named.file), alone)
+        levels = (level for pack in packs for level in pack.levels)
+        return alone and next((level for level in levels if level.named.file == alone.named.file), alone)
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
@@ -383,11 +383,11 @@ class EditorCommands(DocumentCommands):
 
     def offer_recovered(self) -> None:
         """Ask what to do with a level that was being edited when the program died."""
-        found = next(recovered(self.app.player.folder), None)
-        if found is not None:
-            name = found.draft.name or (found.source.path.name if found.source.path else "a new level")
+        draft = next(recovered(self.app.player.folder), None)
+        if draft is not None:
+            name = draft.draft.name or (draft.source.path.name if draft.source.path else "a new level")
             about = "As it was at most two seconds before the end"
-            self.ask_about_recovered(name, lambda: self.session.begin(found.source, found), found.forget, about=about)
+            self.ask_about_recovered(name, lambda: self.session.begin(draft.source, draft), draft.forget, about=about)
 
     def new(self) -> None:
         begin, author = self.session.begin, self.app.settings.name

@@ -119,7 +119,10 @@ def _fits(source: str) -> bool:
 
 def messages_of(says: str) -> list[Message]:
     details = {"death": "{0.deaths}", "at": "{0.cell[0]},{0.cell[1]}"}
-    return [Message(each.when, details.get(each.when, "").format(each), each.text) for each in parse_messages(says)]
+    return [
+        Message(message.when, details.get(message.when, "").format(message), message.text)
+        for message in parse_messages(says)
+    ]
 
 
 class _Stage:
@@ -181,7 +184,9 @@ class MessagesScreen(MenuScreen):
 
     def enter(self) -> None:
         super().enter()
-        place = next((k for k, each in enumerate(self.messages) if self._wanted and each.detail == self._wanted), None)
+        place = next(
+            (k for k, message in enumerate(self.messages) if self._wanted and message.detail == self._wanted), None
+        )
         if place is not None:
             self.focus, self._wanted = self._row_widgets[place][-1], ""
 
@@ -242,9 +247,9 @@ class MessagesScreen(MenuScreen):
             return
         column, row = cell_of(*((at - start) * WIDTH / PICTURE[2] for at, start in zip((x, y), PICTURE, strict=False)))
         near = {f"{column + i},{row + j}": abs(i) + abs(j) for i in (-1, 0, 1) for j in (-1, 0, 1)}
-        found = [k for k, each in enumerate(self.messages) if each.when == "at" and each.detail in near]
-        if pressed and found:
-            self._selected = min(found, key=lambda k: near[self.messages[k].detail])
+        there = [k for k, message in enumerate(self.messages) if message.when == "at" and message.detail in near]
+        if pressed and there:
+            self._selected = min(there, key=lambda k: near[self.messages[k].detail])
             self.focus = self._row_widgets[self._selected][-1]
         elif self.selected and self.selected.when == "at" and is_inside((column, row)):
             self.selected.detail = f"{column},{row}"
@@ -259,7 +264,7 @@ class MessagesScreen(MenuScreen):
         self.focus = self._row_widgets[-1][-1]
 
     def _remove(self, message: Message) -> None:
-        self.messages = [each for each in self.messages if each is not message]
+        self.messages = [other for other in self.messages if other is not message]
         self.enter()
 
     def _is_sound(self) -> bool:
@@ -339,8 +344,8 @@ class MessagesScreen(MenuScreen):
 
     def _turn_of(self, message: Message) -> str:
         """How long it is shown, and as which of those of its moment."""
-        together = [each for each in self.messages if each.moment == message.moment]
-        place = next(k for k, each in enumerate(together, 1) if each is message)
+        together = [other for other in self.messages if other.moment == message.moment]
+        place = next(k for k, other in enumerate(together, 1) if other is message)
         which = f"No. {place} of {len(together)}, " if len(together) > 1 else ""
         return f"{which}{shown_ticks(message.when, len(together)) / TICKS_PER_SECOND:.0f} s"
 
@@ -351,9 +356,9 @@ class MessagesScreen(MenuScreen):
         palette = self.app.palette_in(self._look)
         key = palette.name, size, opened
         if key not in self._stages:
-            kept = {old: each for old, each in self._stages.items() if old[:2] == key[:2]}
+            kept = {old: stage for old, stage in self._stages.items() if old[:2] == key[:2]}
             self._stages = kept | {key: _Stage(draft.level, palette, *size, opened=opened)}
-        stage, said, texts = self._stages[key], None, [each.text for each in self.messages]
+        stage, said, texts = self._stages[key], None, [other.text for other in self.messages]
         picture = stage.picture.copy()
         if message:
             controls, when = self.app.controls, message.when
@@ -367,8 +372,8 @@ class MessagesScreen(MenuScreen):
         labels = named_in(stage.world, arrow_targets(texts)) if stage.world else ()
         stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=said, named=labels))
         surface.blit(picture, place)
-        for number, each in enumerate(self.messages, 1):
-            if each is not message and each.when == "at" and (eye := self._eye(each)):
+        for number, other in enumerate(self.messages, 1):
+            if other is not message and other.when == "at" and (eye := self._eye(other)):
                 x, y = (start + at * PICTURE[2] / WIDTH for start, at in zip(PICTURE, eye, strict=False))
                 theme.canvas.circle(surface, theme.palette.accent, (x, y), 6)
                 theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)

@@ -188,7 +188,7 @@ def entry_of_key(tools: EditorTools, key: str) -> Entry | None:
         return brush.FULL if key == "e" else brush.EMPTY
     if tools.about_objects:
         return _OBJECT_TYPE_OF_KEY.get(key)
-    family = next((each for each in brush.FAMILIES if tools.tile in each.tiles), brush.FAMILIES[0])
+    family = next((item for item in brush.FAMILIES if tools.tile in item.tiles), brush.FAMILIES[0])
     place = family.tiles.index(tools.tile) if tools.tile in family.tiles else 0
     if key in _FAMILY_OF_KEY:
         return _FAMILY_OF_KEY[key].tiles[place]
@@ -206,19 +206,19 @@ class PaletteView(Widget):
     def places(self) -> list[tuple[Entry, Area]]:
         """Every entry with its square; the four tiles of a family stand as their keys Q W A S do."""
         x, y, _, _ = self.area
-        found: list[tuple[Entry, Area]] = []
+        areas: list[tuple[Entry, Area]] = []
         for number, tile in enumerate((brush.EMPTY, brush.FULL)):
-            found.append((tile, (x + 76 + number * (TILE + 14), y + 1, TILE, TILE)))
+            areas.append((tile, (x + 76 + number * (TILE + 14), y + 1, TILE, TILE)))
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             left, top = x + 11 + column * BLOCK, y + 21 + row * BLOCK_ROW
             for k, tile in enumerate(family.tiles):
-                found.append((tile, (left + k % 2 * TILE, top + k // 2 * TILE, TILE, TILE)))
+                areas.append((tile, (left + k % 2 * TILE, top + k // 2 * TILE, TILE, TILE)))
         for number, object_type in enumerate(brush.OBJECT_TYPES):
             row, column = divmod(number, OBJECTS_PER_ROW)
             top = y + _OBJECTS + row * (OBJECT + KEY)
-            found.append((object_type, (x + column * (OBJECT + 0.6), top, OBJECT, OBJECT)))
-        return found
+            areas.append((object_type, (x + column * (OBJECT + 0.6), top, OBJECT, OBJECT)))
+        return areas
 
     @property
     def _in_hand(self) -> Entry:

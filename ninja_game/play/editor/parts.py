@@ -127,7 +127,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         rows.append(lambda area: Choice(area, "", modes, lambda: tools.slopes, set_slopes, hint=TABLE.hint("slopes")))
     head = Label((x, y, w, 15), title, size=10)
     made = [make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows)]
-    return [head, *(each for widgets in made for each in (widgets if isinstance(widgets, Sequence) else [widgets]))]
+    return [head, *(widget for widgets in made for widget in (widgets if isinstance(widgets, Sequence) else [widgets]))]
 
 
 _ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
@@ -153,7 +153,7 @@ def _row(buttons: Sequence[Row], head: str = "", room: int = 0) -> Callable[[Are
         x, y, w, h = area
         wide = (w - room) / len(buttons)
         places = [(x + room + wide * k, y, wide - 2, h) for k in range(len(buttons))]
-        row = [Button(at, *each[:2], hint=each[2], size=8) for at, each in zip(places, buttons, strict=True)]
+        row = [Button(at, *button[:2], hint=button[2], size=8) for at, button in zip(places, buttons, strict=True)]
         return [Label((x, y + 5, room, h), head, size=8.5), *row]
 
     return make
@@ -163,11 +163,11 @@ def _ask_move(view: EditorView) -> None:
     """Ask by how much what is selected moves: columns and rows, or px."""
 
     def on_accept(text: str) -> None:
-        found = re.fullmatch(r"([+-]?\d+(?:\.\d+)?),([+-]?\d+(?:\.\d+)?)(px)?", text.replace(" ", ""))
-        step = 1.0 if found and found[3] else CELL
-        if found is None:
+        match = re.fullmatch(r"([+-]?\d+(?:\.\d+)?),([+-]?\d+(?:\.\d+)?)(px)?", text.replace(" ", ""))
+        step = 1.0 if match and match[3] else CELL
+        if match is None:
             view.app.notify("Not moved: write two numbers, as 2,-1 for cells or 6,0px for px")
-        elif not view.session.tools.shift(step * float(found[1]), step * float(found[2])):
+        elif not view.session.tools.shift(step * float(match[1]), step * float(match[2])):
             view.app.notify("Not moved: a part of it would leave the level")
 
     ask_text(view.app, "Move right and down by", "Cells: 2,-1   Or px: 6,0px", "", "Move", on_accept, 20)
@@ -176,7 +176,7 @@ def _ask_move(view: EditorView) -> None:
 def _ask_kind(view: EditorView) -> None:
     """Ask what the selected objects become."""
     change = view.session.tools.change_each
-    rows: list[Row] = [(each.capitalize(), partial(change, partial(remade, name=each)), "") for each in OTHER_KINDS]
+    rows: list[Row] = [(kind.capitalize(), partial(change, partial(remade, name=kind)), "") for kind in OTHER_KINDS]
     view.app.push(Menu(view.app, "Selected objects become", [*rows, CANCEL]))
 
 
@@ -190,8 +190,8 @@ def _present(tools: EditorTools, name: str) -> str:
     """The word for a property of all subjects, "" where they differ."""
     if name == "side" and tools.nearest and not tools.selection:
         return NEAREST
-    found = {word(spec, name) for spec in tools.subjects if name in properties(spec)}
-    return found.pop() if len(found) == 1 else ""
+    words = {word(spec, name) for spec in tools.subjects if name in properties(spec)}
+    return words.pop() if len(words) == 1 else ""
 
 
 def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
@@ -273,7 +273,7 @@ class EditorPart(Pane):
         """What the mouse is over is said in the status line; all else is up to the widgets."""
         if event.type != pygame.MOUSEMOTION or any(event.buttons):
             return False
-        widget = next((each for each in self.widgets if each.focusable and each.contains(x, y)), None)
+        widget = next((part for part in self.widgets if part.focusable and part.contains(x, y)), None)
         self.view.hint = widget.hint if widget else ""
         return True
 
@@ -376,7 +376,7 @@ class Findings(EditorPart):
         if self._shown is not self.session.findings:
             self._shown, theme = self.session.findings, self.view.app.theme
             room = self.area[2] - 32
-            self._lines = [(k, each) for k, f in enumerate(self._shown) for each in wrapped(theme, f.advice, room, 9.5)]
+            self._lines = [(k, line) for k, f in enumerate(self._shown) for line in wrapped(theme, f.advice, room, 9.5)]
             self.list.fill(self._lines)
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:

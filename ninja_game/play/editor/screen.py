@@ -149,7 +149,7 @@ class EditorScreen(WorkspaceScreen):
         return bool(changes)
 
     def _words_on(self, name: str, by: int) -> str:
-        spec = next(each for each in self.session.tools.subjects if name in properties(each))
+        spec = next(subject for subject in self.session.tools.subjects if name in properties(subject))
         words, now = list(PROPERTIES[spec.kind][name].words), word(spec, name)
         return following(words, now if now in words else words[0], by)
 

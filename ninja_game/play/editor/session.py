@@ -69,14 +69,14 @@ Examined = tuple[Level, list[Finding]]
 
 
 def _examine(question: Question) -> Examined:
-    level, found, says = question
+    level, searched, says = question
     odd = level_findings(level, says)
     # What the ninja cannot reach at all need not be told of the solver too.
-    out_of_reach = {number for each in odd if each.code in UNREACHABLE for number in each.records}
+    out_of_reach = {number for finding in odd if finding.code in UNREACHABLE for number in finding.records}
     # Of an exit that is shut in, one line is enough: its switch is told of once the exit can be reached.
-    shut = {number for each in odd if each.code == "unreachable" for number in each.records}
-    odd = [each for each in odd if each.code != "unreachable-switch" or not shut.issuperset(each.records)]
-    return level, [*(each for each in found if not out_of_reach.intersection(each.records)), *odd]
+    shut = {number for finding in odd if finding.code == "unreachable" for number in finding.records}
+    odd = [finding for finding in odd if finding.code != "unreachable-switch" or not shut.issuperset(finding.records)]
+    return level, [*(finding for finding in searched if not out_of_reach.intersection(finding.records)), *odd]
 
 
 class EditorSession:
@@ -95,10 +95,10 @@ class EditorSession:
         if source:
             self._recognise()
 
-    def _begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
-        self.autosave = Autosave(self.app.player.folder, found.file if found else None)
-        self.source = found.source if found else source
-        self.tools.load(found.draft if found else source.draft)
+    def _begin(self, source: Source, draft: RecoveredDraft | None = None) -> None:
+        self.autosave = Autosave(self.app.player.folder, draft.file if draft else None)
+        self.source = draft.source if draft else source
+        self.tools.load(draft.draft if draft else source.draft)
         self.certifier.edit(self.draft.level)
         self._objects = self.draft.objects
         # What is still being found out is of another level.
@@ -115,14 +115,14 @@ class EditorSession:
         self._asked: Question | None = None
         self._asked_at = 0.0
 
-    def begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
+    def begin(self, source: Source, draft: RecoveredDraft | None = None) -> None:
         """Edit another level, or one that was found again; what was not saved of the present one is given up.
 
         Raises FileError for what another window continues with.
         """
         before = self.autosave
         self._leave_search()
-        self._begin(source, found)
+        self._begin(source, draft)
         before.close()
         self._recognise()
 
@@ -130,9 +130,9 @@ class EditorSession:
         """Take up this level's certificate, once it was played: beside its file, or of the same level elsewhere."""
         catalogue, level, path = self.app.player.catalogue, self.draft.level, self.source.path
         same = [alone] if (alone := self.entry) else []
-        same += [each for each in catalogue.single_levels() if each.named.level == level]
-        found = ((each, run) for each in same if (run := catalogue.author_run(each)))
-        entry, run = next(found, (None, None))
+        same += [item for item in catalogue.single_levels() if item.named.level == level]
+        runs = ((item, run) for item in same if (run := catalogue.author_run(item)))
+        entry, run = next(runs, (None, None))
         if run:
             self._known_runs.ask((level, run))
             if path and entry is same[0]:
@@ -214,12 +214,12 @@ class EditorSession:
             self.app.notify(f"The level could not be examined: {self._checks.problem}")
             self._checks.problem = ""
         level, says = self.draft.level, self.draft.says
-        found = () if self.certifier.is_stale(level) else self.certifier.search.obstacles
+        obstacles = () if self.certifier.is_stale(level) else self.certifier.search.obstacles
         before = self._asked
-        news = before is None or level is not before[0] or found is not before[1] or says != before[2]
+        news = before is None or level is not before[0] or obstacles is not before[1] or says != before[2]
         due = news and monotonic() - self._asked_at >= CHECK_SPACING
         if due and not self.tools.dragging:
-            self._asked, self._asked_at = (level, found, says), monotonic()
+            self._asked, self._asked_at = (level, obstacles, says), monotonic()
             self._checks.ask(self._asked)
         if not self.tools.history.in_stroke and self.draft.objects is not self._objects:
             self._tell_of_exits()
@@ -261,8 +261,8 @@ class EditorSession:
         self._file_stamp = stamp
         if stamp in (before, NO_FILE):
             return None
-        found = open_source(path)
-        return found if found.digest != self.source.digest else None
+        source = open_source(path)
+        return source if source.digest != self.source.digest else None
 
     def take(self, source: Source) -> None:
         """Go on with the level as its file has it now; undo brings back what was here."""
@@ -317,8 +317,10 @@ class EditorSession:
             if (named := load_levels(path)[0]).level == search.level:
                 return named
         # The window's own catalogue is not for this thread.
-        own = (each.named for each in Catalogue(self.app.player.folder / LEVELS).single_levels() if each.source != GAME)
-        return next((each for each in own if each.level == search.level and Path(each.file).is_file()), None)
+        own = (
+            entry.named for entry in Catalogue(self.app.player.folder / LEVELS).single_levels() if entry.source != GAME
+        )
+        return next((entry for entry in own if entry.level == search.level and Path(entry.file).is_file()), None)
 
     def _leave_search(self) -> None:
         """The level is left: a search of what its file holds goes on without the editor, any other one ends."""

@@ -96,11 +96,11 @@ class LevelSheet:
 
     def _change_objects(self, draft: Draft) -> None:
         before = self._looks
-        found = before | self.pictures.sprites_of(spec for spec in draft.objects if spec not in before)
-        self._looks = {spec: found[spec] for spec in draft.objects}
-        self._order = [found[spec] for spec in sorted(self._looks, key=lambda each: _FRONT.get(each.kind, 0))]
+        sprites = before | self.pictures.sprites_of(spec for spec in draft.objects if spec not in before)
+        self._looks = {spec: sprites[spec] for spec in draft.objects}
+        self._order = [sprites[spec] for spec in sorted(self._looks, key=lambda obj: _FRONT.get(obj.kind, 0))]
         self._rects = [each.rect for each in self._order]
-        self._dirty += [found[spec].rect for spec in before.keys() ^ self._looks.keys()]
+        self._dirty += [sprites[spec].rect for spec in before.keys() ^ self._looks.keys()]
 
     def show_marks(self, marks: dict[Hashable, LevelMark]) -> None:
         """Show these marks. A mark with the key of an earlier one is the same."""
@@ -155,17 +155,17 @@ def joined(rects: Iterable[pygame.Rect]) -> list[pygame.Rect]:
     waiting = [rect.copy() for rect in rects if rect.width]
     if len(waiting) > _MANY:
         return [waiting[0].unionall(waiting[1:])]
-    found: list[pygame.Rect] = []
+    merged: list[pygame.Rect] = []
     while waiting:
         rect = waiting.pop()
-        touching = rect.collidelistall(found)
+        touching = rect.collidelistall(merged)
         if touching:
             for number in reversed(touching):
-                rect.union_ip(found.pop(number))
+                rect.union_ip(merged.pop(number))
             waiting.append(rect)
         else:
-            found.append(rect)
-    return found
+            merged.append(rect)
+    return merged
 
 
 MIDDLE = (396.0, 300.0)
@@ -268,7 +268,7 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 def said_places(says: str) -> list[Point]:
     """The middles of the cells near which a level says something, px."""
-    return [each.place for each in parse_messages(says) if each.place]
+    return [message.place for message in parse_messages(says) if message.place]
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:
@@ -291,8 +291,8 @@ def death_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 def finding_points(level: Level, finding: Finding) -> list[Point]:
     places = list(map(middle_of, finding.cells))
     for number in finding.records:
-        found = points(level.objects[number]) if number < len(level.objects) else {}
-        place = found.get(SWITCH if finding.about_switch else BODY)
+        parts = points(level.objects[number]) if number < len(level.objects) else {}
+        place = parts.get(SWITCH if finding.about_switch else BODY)
         places += [place] if place else []
     return [(min(max(x, 12.0), 780.0), min(max(y, 12.0), 588.0)) for x, y in places]
 
@@ -311,15 +311,15 @@ def level_marks(
     for cell, count in tests.visits.items():
         share = round(count / max(tests.visits.values()), 1)
         add(("visit", cell, share), partial(visit_mark, canvas, palette, cell, share))
-    for place in filter(lambda each: is_near(*each), tests.deaths):
+    for place in filter(lambda point: is_near(*point), tests.deaths):
         add(("death", place), partial(death_mark, canvas, palette, place))
     for a, b in axes:
         add(("axis", a, b), partial(line_mark, canvas, palette.accent, a, b))
     for spec in draft.objects if lines else ():
         if has_switch(spec):
-            found = points(spec)
-            if len(found) == 2 and all(is_near(*point) for point in found.values()):
-                line = partial(line_mark, canvas, palette.switch, found[SWITCH], found[BODY], 0.8)
+            places = points(spec)
+            if len(places) == 2 and all(is_near(*point) for point in places.values()):
+                line = partial(line_mark, canvas, palette.switch, places[SWITCH], places[BODY], 0.8)
                 add(("switch", spec), line)
     for route, colour in routes:
         add(("route", id(route), str(colour)), partial(route_mark, canvas, colour, route))

@@ -70,7 +70,7 @@ class Overlay:
     def restore(self, surface: pygame.Surface, rects: list[pygame.Rect]) -> list[pygame.Rect]:
         """Show the sheet where these px of it have changed, and where the overlay was; the px of the window."""
         x, y = self.area.topleft
-        changed = joined(rect.clip(self.area) for rect in [each.move(x, y) for each in rects] + self.target.covered)
+        changed = joined(rect.clip(self.area) for rect in [area.move(x, y) for area in rects] + self.target.covered)
         for rect in changed:
             surface.blit(self.sheet.surface, rect, rect.move(-x, -y))
         return changed
@@ -86,11 +86,11 @@ class Overlay:
             self._frame(tools.selection.area, self.sheet.palette.accent)
         for number, part in tools.selection.parts:
             spec = tools.draft.objects[number] if number < len(tools.draft.objects) else None
-            found = points(spec) if spec else {}
-            if part in found and all(is_near(*place) for place in found.values()):
-                self.target.sprite(_ring("accent"), *found[part])
-                if SWITCH in found:
-                    self.target.line(self.sheet.palette.accent, *found[BODY], *found[SWITCH], 1.2)
+            places = points(spec) if spec else {}
+            if part in places and all(is_near(*place) for place in places.values()):
+                self.target.sprite(_ring("accent"), *places[part])
+                if SWITCH in places:
+                    self.target.line(self.sheet.palette.accent, *places[BODY], *places[SWITCH], 1.2)
         if tools.marquee:
             self._frame(area_between(*tools.marquee), self.sheet.palette.good)
         if hovering:
@@ -106,8 +106,8 @@ class Overlay:
         palette, target, canvas = self.sheet.palette, self.target, self.canvas
         if self._reach is not reach:
             self._reach = reach
-            found = [(reach.spans, palette.good, 70), (reach.deaths, palette.bad, 255)]
-            squares = [((*c[:3], a), canvas.rect(x, y, w, SQUARE)) for spans, c, a in found for x, y, w in spans]
+            areas = [(reach.spans, palette.good, 70), (reach.deaths, palette.bad, 255)]
+            squares = [((*c[:3], a), canvas.rect(x, y, w, SQUARE)) for spans, c, a in areas for x, y, w in spans]
             rects = [rect for _, rect in squares] or [pygame.Rect(canvas.origin, (1, 1))]
             self._seen = rects[0].unionall(rects).clip(self.area)
             self._reached = pygame.Surface(self._seen.size, pygame.SRCALPHA)
@@ -137,8 +137,8 @@ class Overlay:
         """What would be pasted."""
         for cell, tile in stamp.tiles.items():
             self._ghost_tile(cell, tile)
-        for each in self.sheet.pictures.sprites_of(stamp.objects).values():
-            each.draw(self.target, alpha=GHOST)
+        for sprites in self.sheet.pictures.sprites_of(stamp.objects).values():
+            sprites.draw(self.target, alpha=GHOST)
         if stamp.tiles:
             self._frame(area_between(min(stamp.tiles), max(stamp.tiles)), self.sheet.palette.accent)
 
@@ -152,13 +152,13 @@ class Overlay:
         draws = tools.effective_tool not in ("select", "pick")
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
         if not draws:
-            found = nearest(tools.draft, *tools.pointer, PICK_REACH)
+            target = nearest(tools.draft, *tools.pointer, PICK_REACH)
             if tools.draft.says and tools.cell in said_cells(tools.draft.says):
                 # As far as NEAR: the message is said to who comes in there.
                 column, row = tools.cell
                 self._frame((column - 2, row - 2, 5, 5), self.sheet.palette.accent)
-            if found:
-                self.target.sprite(_ring("faint"), *points(tools.draft.objects[found[0]])[found[1]])
+            if target:
+                self.target.sprite(_ring("faint"), *points(tools.draft.objects[target[0]])[target[1]])
                 return
         if not tools.objects or not draws:
             for cell, tile in tools.preview.items() if draws else ():
@@ -171,8 +171,8 @@ class Overlay:
         there = nearest(tools.draft, x, y, NEAR_SWITCH_PX)
         if there is None or there[1] != SWITCH:
             images = [spec] if spec.kind in (NINJA, EXIT) else [carried(spec, motion) for motion in motions]
-            for each in self.sheet.pictures.sprites_of(images).values():
-                each.draw(self.target, alpha=GHOST)
+            for sprites in self.sheet.pictures.sprites_of(images).values():
+                sprites.draw(self.target, alpha=GHOST)
         for a, b in (((x - 4, y), (x + 4, y)), ((x, y - 4), (x, y + 4))):
             self.target.line(self.sheet.palette.accent, *a, *b)
 
@@ -401,8 +401,8 @@ class EditorView(Pane):
 
     def _signs(self) -> list[Point]:
         examined = self.session.examined
-        found = [p for each in self.session.findings for p in finding_points(examined, each)] if examined else []
-        return list(dict.fromkeys(found))
+        signs = [p for finding in self.session.findings for p in finding_points(examined, finding)] if examined else []
+        return list(dict.fromkeys(signs))
 
 
 _X, _Y = MIDDLE

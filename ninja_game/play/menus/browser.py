@@ -146,7 +146,7 @@ class Browser(ThumbnailScreen):
 
     def _arrange(self) -> None:
         words = self.search.casefold().split()
-        found = [e for e in self.entries if all(word in _words(e) for word in words)]
+        matching = [e for e in self.entries if all(word in _words(e) for word in words)]
         keys: dict[object, Callable[[Entry], object]] = {
             "name": lambda e: e.title.casefold(),
             "author": lambda e: (e.named.author.casefold(), e.title.casefold()),
@@ -154,14 +154,14 @@ class Browser(ThumbnailScreen):
             "time": lambda e: mark.fastest if (mark := self.marks.get(e.digest)) else 1e9,
         }
         if self.sort in keys:
-            found.sort(key=keys[self.sort])  # type: ignore[arg-type]
+            matching.sort(key=keys[self.sort])  # type: ignore[arg-type]
         # A name is found before a comment.
-        found.sort(key=lambda e: not all(word in e.title.casefold() for word in words))
+        matching.sort(key=lambda e: not all(word in e.title.casefold() for word in words))
         # The levels of days are a game of their own.
-        shown, known = (sum(Path(e.named.file).parent.name != DAILY for e in es) for es in (found, self.entries))
+        shown, known = (sum(Path(e.named.file).parent.name != DAILY for e in es) for es in (matching, self.entries))
         self._count = f"{shown} of {known} levels"
-        if found != self.shown:
-            self.shown = found
+        if matching != self.shown:
+            self.shown = matching
             self.list.index = self.list.first = 0
         self.list.fill(self.shown)
         if not self.shown:

@@ -103,8 +103,8 @@ class DailyScreen(ThumbnailScreen):
     def _find(self) -> None:
         catalogue = self.player.catalogue
         catalogue.problems.clear()
-        files = ((Path(each.named.file), each) for each in catalogue.single_levels())
-        self.days = {file.stem: each for file, each in files if file.parent == self.file.parent}
+        files = ((Path(entry.named.file), entry) for entry in catalogue.single_levels())
+        self.days = {file.stem: entry for file, entry in files if file.parent == self.file.parent}
         self.entry = self.days.get(self.file.stem) if self.file.exists() else None
         self.message = ""
         if self.entry is None and self.file.exists():

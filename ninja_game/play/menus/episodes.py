@@ -273,7 +273,7 @@ class EpisodeGrid(ThumbnailScreen):
         best = self.player.records.episode_best(episode.key)
         clock = f"Your best: {seconds_text(best.score)} s left on the clock" if best else ""
         count = len(episode.levels)
-        text = clock or _how_far(sum(each.digest in self.passed for each in episode.levels), count)
+        text = clock or _how_far(sum(level.digest in self.passed for level in episode.levels), count)
         theme.text(surface, self._hint() if self._state(episode.number) == LOCKED else text, SIDE, 96, size=11,
                    colour=palette.good if best else palette.faint)  # fmt: skip
 

@@ -40,9 +40,9 @@ class GoodLevel(NamedTuple):
 
 def read_good_levels() -> list[GoodLevel]:
     tables = tomllib.loads((data_folder("assets") / FILE).read_text("utf-8"))["level"]
-    files = [data_folder("levels") / f"{each['file']}.txt" for each in tables]
+    files = [data_folder("levels") / f"{table['file']}.txt" for table in tables]
     entries = [Entry(load_levels(file)[0], GAME) for file in files]
-    return [GoodLevel(entry, each["about"], each["notes"]) for entry, each in zip(entries, tables, strict=True)]
+    return [GoodLevel(entry, table["about"], table["notes"]) for entry, table in zip(entries, tables, strict=True)]
 
 
 class GoodLevelsScreen(ThumbnailScreen):

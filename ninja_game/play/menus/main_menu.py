@@ -66,8 +66,8 @@ class MainMenu(MenuScreen):
         return self.app.menu_theme
 
     def enter(self) -> None:
-        found = next(recovered(self.player.folder), None)
-        self._lost = f"Not saved last time: {shown_text(found.draft.name, 40)}" if found else ""
+        draft = next(recovered(self.player.folder), None)
+        self._lost = f"Not saved last time: {shown_text(draft.draft.name, 40)}" if draft else ""
         self.run = next_run(self.player, practice_mode=self.player.settings.practice)
         super().enter()
 
@@ -154,8 +154,8 @@ class MainMenu(MenuScreen):
         )
         written = [rect.inflate(4, 4), foot]
         if self.attract.view is not None:
-            for each in written:
-                self.attract.view.also_covered(each)
+            for rect in written:
+                self.attract.view.also_covered(rect)
         return None if changed is None else changed + written
 
     def _draw_title(self, surface: pygame.Surface) -> None:

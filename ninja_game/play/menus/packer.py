@@ -115,7 +115,7 @@ class Packer(Aside):
             copy_link(app, lambda: ready.link, title=name)
             said.append("the link is in the clipboard")
         app.notify("; ".join(said) if waited_for else f"{shown_text(name)} is ready to share", here=waited_for)
-        if codes := dict.fromkeys(each.code.replace("-", " ") for each in ready.findings):
+        if codes := dict.fromkeys(finding.code.replace("-", " ") for finding in ready.findings):
             said[0] += f", with {counted(len(ready.findings), 'open problem')} ({', '.join(codes)})"
         self.text = self._made = "; ".join([*said, *ready.notes])
 
@@ -172,9 +172,11 @@ class PackStatus:
     def check(self, pack: Pack) -> Checked:
         known = self.packer.obstacles
         every = problems_of(pack, known)
-        to_do = [each for each in every if each.code in MADE_READY and not obstacle_of(pack, each, known)]
-        found = [each for each in every if each not in to_do]
-        return Checked(pack, found, to_do, frozenset(pack.files.place(file_of(pack, each)) for each in found))
+        to_do = [finding for finding in every if finding.code in MADE_READY and not obstacle_of(pack, finding, known)]
+        findings = [finding for finding in every if finding not in to_do]
+        return Checked(
+            pack, findings, to_do, frozenset(pack.files.place(file_of(pack, finding)) for finding in findings)
+        )
 
     @property
     def findings(self) -> list[PackFinding] | None:
@@ -185,7 +187,7 @@ class PackStatus:
     def to_do(self) -> str:
         """What Make ready will do; "" for nothing."""
         levels, checked = self.pack.levels if self.pack else [], self.checked
-        states = [self.state(each) for each in levels]
+        states = [self.state(level) for level in levels]
         known = checked.to_do if checked and self.findings is not None else []
         certify, gold = sum(map(states.count, NOT_CERTIFIED)), [each.code for each in known].count("no-gold-run")
         work = {"certify": (certify, "level"), "measure": (certify + states.count("certified"), "medal time")}
@@ -216,19 +218,19 @@ class PackStatus:
         """The pack in a line."""
         if self.pack is None or self.pack.pack is None:
             return ""
-        levels, index, found = self.pack.levels, self.pack.pack.index, self.findings
-        vain = [self.state(each) for each in levels].count(NOT_FOUND)
+        levels, index, findings = self.pack.levels, self.pack.pack.index, self.findings
+        vain = [self.state(level) for level in levels].count(NOT_FOUND)
         to_do = self.to_do() or (f"{vain} without a run" if vain else "All certified and measured")
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
         where = f"{counted(len(levels), 'level')} in {counted(len(index.episodes), 'episode')}{alone}"
-        open_ones = "Looking for problems" if found is None else counted(len(found), "problem")
+        open_ones = "Looking for problems" if findings is None else counted(len(findings), "problem")
         return f"{where}. {to_do}. {open_ones}" if levels else where
 
 
 def packer_of(app: App) -> Packer:
     """The program's only one."""
-    for each in app.aside:
-        if isinstance(each, Packer):
-            return each
+    for task in app.aside:
+        if isinstance(task, Packer):
+            return task
     app.aside.append(packer := Packer(app))
     return packer

@@ -102,8 +102,8 @@ class PackScreen(ThumbnailScreen):
         before, catalogue = shown or self.path, self.player.catalogue
         catalogue.problems.clear()
         self.sets = catalogue.packs()
-        self.mine = [each for each in self.sets if each.changeable and each.path and each.path.name != DAILY]
-        now = next((each for each in self.mine if each.path == before), None)
+        self.mine = [pack for pack in self.sets if pack.changeable and pack.path and pack.path.name != DAILY]
+        now = next((pack for pack in self.mine if pack.path == before), None)
         if not (news and now is self.pack):
             self._show(now)
 
@@ -111,19 +111,19 @@ class PackScreen(ThumbnailScreen):
         self.pack = pack = pack or next(iter(self.mine), None)
         self.status.show(pack)
         if not self.packer.busy:
-            self.packer.follow(next((each.pack for each in self.mine if each.path == self.packer.path), None))
+            self.packer.follow(next((shelf.pack for shelf in self.mine if shelf.path == self.packer.path), None))
         cells: list[Cell] = []
         if pack and pack.pack:
             for episode in pack.pack.index.episodes:
                 levels = pack.episodes[episode.number].levels if episode.number in pack.episodes else ()
-                cells += [Cell(episode, head=True), *(Cell(episode, each) for each in levels)]
+                cells += [Cell(episode, head=True), *(Cell(episode, level) for level in levels)]
                 cells += [Cell(episode)] * (LEVELS_PER_EPISODE - len(levels))
             cells += [Cell(None, head=True), *[Cell(None)] * LEVELS_PER_EPISODE]
         entries: Sequence[Entry] = pack.singles if pack else ()
         if self.beside == "yours":
             entries = self.player.catalogue.own()
         elif self.beside != "none":
-            entries = [entry for each in self.sets if each.key == self.beside for entry in each.levels]
+            entries = [entry for shelf in self.sets if shelf.key == self.beside for entry in shelf.levels]
         goals = {"none": "take it out of its episode", "yours": "put it into your folder"}
         self.tray.empty = f"Drag a level here to {goals.get(self.beside, 'put it into this pack')}"
         self.shelves.show(cells)
@@ -135,7 +135,7 @@ class PackScreen(ThumbnailScreen):
         super().enter()
 
     def build(self) -> Sequence[Widget]:
-        names = [(each.pack.index.title if each.pack and each.received else each.name, each.key) for each in self.mine]
+        names = [(pack.pack.index.title if pack.pack and pack.received else pack.name, pack.key) for pack in self.mine]
         have = self.pack and self.pack.pack
         key = self.pack.key if self.pack else ""
         chosen = self.chosen = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
@@ -144,7 +144,7 @@ class PackScreen(ThumbnailScreen):
         whose = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
         chosen.hint = f"{whose}. Enter, or a click on the name: what can be done with it"
         tray = [("In no episode", "none"), ("Your folder", "yours")]
-        tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
+        tray += [(pack.name if pack.key else "The game's own", pack.key) for pack in self.sets if pack is not self.pack]
         beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
         ready, end = partial(self.packer.start, self.path), self.packer.end
@@ -189,7 +189,7 @@ class PackScreen(ThumbnailScreen):
         copy_link(self.app, Pack(self.path).files.link, title=self.pack.name if self.pack else "")
 
     def _choose_pack(self, key: str) -> None:
-        self._show(next(each for each in self.mine if each.key == key))
+        self._show(next(pack for pack in self.mine if pack.key == key))
 
     def _choose_tray(self, key: str) -> None:
         self.beside = key
@@ -253,7 +253,7 @@ class PackScreen(ThumbnailScreen):
             if link_kind(text) != "pack":
                 raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
             pack = Pack(Path(f"#{text.partition('#')[2]}"))
-            if there := next((each for each in self.mine if each.pack and packs.same_pack(pack, each.pack)), None):
+            if there := next((shelf for shelf in self.mine if shelf.pack and packs.same_pack(pack, shelf.pack)), None):
                 self._read(there.path)
                 rows: list[Row] = [
                     ("Play it", self._view, "") if there.received else ("Show it as received", self._view, PREVIEW),
@@ -316,10 +316,10 @@ class PackScreen(ThumbnailScreen):
         self.app.push(Menu(self.app, index.name, rows))
 
     def _find(self, text: str) -> None:
-        found = [each for each in self.mine if text.casefold() in each.name.casefold()]
-        if found:
-            self._choose_pack(found[0].key)
-        self.app.notify(f"No pack is called {shown_text(text)}" * (not found))
+        packs = [pack for pack in self.mine if text.casefold() in pack.name.casefold()]
+        if packs:
+            self._choose_pack(packs[0].key)
+        self.app.notify(f"No pack is called {shown_text(text)}" * (not packs))
 
     def _delete(self) -> None:
         name, path = self.pack.name if self.pack else "", self.path
@@ -456,7 +456,7 @@ class PackScreen(ThumbnailScreen):
             return None
         cells, index, after = self.shelves.cells, over, self._is_after(over)
         if not cells[over].level:
-            row = [k for k, each in enumerate(cells) if each.episode is cells[over].episode]
+            row = [k for k, cell in enumerate(cells) if cell.episode is cells[over].episode]
             index, after = next((k for k in row if not (cells[k].head or cells[k].level)), row[-1]), False
         x, y, w, h = self.shelves.row_area(index)
         return x + w * after - 2, y + 4, 4, h - 8
@@ -464,8 +464,8 @@ class PackScreen(ThumbnailScreen):
     def _put_level(self, level: Entry, goal: Cell | None, *, after: bool) -> None:
         file, target = Path(level.named.file), self.path
         if goal is None and self.beside != "none":
-            target = next((each.path for each in self.sets if each.key == self.beside and each.path), self.folder)
-        if target != self.folder and target not in [each.path for each in self.mine]:
+            target = next((pack.path for pack in self.sets if pack.key == self.beside and pack.path), self.folder)
+        if target != self.folder and target not in [pack.path for pack in self.mine]:
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
         if target != self.path and (target / RECEIVED).exists():
             raise NinjaGameError("that pack was received, and stays as it is")
@@ -477,8 +477,8 @@ class PackScreen(ThumbnailScreen):
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:
                 number = packs.new_episode(target, self._next_name, self._column())
-            row = [each.level for each in self.shelves.cells if goal and each.episode is goal.episode and each.level]
-            row = [each for each in row if each is not level]
+            row = [cell.level for cell in self.shelves.cells if goal and cell.episode is goal.episode and cell.level]
+            row = [cell for cell in row if cell is not level]
             behind = row[row.index(goal.level) + after :] if goal and goal.level else []
             packs.place(target, name, number, Path(behind[0].named.file).name if behind else "")
 
@@ -512,13 +512,13 @@ class PackScreen(ThumbnailScreen):
             return []
         if self.status.findings is None:
             self.status.checked = self.status.check(pack)
-        found = [self._problem(pack, each) for each in self.status.findings or ()]
+        rows = [self._problem(pack, finding) for finding in self.status.findings or ()]
         to_do = [Problem(text, _STOPS, to_do=True)] if (text := self.status.to_do()) else []
-        return [*found, *to_do, *map(self._accepted, pack.index.accepted)]
+        return [*rows, *to_do, *map(self._accepted, pack.index.accepted)]
 
     def _entry(self, file: str) -> Entry | None:
         levels = self.pack.levels if self.pack else []
-        return next((each for each in levels if each.named.file == str(self.path / file)), None)
+        return next((entry for entry in levels if entry.named.file == str(self.path / file)), None)
 
     def _problem(self, pack: Pack, finding: PackFinding) -> Problem:
         file = file_of(pack, finding)
@@ -547,14 +547,14 @@ class PackScreen(ThumbnailScreen):
     def _edit_at(self, entry: Entry, known: Finding | None, sentence: str) -> None:
         """Edit a level at what is odd about it, ``known`` or what is said of it so."""
         odd = level_findings(entry.named.level, entry.named.says) if known is None else ()
-        self._edit(entry, known or next((each for each in odd if each.sentence == sentence), None))
+        self._edit(entry, known or next((finding for finding in odd if finding.sentence == sentence), None))
 
     def _accepted(self, accepted: Accepted) -> Problem:
         entry = self._entry(accepted.file)
         named = entry.named if entry and accepted.code in LEVEL_RULES else None
         every = level_findings(named.level, named.says) if named else []
-        odd = [each for each in every if each.code == accepted.code]
-        said = "; ".join(each.sentence for each in odd) or accepted.code.replace("-", " ")
+        odd = [finding for finding in every if finding.code == accepted.code]
+        said = "; ".join(finding.sentence for finding in odd) or accepted.code.replace("-", " ")
         take_back = partial(packs.take_back, self.path, accepted.file, accepted.code)
         text = f"{entry.title if entry else accepted.file}: {said}. Accepted: {accepted.reason}"
         go = partial(self.change, partial(self._edit, entry, next(iter(odd), None)), "Edit") if entry else None

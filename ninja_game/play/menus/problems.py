@@ -58,7 +58,7 @@ class ProblemsScreen(MenuScreen):
         self.problems = self._find()
         self.list.fill(self.problems)
         self._offer()
-        searches = [self.search] * any(each.search for each in self.problems)
+        searches = [self.search] * any(problem.search for problem in self.problems)
         return [self.list, *searches, self.go, self.accept]
 
     @property
@@ -91,7 +91,7 @@ class ProblemsScreen(MenuScreen):
         theme.panel(surface, 44, 418, 704, 104)
         texts = [f"{shown_text(problem.text, LONGEST)}.", problem.hint] if problem.text else []
         theme.paragraph(surface, texts, (54, 426, 684, 90), 11, 14)
-        accepted, to_do = (sum(getattr(each, kind) for each in self.problems) for kind in ("accepted", "to_do"))
+        accepted, to_do = (sum(getattr(other, kind) for other in self.problems) for kind in ("accepted", "to_do"))
         count = counted(len(self.problems) - accepted - to_do, "problem") + f", {accepted} accepted" * bool(accepted)
         theme.text(surface, count, 44, 538, size=10, colour=theme.palette.faint)
 

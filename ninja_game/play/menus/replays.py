@@ -131,7 +131,7 @@ class ReplaysScreen(MenuScreen):
         """The authors' runs of the levels in which a gold medal has opened them."""
         marks = self.player.marks.all()
         levels = self.player.catalogue.ours.levels if marks else []
-        opened = {Path(each.named.file).stem for each in levels if opens_author(each, marks.get(each.digest))}
+        opened = {Path(level.named.file).stem for level in levels if opens_author(level, marks.get(level.digest))}
         return [file for file in bundled_replays() if file.name.partition(".")[0] in opened]
 
     def _file_rows(self) -> Iterator[list[ReplayRow]]:

@@ -168,7 +168,7 @@ class BindingTable(ListView):
 
         def take() -> None:
             for other in others:
-                self.bind(other, tuple(each for each in self.inputs(other) if each != name))
+                self.bind(other, tuple(input_ for input_ in self.inputs(other) if input_ != name))
             share()
 
         if not others:
@@ -180,7 +180,7 @@ class BindingTable(ListView):
 
     def put(self, action: str, slot: int, name: str) -> None:
         """Put an input in its place; twice in one row is once."""
-        inputs = [each for each in self.inputs(action) if each != name]
+        inputs = [input_ for input_ in self.inputs(action) if input_ != name]
         inputs[slot : slot + 1] = [name]
         self.bind(action, tuple(inputs[: self.slots]))
 
@@ -353,7 +353,7 @@ class SettingsScreen(ThumbnailScreen):
         if self.page == "Picture":
             # What the palette does: the first level of each column in it.
             episodes = self.player.catalogue.episodes
-            firsts = [episodes[each].levels[0] for each in sorted(episodes) if each % EPISODES_PER_COLUMN == 0]
+            firsts = [episodes[episode].levels[0] for episode in sorted(episodes) if episode % EPISODES_PER_COLUMN == 0]
             for place, entry in enumerate(firsts[:5]):
                 if self.thumbnails.get(entry, 100) is None:
                     self.thumbnails.work()

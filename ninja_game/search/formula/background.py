@@ -89,35 +89,35 @@ class SpanSearch:
 
     def _work(self) -> None:
         report_miss = partial(setattr, self, "miss")
-        found = search_span(self.task, self._report, report_miss=report_miss, **self._options)  # type: ignore[arg-type]
-        self.found = self._without_junk(found, np.inf)
+        results = search_span(self.task, self._report, report_miss=report_miss, **self._options)  # type: ignore[arg-type]
+        self.found = self._without_junk(results, np.inf)
         self._ended = monotonic()
 
     def _fail(self, why: str) -> None:
         self.problem, self._ended = why, monotonic()
 
-    def _report(self, ticks: int, found: tuple[SpanResult, ...]) -> bool:
+    def _report(self, ticks: int, results: tuple[SpanResult, ...]) -> bool:
         if not self._began:
             if self._cancelled.is_set():
                 return False
             # The run's own keys are tried first.
-            self._began, self.own = monotonic(), found[0] if found else None
+            self._began, self.own = monotonic(), results[0] if results else None
             if compiled_available() and self._options["memory"] != "plain":
                 from ninja_game.search.solve import compile_solver  # few searches are of a whole run
 
                 run_in_background(compile_solver, lambda _: None)
-        self.ticks_run, self.found = ticks, self._without_junk(found, TIDYING_SECONDS)
+        self.ticks_run, self.found = ticks, self._without_junk(results, TIDYING_SECONDS)
         late = self._limit and self.seconds >= self._limit
         return not (late or self._cancelled.is_set())
 
-    def _without_junk(self, found: tuple[SpanResult, ...], seconds: float) -> tuple[SpanResult, ...]:
+    def _without_junk(self, results: tuple[SpanResult, ...], seconds: float) -> tuple[SpanResult, ...]:
         """Results without keys that do nothing, as far as there is time for it: the others follow."""
         late, known = monotonic() + seconds, self._tidy
-        self._tidy = {way.inputs: known[way.inputs] for way in found if way.inputs in known}
-        for way in found:
+        self._tidy = {way.inputs: known[way.inputs] for way in results if way.inputs in known}
+        for way in results:
             if way.inputs not in self._tidy and monotonic() < late:
                 self._tidy[way.inputs] = tidied(self.task, way)
-        return tuple(self._tidy.get(way.inputs, way) for way in found)
+        return tuple(self._tidy.get(way.inputs, way) for way in results)
 
 
 TIDYING_SECONDS = 0.1
@@ -217,21 +217,21 @@ class RunSearch(SpanSearch):
         path = run_level(self.task.level, inputs, body=self.task.body).positions
         keys = np.frombuffer(inputs.ljust(self.task.length, b"\0"), np.uint8) & np.uint8(KEYS_DOWN)
         end = tuple(np.concatenate([path[-1], path[-1] - path[-2]]).tolist())
-        found = SpanResult(float(run.ticks), run.ticks, keys, inputs, run.gold, end, own_route, path=path)
+        result = SpanResult(float(run.ticks), run.ticks, keys, inputs, run.gold, end, own_route, path=path)
         with self._lock:
             self._began = self._began or monotonic()
             if self._reaches and self.own is None:
-                self.own = found
-            self._unbeaten[own_route] = _unbeaten([*self._unbeaten[own_route], found])
+                self.own = result
+            self._unbeaten[own_route] = _unbeaten([*self._unbeaten[own_route], result])
             own = self._unbeaten[True]
             others = (way for way in _unbeaten([*own, *self._unbeaten[False]]) if not way.own_route)
             self.found = tuple(sorted([*own, *others]))
 
 
-def _unbeaten(found: list[SpanResult]) -> tuple[SpanResult, ...]:
+def _unbeaten(results: list[SpanResult]) -> tuple[SpanResult, ...]:
     """Those that no other one beats in ticks and gold, the fastest first."""
     best: list[SpanResult] = []
-    for way in sorted(found):
+    for way in sorted(results):
         if not best or way.gold > best[-1].gold:
             best.append(way)
     return tuple(best)

@@ -159,17 +159,17 @@ class _Reader:
 
     def truth(self, node: ast.expr) -> Formula:
         """The formula of a part that must be true or false."""
-        found = self.formula(node)
-        if not found.truth:
+        formula = self.formula(node)
+        if not formula.truth:
             raise self.error(node, "a number beside 'and', 'or' or 'not'", "a comparison, such as x > 400")
-        return found
+        return formula
 
     def number(self, node: ast.expr) -> Callable[[View], Any]:
         """The value of a part that must be a number."""
-        found = self.formula(node)
-        if found.truth:
+        formula = self.formula(node)
+        if formula.truth:
             raise self.error(node, "true or false where a number belongs", "numbers, such as x + 5")
-        return found.value
+        return formula.value
 
     def comparison(self, node: ast.expr, parts: Sequence[ast.expr], signs: Sequence[ast.cmpop]) -> Formula:
         """``a < b``, and ``a < b < c`` as Python has it."""

@@ -52,9 +52,9 @@ class LegSearch:
             self._search.begin_leg(self._leg, resolution, seed=self._seed + self._begun, bound=self.task.last + 1)
             self._search.run_leg(min(ticks, self._most), spend, part=ROUTE_EXTRA, least=ROUTE_EXTRA)
             ends = [end.inputs for end in sorted(self._search.ends(), key=lambda end: end.tick)]
-            found = ends if self._leg.target else [run for run in [self._search.best()] if run]
-            if found or spend(0):
-                rows = [keys.ljust(self.task.length, b"\0") for keys in found]
+            runs = ends if self._leg.target else [run for run in [self._search.best()] if run]
+            if runs or spend(0):
+                rows = [keys.ljust(self.task.length, b"\0") for keys in runs]
                 return [np.frombuffer(row, np.uint8) & np.uint8(KEYS_DOWN) for row in rows]
         self._most *= 2
         return []

@@ -78,11 +78,11 @@ class Results:
             if not np.isfinite(trials.scores[index]):
                 break
             of_trial = float(trials.scores[index]), int(trials.ticks[index]), trials.ends[index].tolist()
-            found = self.worlds.found(int(index), keys[:, index], *of_trial)
-            if any(np.array_equal(found.keys[: found.ticks], old.keys[: old.ticks]) for old in self.best):
+            result = self.worlds.result_of(int(index), keys[:, index], *of_trial)
+            if any(np.array_equal(result.keys[: result.ticks], old.keys[: old.ticks]) for old in self.best):
                 continue
-            self.best = tuple(sorted([*self.best, found])[:KEPT])
-            self.ways = tuple(distinct_ways([*self.ways, found], measured=self.worlds.measure is not None)[:KEPT])
+            self.best = tuple(sorted([*self.best, result])[:KEPT])
+            self.ways = tuple(distinct_ways([*self.ways, result], measured=self.worlds.measure is not None)[:KEPT])
         self.report()
         return trials
 
@@ -155,13 +155,13 @@ def to_exit(
         first = max(0, len(inputs) - cut)
         began: list[float] = []
 
-        def report(ticks: int, found: tuple[SpanResult, ...], began: list[float] = began) -> bool:
+        def report(ticks: int, results: tuple[SpanResult, ...], began: list[float] = began) -> bool:
             began.append(time.monotonic())
-            return goes_on(ticks) and not found and began[-1] - began[0] < seconds / len(CUTS)
+            return goes_on(ticks) and not results and began[-1] - began[0] < seconds / len(CUTS)
 
         task = SpanTask(level, inputs, first, first + AHEAD, goal="won", body=body)
-        if found := search_span(task, report, seed=seed, threads=threads):
-            return found[0].inputs
+        if results := search_span(task, report, seed=seed, threads=threads):
+            return results[0].inputs
     return None
 
 
@@ -214,7 +214,7 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
     batch.restore(worlds.start)
     survivors = np.zeros(1, np.intp)
     keys = np.zeros((task.length, batch.count), np.uint8)
-    found: list[Keys] = []
+    sequences: list[Keys] = []
     for tick in range(0, task.length, step):
         parents = np.repeat(survivors, len(ACTIONS))[: batch.count]
         chosen = np.tile(ACTIONS, len(survivors))[: len(parents)]
@@ -231,16 +231,16 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
             for index in np.flatnonzero(at_goal[used])[:KEPT]:
                 ended = keys[:, index].copy()
                 ended[tick + played + 1 :] = 0
-                found.append(ended)
+                sequences.append(ended)
         promising = (margin if worlds.measure is None else -score) * rng.normal(1.0, noise, len(margin))
         alive = used[batch.outcomes[used] == OUTCOME_RUNNING]
         halves = [alive[np.argsort(-scores[alive], kind="stable")] for scores in (margin, promising)]
         survivors = _different(batch, halves, batch.count // len(ACTIONS))
         if not len(survivors) or not results.going:
             break
-    if found:
-        picked = [found[int(index)] for index in rng.permutation(len(found))[:WORLDS]]
-        picked[:KEPT] = found[-KEPT:]
+    if sequences:
+        picked = [sequences[int(index)] for index in rng.permutation(len(sequences))[:WORLDS]]
+        picked[:KEPT] = sequences[-KEPT:]
         results.try_some(picked)
     else:
         results.report()

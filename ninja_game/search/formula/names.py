@@ -53,13 +53,13 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
     place, before = batch.positions, batch.previous
 
     def of(name: str) -> Values:
-        found: Values = values[name]().astype(float, copy=False)
-        return found
+        value: Values = values[name]().astype(float, copy=False)
+        return value
 
     def flag(what: str) -> Callable[..., Any]:
         def value(number: Any) -> Any:
-            found = _object(batch, number)
-            return (found[flag_field(what, int(found["kind"][0]), float(number))] != 0).astype(float)
+            record = _object(batch, number)
+            return (record[flag_field(what, int(record["kind"][0]), float(number))] != 0).astype(float)
 
         return value
 
@@ -107,7 +107,7 @@ def difference_from(level: Level, inputs: bytes, batch: Batch) -> Callable[[Any]
         away: NDArray[np.float64] = 1.0 + np.hypot(*(batch.positions - single.positions).T) + np.hypot(*velocity.T)
         near = np.flatnonzero(away == 1.0)
         near = near[(batch.places[near] == single.places).all((1, 2))]
-        away[near] = [found != digest for found in batch.state_digests(near)]
+        away[near] = [found_digest != digest for found_digest in batch.state_digests(near)]
         return away
 
     return difference
@@ -138,13 +138,13 @@ def _object(batch: Batch, number: Any) -> Any:
 
 def _place(batch: Batch, number: Any, axis: str) -> Any:
     """Where an object is in all worlds, px, as traces have it (``place_of``)."""
-    found = _object(batch, number)
-    kind = int(found["kind"][0])
+    record = _object(batch, number)
+    kind = int(record["kind"][0])
     if kind == TURRET:
-        return found[f"aim_{axis}"]
+        return record[f"aim_{axis}"]
     if kind == LAUNCHER:
-        return np.where(found["routine"] == LAUNCHER_FLIGHT, found[axis], found[f"base_{axis}"])
-    return found[axis]
+        return np.where(record["routine"] == LAUNCHER_FLIGHT, record[axis], record[f"base_{axis}"])
+    return record[axis]
 
 
 FLAGS = {
@@ -192,8 +192,8 @@ class Distances:
 
     def to_object(self, record: Any) -> Values:
         """The same from an object, or from the switch of an exit."""
-        found = self._batch.objects[:, int(record["partner"][0])] if int(record["kind"][0]) == EXIT else record
-        place = float(found["x"][0]), float(found["y"][0])
+        target = self._batch.objects[:, int(record["partner"][0])] if int(record["kind"][0]) == EXIT else record
+        place = float(target["x"][0]), float(target["y"][0])
         return self._margins(place, lambda state, x, y: self._heuristics.field_to(place, state, x, y))
 
     def _margins(self, key: object, target: Target) -> Values:

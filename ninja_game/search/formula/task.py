@@ -109,25 +109,25 @@ class SpanResult:
     path: NDArray[np.floating] = field(compare=False, repr=False, default_factory=lambda: np.zeros((0, 2)))
 
 
-def tidied(task: SpanTask, found: SpanResult) -> SpanResult:
+def tidied(task: SpanTask, result: SpanResult) -> SpanResult:
     """The same result without keys that do nothing, as ``without_idle_keys`` has it."""
-    first, last = task.first, task.first + found.ticks
+    first, last = task.first, task.first + result.ticks
     inputs = without_idle_keys(
-        task.level, found.inputs, with_press_bits(task.inputs), body=task.body, first=first, last=last
+        task.level, result.inputs, with_press_bits(task.inputs), body=task.body, first=first, last=last
     )
-    keys = found.keys.copy()
-    keys[: found.ticks] = np.frombuffer(inputs[first:last], np.uint8) & KEYS_DOWN
-    return replace(found, keys=keys, inputs=inputs)
+    keys = result.keys.copy()
+    keys[: result.ticks] = np.frombuffer(inputs[first:last], np.uint8) & KEYS_DOWN
+    return replace(result, keys=keys, inputs=inputs)
 
 
 SAME_WAY_PX, SAME_WAY_TICKS = 24.0, 6
 """Runs go the same way where each is no farther from the other than this, px, within so many ticks."""
 
 
-def distinct_ways(found: Iterable[SpanResult], *, measured: bool) -> list[SpanResult]:
+def distinct_ways(results: Iterable[SpanResult], *, measured: bool) -> list[SpanResult]:
     """The best result of each way, best first; with a measure none that another one beats in score and in tick."""
     ways: list[SpanResult] = []
-    for result in sorted(found):
+    for result in sorted(results):
         beaten = measured and any(way.score < result.score and way.ticks < result.ticks for way in ways)
         if not beaten and not any(_is_same_way(way, result) for way in ways):
             ways.append(result)
@@ -144,24 +144,24 @@ def _is_same_way(one: SpanResult, other: SpanResult) -> bool:
 
 def target_of(task: SpanTask) -> int | None:
     """The slot of the object that is to be taken or opened, 0: an exit to be reached; None for any other goal."""
-    found = re.fullmatch(r"won|(?:taken|opened)\((\d+)\)", task.goal.replace(" ", ""))
-    return found and int(found[1] or -1) + 1
+    match = re.fullmatch(r"won|(?:taken|opened)\((\d+)\)", task.goal.replace(" ", ""))
+    return match and int(match[1] or -1) + 1
 
 
-def score_text(task: SpanTask, found: SpanResult) -> str:
+def score_text(task: SpanTask, result: SpanResult) -> str:
     """What a search has found, in words."""
-    last = task.first + found.ticks - 1
-    if found.missed_by == 0.0:
+    last = task.first + result.ticks - 1
+    if result.missed_by == 0.0:
         return f"goal after tick {last}, but not the exit"
-    if found.missed_by is not None:
-        short = f"{found.missed_by:.3g} short" if target_of(task) is None else f"{found.missed_by - 1.0:.0f} px"
+    if result.missed_by is not None:
+        short = f"{result.missed_by:.3g} short" if target_of(task) is None else f"{result.missed_by - 1.0:.0f} px"
         return f"closest: {short} after tick {last}"
     if task.rest:
-        return f"exit in tick {found.score - 1:.0f}"
+        return f"exit in tick {result.score - 1:.0f}"
     if task.goal == "won":
         return f"exit in tick {last}"
     if task.measure:
-        return f"{task.measure} is {found.score if task.least else -found.score:.6g} after tick {last}"
+        return f"{task.measure} is {result.score if task.least else -result.score:.6g} after tick {last}"
     return f"goal after tick {last}"
 
 
@@ -223,7 +223,7 @@ class SpanWorlds:
                 score = np.where(np.isfinite(value), value if self.task.least else -value, np.inf)
         return at_goal, margin, score
 
-    def found(
+    def result_of(
         self, index: int, keys: Keys, score: float, ticks: int, end: list[float], missed_by: float | None = None
     ) -> SpanResult:
         """The keys of a world as a result, or as a miss."""
@@ -247,8 +247,8 @@ class SpanWorlds:
             self._nearest = living[index]
             end = [*batch.positions[index].tolist(), *batch.velocities()[index].tolist()]
             own = np.array_equal(keys[:ticks, index], self.task.base[:ticks])
-            found = self.found(index, keys[:, index], np.inf, ticks, end, abs(float(living[index])))
-            self.miss = None if own else found
+            result = self.result_of(index, keys[:, index], np.inf, ticks, end, abs(float(living[index])))
+            self.miss = None if own else result
 
     def try_all(self, keys: Keys) -> Trials:
         """Play keys, (ticks of the span, worlds), from the start of the span."""

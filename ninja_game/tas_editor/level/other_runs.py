@@ -48,10 +48,10 @@ class OtherRuns:
     def open(self, recordings: Sequence[Recording]) -> None:
         """Show recordings beside the run, the first chosen. Raises ReplayError for another level or another body."""
         editor = self.editor
-        found = len(editor.others)
+        first = len(editor.others)
         for recording in recordings:
             editor.others.append(other_run(editor, recording))
-            editor.chosen = found
+            editor.chosen = first
 
     @property
     def chosen(self) -> OtherRun | None:
@@ -112,7 +112,7 @@ def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
     # Records of N are often many by one author: their files and numbers tell them apart.
     known = recording.whose if recording.player != about.author else recording.place or recording.name
     name = known or "another run"
-    return next(each for each in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if each not in taken)
+    return next(free for free in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if free not in taken)
 
 
 class OtherRunScreen(ReplaysScreen):

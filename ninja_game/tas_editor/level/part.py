@@ -54,10 +54,12 @@ def nearest_tick(positions: paths.Positions, x: float, y: float, cursor: int, *,
 def object_at(run: Simulation, x: float, y: float) -> ObjectView | None:
     """The object that is nearest to a place now, if it is near; a switch of an exit is that exit."""
     world, objects = run.world, run.objects
-    switches = (world.objects[world.objects[each.id + 1].partner] for each in objects if each.kind == KIND_NAMES[EXIT])
-    objects += [replace(run.object(each.partner - 1), x=each.x, y=each.y) for each in switches if each.kind == SWITCH]
-    found = min(objects, key=lambda each: hypot(each.x - x, each.y - y), default=None)
-    return found if found is not None and hypot(found.x - x, found.y - y) < _REACH else None
+    switches = (world.objects[world.objects[obj.id + 1].partner] for obj in objects if obj.kind == KIND_NAMES[EXIT])
+    objects += [
+        replace(run.object(switch.partner - 1), x=switch.x, y=switch.y) for switch in switches if switch.kind == SWITCH
+    ]
+    nearest = min(objects, key=lambda obj: hypot(obj.x - x, obj.y - y), default=None)
+    return nearest if nearest is not None and hypot(nearest.x - x, nearest.y - y) < _REACH else None
 
 
 class LevelPart(TasPart):
@@ -137,8 +139,8 @@ class LevelPart(TasPart):
         self._pointer.handle_mouse(event, x, y)
         return True
 
-    def point_at(self, tick: int | None, found: ObjectView | None) -> None:
-        self.hover, self.pointed = tick, found
+    def point_at(self, tick: int | None, obj: ObjectView | None) -> None:
+        self.hover, self.pointed = tick, obj
         self._hovered_run = self.editor.track
 
     def mouse_left(self) -> None:
@@ -319,8 +321,8 @@ class LevelPointer:
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
         tick = nearest_tick(positions, *place, editor.cursor, dragged=dragged)
         part.point_at(tick, None if dragged else object_at(part.picture.run, *place))
-        found = part.pointed
-        words = f"{found.kind} {found.id}; right button: watch it; " if found else ""
+        obj = part.pointed
+        words = f"{obj.kind} {obj.id}; right button: watch it; " if obj else ""
         zoomed = self._camera.zoom > 1
         click = f"Click: to tick {tick}; " * (tick is not None)
         editor.hint = f"{words}{click}wheel: zoom{', right button: move, 0: all' if zoomed else ''}"

@@ -101,10 +101,10 @@ class LevelPaths:
             self._under.fill((0, 0, 0, 0), self._covered)
             drawn = [
                 draw_path(
-                    self._under, self.canvas, each.trajectory.positions[each.first : each.last],
-                    shaded(each.colour, each.alpha), self._px(_THIN),
+                    self._under, self.canvas, path.trajectory.positions[path.first : path.last],
+                    shaded(path.colour, path.alpha), self._px(_THIN),
                 )
-                for each in paths
+                for path in paths
             ]  # fmt: skip
             self._covered = union_of(drawn)
         self._put(surface, self._under, self._covered)

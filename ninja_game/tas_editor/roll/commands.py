@@ -220,7 +220,7 @@ def _with_pasted(track: InputTrack, first: int, pasted: Inputs, *, between: bool
     last = first if between else first + len(pasted.keys)
     made = track.replaced(first, last, pasted.keys)
     for tick, name in pasted.markers:
-        if all(name != each.name and first + tick != each.tick for each in made.markers):
+        if all(name != marker.name and first + tick != marker.tick for marker in made.markers):
             made = made.named(first + tick, name)
     return made
 

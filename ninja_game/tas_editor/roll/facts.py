@@ -71,8 +71,8 @@ def changes(ours: bytes, theirs: bytes) -> NDArray[np.intp]:
 @lru_cache(maxsize=4)
 def different_rows(ours: bytes, theirs: bytes, ticks: int, height: int) -> list[int]:
     """The px of a bar of this height, for this many ticks, in which there are ticks with different keys."""
-    found = np.flatnonzero(different_keys(ours, theirs)[:ticks])
-    return np.flatnonzero(np.bincount(found * height // ticks)).tolist()
+    different = np.flatnonzero(different_keys(ours, theirs)[:ticks])
+    return np.flatnonzero(np.bincount(different * height // ticks)).tolist()
 
 
 def _keys(*runs: bytes) -> list[NDArray[np.uint8]]:
@@ -163,11 +163,11 @@ def _values(editor: TasEditor, first: int, last: int) -> list[Values]:
     x, y = column("x")[span], column("y")[span]
     wall = np.where(column("wall_x")[span] > 0, WALL_LEFT, WALL_RIGHT) * column("near_wall")[span]
     contacts = wall + FLOOR * (column("floor_contacts")[span] > 0)
-    found = (
+    rows = (
         x, y, x - column("prev_x")[span], y - column("prev_y")[span], column("state")[span],
         column("jump_timer")[span], contacts, column("gold")[span], exit_distance(timeline, span),
     )  # fmt: skip
-    return [Values(*row) for row in zip(*(values.tolist() for values in found), strict=True)]
+    return [Values(*row) for row in zip(*(values.tolist() for values in rows), strict=True)]
 
 
 MOST_ROWS = 400
@@ -180,14 +180,14 @@ def changed_ticks(track: InputTrack, saved: InputTrack) -> bytes:
     ours, theirs = track.inputs, saved.inputs
     if len(ours) == len(theirs):
         return bytes(np.frombuffer(ours, np.uint8) != np.frombuffer(theirs, np.uint8))
-    old_rows, rows = ([(keys, len(list(ticks))) for keys, ticks in groupby(each)] for each in (theirs, ours))
-    starts = [list(accumulate((ticks for _, ticks in each), initial=0)) for each in (old_rows, rows)]
+    old_rows, rows = ([(keys, len(list(ticks))) for keys, ticks in groupby(inputs)] for inputs in (theirs, ours))
+    starts = [list(accumulate((ticks for _, ticks in rows), initial=0)) for rows in (old_rows, rows)]
     spans: list[tuple[str, int, int, int, int]] = [("replace", 0, len(old_rows), 0, len(rows))]
     if max(len(old_rows), len(rows)) <= MOST_ROWS:
         spans = list(SequenceMatcher(None, old_rows, rows, autojunk=False).get_opcodes())
     changed = bytearray(len(ours))
     for what, *bounds in spans:
-        before, first, now, last = (starts[k // 2][each] for k, each in enumerate(bounds))
+        before, first, now, last = (starts[k // 2][bound] for k, bound in enumerate(bounds))
         if what != "equal":
             old, new = theirs[before:first], ours[now:last]
             begin = first_difference(old, new)

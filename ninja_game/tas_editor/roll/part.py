@@ -72,9 +72,13 @@ class Roll(TasPart):
             self.choose_columns()
 
         rows = [
-            (f"{each.meaning}: {'hidden' if each.name in self.hidden else 'shown'}", partial(switch, each.name), "")
-            for each in COLUMNS
-            if each.meaning
+            (
+                f"{column.meaning}: {'hidden' if column.name in self.hidden else 'shown'}",
+                partial(switch, column.name),
+                "",
+            )
+            for column in COLUMNS
+            if column.meaning
         ]
         self.editor.app.push(Menu(self.editor.app, "Columns", [*rows, ("Done", nothing, "")]))
 

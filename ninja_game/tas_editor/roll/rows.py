@@ -150,15 +150,15 @@ class Digits:
         self.theme, self._size = theme, size
         self._pictures: dict[int, dict[str, tuple[pygame.Surface, float]]] = {}
         # Widths of texts are whole px; of many characters the mean is exact.
-        widths = {each: (theme.width(each * 21, size) - theme.width(each, size)) / 20 for each in "0123456789.-"}
+        widths = {char: (theme.width(char * 21, size) - theme.width(char, size)) / 20 for char in "0123456789.-"}
         # Digits below each other are of one width.
-        widest = max(widths[each] for each in "0123456789")
+        widest = max(widths[char] for char in "0123456789")
         scale = theme.canvas.scale
-        self._advance = {each: (widest if each.isdigit() else width) * scale for each, width in widths.items()}
+        self._advance = {char: (widest if char.isdigit() else width) * scale for char, width in widths.items()}
 
     def _of(self, colour: pygame.Color) -> dict[str, tuple[pygame.Surface, float]]:
         render = self.theme.lettering.rendered
-        return {each: (render(each, self._size, colour), wide) for each, wide in self._advance.items()}
+        return {char: (render(char, self._size, colour), wide) for char, wide in self._advance.items()}
 
     def blits(self, text: str, right: int, y: int, colour: pygame.Color) -> list[Blit]:
         """Blits (picture, place) of a number that ends left of ``right``, px."""

@@ -60,7 +60,7 @@ class BranchesTab(Tab):
         def kept(text: str) -> None:
             number = session.keep_branch(text.strip() or name)
             self.refresh()
-            self.list.index = [each for each, _ in self.tree].index(number)
+            self.list.index = [branch for branch, _ in self.tree].index(number)
 
         ask_text(self.editor.app, "Keep the run as a branch", "its name", name, "Keep", kept, LONGEST)
 

@@ -54,13 +54,13 @@ class LeadTab(Tab):
         self.list.area = x + 4, y + 53, w - 8, h - 55
 
     def _options(self) -> list[tuple[str, object]]:
-        session, found = self.editor.session, [("the run as it was opened", self._opened)]
+        session, options = self.editor.session, [("the run as it was opened", self._opened)]
         if len(session.saved):
-            found.append(("the run as it was saved", session.saved))
-        found += [(f"branch: {branch.name}", branch.track) for branch in session.branches.all]
-        found += [(other.name, other.track) for other in self.editor.others]
+            options.append(("the run as it was saved", session.saved))
+        options += [(f"branch: {branch.name}", branch.track) for branch in session.branches.all]
+        options += [(other.name, other.track) for other in self.editor.others]
         names: dict[InputTrack, str] = {}
-        for name, track in found:
+        for name, track in options:
             names.setdefault(track, name)
         return [(name, track) for track, name in names.items()]
 

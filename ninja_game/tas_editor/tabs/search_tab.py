@@ -143,7 +143,7 @@ class SpanResults:
                 return behind
         return None
 
-    def put(self, found: SpanResult) -> bool:
+    def put(self, result: SpanResult) -> bool:
         """Put a result into the run, as one edit; whether that was possible.
 
         Cursor and selection keep their ticks; behind the span they go with what follows it.
@@ -152,10 +152,10 @@ class SpanResults:
         if behind is None:
             self.editor.app.notify("The run was changed: search again")
             return False
-        editor, end = self.editor, self.task.first + found.ticks
+        editor, end = self.editor, self.task.first + result.ticks
         cursor, anchor = editor.cursor, editor.anchor
-        made = self._made(editor.track, found, behind)
-        if not editor.edit_selected(lambda _: made, self._taken(found)):
+        made = self._made(editor.track, result, behind)
+        if not editor.edit_selected(lambda _: made, self._taken(result)):
             return False
         self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
         if not isinstance(self.search, RunSearch):  # of a whole run all ticks stay what they are
@@ -167,96 +167,96 @@ class SpanResults:
             editor.go(moved(cursor), select=anchor is not None)
         return True
 
-    def _whose(self, found: SpanResult) -> OtherRun | None:
+    def _whose(self, result: SpanResult) -> OtherRun | None:
         """The run beside that a result is, just as it is."""
-        if found.own_route or not found.inputs:
+        if result.own_route or not result.inputs:
             return None
-        ticks, keys = len(found.inputs), with_press_bits(found.inputs)
-        same = (each for each in self._others if with_press_bits(fit_inputs(each.track.inputs, ticks)) == keys)
+        ticks, keys = len(result.inputs), with_press_bits(result.inputs)
+        same = (other for other in self._others if with_press_bits(fit_inputs(other.track.inputs, ticks)) == keys)
         return next(same, None)
 
-    def _like(self, found: SpanResult) -> str:
+    def _like(self, result: SpanResult) -> str:
         """The run beside whose way is nearest to that of a result, in words."""
 
         def apart(other: OtherRun) -> float:
-            ticks = min(len(found.path), len(other.positions))
-            return float(np.hypot(*(found.path[:ticks] - other.positions[:ticks]).T).mean())
+            ticks = min(len(result.path), len(other.positions))
+            return float(np.hypot(*(result.path[:ticks] - other.positions[:ticks]).T).mean())
 
         return f"like {min(self._others, key=apart).name}"
 
-    def _taken(self, found: SpanResult) -> Contributions:
+    def _taken(self, result: SpanResult) -> Contributions:
         """What found a result, and those whose routes may be in it."""
-        whose = self._whose(found)
+        whose = self._whose(result)
         if whose is not None:
             return whose.made
-        routes = () if found.own_route else self._others
+        routes = () if result.own_route else self._others
         command = "improve" if isinstance(self.search, RunSearch) else "search"
         return sum((other.made for other in routes), Contributions(commands=(command,)))
 
-    def _made(self, track: InputTrack, found: SpanResult, behind: int) -> InputTrack:
+    def _made(self, track: InputTrack, result: SpanResult, behind: int) -> InputTrack:
         """The run with a result in it; with ``rest`` it is the run that reached the exit in the search."""
-        first, keys = self.task.first, found.keys[: found.ticks].tolist()
+        first, keys = self.task.first, result.keys[: result.ticks].tolist()
         if self.task.goal == "won":  # behind an exit nothing follows: keys there would take its claims from the run
-            inputs = track.inputs[:first] + found.inputs[first:]
+            inputs = track.inputs[:first] + result.inputs[first:]
             return InputTrack(inputs, moved_markers(self.editor.session.recording(), inputs))
         if not self.task.rest:
             return track.replaced(first, behind, keys)
-        end = int(min(found.score, len(found.inputs)))  # behind the exit, where that is reached, nothing follows
+        end = int(min(result.score, len(result.inputs)))  # behind the exit, where that is reached, nothing follows
         made = track.replaced(first, behind, keys)
-        return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers).up_to(end)
+        return InputTrack(track.inputs[:first] + result.inputs[first:], made.markers).up_to(end)
 
-    def is_in_run(self, found: SpanResult) -> bool:
-        ours, theirs = self.editor.track.inputs, found.inputs
+    def is_in_run(self, result: SpanResult) -> bool:
+        ours, theirs = self.editor.track.inputs, result.inputs
         return first_difference(ours, theirs) == min(len(ours), len(theirs))
 
-    def looked_at(self, found: SpanResult) -> tuple[OtherRun, str]:
+    def looked_at(self, result: SpanResult) -> tuple[OtherRun, str]:
         """A result as a run beside, and how it ends, in words."""
-        if self._preview is None or self._preview[0] is not found:
+        if self._preview is None or self._preview[0] is not result:
             task = self.task
-            timeline = Timeline(task.level, found.inputs, body=task.body, memory=self.editor.session.timeline.memory)
-            timeline.simulate(len(found.inputs))
-            made = OtherRun("result", InputTrack(found.inputs), timeline.trajectory())
-            self._preview = found, made, timeline.ending
+            timeline = Timeline(task.level, result.inputs, body=task.body, memory=self.editor.session.timeline.memory)
+            timeline.simulate(len(result.inputs))
+            made = OtherRun("result", InputTrack(result.inputs), timeline.trajectory())
+            self._preview = result, made, timeline.ending
         return self._preview[1:]
 
     # --- in words ---
 
     def refresh(self) -> None:
-        found, miss = self.search.found, self.search.miss
-        if not found and miss is not None:
+        results, miss = self.search.found, self.search.miss
+        if not results and miss is not None:
             self.better = (miss,)
-        if [*map(id, found)] == [*map(id, self._seen)]:  # each report of a search is a new tuple
+        if [*map(id, results)] == [*map(id, self._seen)]:  # each report of a search is a new tuple
             return
-        self._seen, own = found, self.search.own
+        self._seen, own = results, self.search.own
         if own is not None:
             self._fitting[0] = self._fitting[0][0], self.task.first + own.ticks
         # Of a whole run, what was found is what nothing beats.
         before = () if isinstance(self.search, RunSearch) else self.better
         better = [
-            each
-            for each in (*found, *before)  # of equal ones the tidy one
-            if each.missed_by is None
-            and (own is None or each.score < own.score or (each.score == own.score and each.gold > own.gold))
+            run
+            for run in (*results, *before)  # of equal ones the tidy one
+            if run.missed_by is None
+            and (own is None or run.score < own.score or (run.score == own.score and run.gold > own.gold))
         ]
         self.better = tuple(distinct_ways(better, measured=bool(self.task.measure))[:KEPT])
 
-    def words(self, found: SpanResult) -> tuple[str, ...]:
+    def words(self, result: SpanResult) -> tuple[str, ...]:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
-        own, words = self.search.own, score_text(self.task, found)
-        if found.missed_by == 0.0:
-            words += f": {self.looked_at(found)[1] or 'it goes on'}"
-        if self._to_exit and found.missed_by is None and found.gold != self._gold:  # of the run as it was
-            words += f", {abs(self._gold - found.gold)} gold {'fewer' if found.gold < self._gold else 'more'}"
+        own, words = self.search.own, score_text(self.task, result)
+        if result.missed_by == 0.0:
+            words += f": {self.looked_at(result)[1] or 'it goes on'}"
+        if self._to_exit and result.missed_by is None and result.gold != self._gold:  # of the run as it was
+            words += f", {abs(self._gold - result.gold)} gold {'fewer' if result.gold < self._gold else 'more'}"
         if self._others:
-            whose = self._whose(found)
-            route = "own route" if found.own_route else f"this is {whose.name}" if whose else self._like(found)
+            whose = self._whose(result)
+            route = "own route" if result.own_route else f"this is {whose.name}" if whose else self._like(result)
             words = f"{words.removeprefix('exit in ')}, {route}"  # long names are cut, gold is not
-        gain = "new" if found.missed_by is None else "a miss"
+        gain = "new" if result.missed_by is None else "a miss"
         if own is not None:
-            more = own.score - found.score
+            more = own.score - result.score
             gain = f"better by {more:.4g}" if self.task.measure else f"{counted(int(more), 'tick', 'ticks')} sooner"
-        x, y, vx, vy = found.end
-        other = first_difference(found.inputs, self.task.inputs)
+        x, y, vx, vy = result.end
+        other = first_difference(result.inputs, self.task.inputs)
         return words, str(other), f"{x:.1f}, {y:.1f}", f"{hypot(vx, vy):.3f}", gain
 
     @property
@@ -495,7 +495,7 @@ class SearchTab(Tab):
     def _propose_pieces(self, results: SpanResults) -> None:
         """Once a search of a span has found nothing for a while: its pieces, of the run as it is now."""
         late = results.search.ticks_run and (results.search.seconds > PATIENCE or not results.running)
-        nothing = late and all(each.missed_by is not None for each in self.found)
+        nothing = late and all(run.missed_by is not None for run in self.found)
         if self._in_pieces is None and nothing and self.method not in IMPROVES:
             self._in_pieces = self.span
         session, track, known = self.editor.session, self.editor.track, self._splits.result

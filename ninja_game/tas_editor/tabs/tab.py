@@ -43,7 +43,7 @@ class Tab(TasPart):
         """Show the hint of the widget under the mouse; widgets handle the rest."""
         if event.type == pygame.MOUSEMOTION:
             self._leave_lists(x, y)
-            self.editor.hint = next((each.hint for each in self.widgets if each.contains(x, y)), "")
+            self.editor.hint = next((widget.hint for widget in self.widgets if widget.contains(x, y)), "")
         return False
 
     def mouse_left(self) -> None:

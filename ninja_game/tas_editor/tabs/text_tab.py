@@ -39,11 +39,11 @@ def starts_of(track: InputTrack, unfolded: Span | None = None, kept: int = 0) ->
     # Keys that are down, and of a jump that no keyboard makes 16, and 8 where it is pressed.
     looks = inputs & np.uint8(KEYS_DOWN) | (odd * (inputs & np.uint8(JUMP_PRESSED) | np.uint8(16))).astype(np.uint8)
     named = [tick for tick, _ in track.markers]
-    found = np.unique([0, min(kept, len(inputs)), *(np.flatnonzero(looks[1:] != looks[:-1]) + 1), *named, len(inputs)])
+    starts = np.unique([0, min(kept, len(inputs)), *(np.flatnonzero(looks[1:] != looks[:-1]) + 1), *named, len(inputs)])
     if unfolded is None:
-        return found
-    inside = (found >= unfolded[0]) & (found <= unfolded[1])
-    return found[inside | np.isin(found, [0, *named, len(inputs)])]
+        return starts
+    inside = (starts >= unfolded[0]) & (starts <= unfolded[1])
+    return starts[inside | np.isin(starts, [0, *named, len(inputs)])]
 
 
 def section_at(track: InputTrack, tick: int) -> Span:
@@ -80,7 +80,7 @@ def _named_in_line(typed: Inputs) -> Inputs:
     if not typed.keys or last is None or last.tick < len(typed.keys):
         return typed
     line = int(starts_of(InputTrack(typed.keys, typed.markers))[-2])
-    named = any(each.tick == line for each in typed.markers)
+    named = any(marker.tick == line for marker in typed.markers)
     return typed if named else typed._replace(markers=(*before, last._replace(tick=line)))
 
 
@@ -169,7 +169,7 @@ class TextTab(Tab):
 
         def changed(track: InputTrack) -> InputTrack:
             left = first + bool(typed.keys and not typed.markers)
-            others = tuple(each for each in track.markers if not left <= each.tick < max(last, first + 1))
+            others = tuple(marker for marker in track.markers if not left <= marker.tick < max(last, first + 1))
             made = InputTrack(track.inputs, others).replaced(first, last, typed.keys)
             for tick, name in typed.markers:
                 made = made.named(first + tick, name)

@@ -75,7 +75,7 @@ class TickRange:
             self.move(tick - (self.first + self.last) / 2)
 
     def axis(self) -> Iterator[int]:
-        step = next((each for each in _STEPS if self.width * each / (self.last - self.first) >= 36), _STEPS[-1])
+        step = next((option for option in _STEPS if self.width * option / (self.last - self.first) >= 36), _STEPS[-1])
         return iter(range(-(-int(self.first) // step) * step, int(self.last) + 1, step))
 
 
@@ -207,11 +207,11 @@ def watched_values(texts: Sequence[str]) -> Iterator[Watched]:
             yield Watched(parse_watch(text), number, plotted=number < LANES)
 
 
-def shown_value(each: Watched, tick: int) -> str:
-    value = float(each.values[tick]) if tick < len(each.values) else np.nan
+def shown_value(watched: Watched, tick: int) -> str:
+    value = float(watched.values[tick]) if tick < len(watched.values) else np.nan
     if not np.isfinite(value):
         return "-"
-    if each.watch.formula.truth:
+    if watched.watch.formula.truth:
         return "yes" if value > 0 else "no"
     return f"{value:.6g}"
 
@@ -259,8 +259,8 @@ class ValuesTab(Tab):
         timeline = self.editor.session.timeline
         made = (self.editor.track.inputs, timeline.simulated_until, *self.watched)
         if made != self._made:
-            for each in self.watched:
-                each.values = each.watch.values(timeline)
+            for watched in self.watched:
+                watched.values = watched.watch.values(timeline)
             self.events = timeline.event_ticks
             self._made = made
             self.list.fill(self.watched)
@@ -279,7 +279,7 @@ class ValuesTab(Tab):
             self.ask(text)
             self.editor.app.notify(what_is_wrong(error))
             return
-        number = next(k for k in range(len(self.watched) + 1) if k not in {each.number for each in self.watched})
+        number = next(k for k in range(len(self.watched) + 1) if k not in {watched.number for watched in self.watched})
         self.watched.append(Watched(watch, number))
         self._keep()
         self.list.nudge("last")
@@ -290,7 +290,7 @@ class ValuesTab(Tab):
         self._keep()
 
     def _keep(self) -> None:
-        self.editor.session.watch(each.watch.text for each in self.watched)
+        self.editor.session.watch(watched.watch.text for watched in self.watched)
         self.list.fill(self.watched)
 
     def show_objects(self) -> None:
@@ -298,13 +298,13 @@ class ValuesTab(Tab):
         self.editor.app.push(ObjectList(self.editor.app, self.editor.session.timeline.objects, self.ask))
 
     def _toggle(self, index: int) -> None:
-        each = self.watched[index]
-        each.plotted = not each.plotted
-        self._few_lanes(each)
+        watched = self.watched[index]
+        watched.plotted = not watched.plotted
+        self._few_lanes(watched)
 
     def _few_lanes(self, latest: Watched) -> None:
         """Where too many are plotted, the first other one goes."""
-        others = [each for each in self.watched if each.plotted and each is not latest]
+        others = [watched for watched in self.watched if watched.plotted and watched is not latest]
         if latest.plotted and len(others) >= LANES:
             others[0].plotted = False
 
@@ -319,7 +319,7 @@ class ValuesTab(Tab):
 
     def render_key(self) -> tuple[object, ...]:
         editor = self.editor
-        plotted = tuple((each, each.plotted) for each in self.watched)
+        plotted = tuple((watched, watched.plotted) for watched in self.watched)
         shown = self.window.first, self.window.last, self.list.over
         run = editor.track, editor.session.timeline.simulated_until
         return run, editor.cursor, editor.selection, plotted, shown
@@ -327,13 +327,13 @@ class ValuesTab(Tab):
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
         x, y, w, h = self._plot
-        lanes = [each for each in self.watched if each.plotted]
+        lanes = [watched for watched in self.watched if watched.plotted]
         if not lanes:
             theme.text(surface, "Click a value to see its plot", x + w / 2, y + h / 2, size=SMALL, align="centre",
                        colour=theme.palette.faint, width=w)  # fmt: skip
-        for k, each in enumerate(lanes):
+        for k, watched in enumerate(lanes):
             lane = (x, y + h * k / len(lanes), w, h / len(lanes) - 3)
-            draw_lane(surface, theme, lane, self.window, each.values, colour_of(each.number, theme.palette))
+            draw_lane(surface, theme, lane, self.window, watched.values, colour_of(watched.number, theme.palette))
         self._paint_ticks(surface, theme)
 
     def _paint_ticks(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -358,18 +358,18 @@ class ValuesTab(Tab):
             theme.text(surface, str(tick), at, y + h + 7, size=8, colour=palette.faint, align="centre")
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
-        each, palette = self.watched[index], theme.palette
+        watched, palette = self.watched[index], theme.palette
         x, y, w, h = area
         sign = (x + 4, y + h / 2 - 4, 8, 8)
-        colour = colour_of(each.number, palette)
-        if each.plotted:
+        colour = colour_of(watched.number, palette)
+        if watched.plotted:
             theme.canvas.fill_rect(surface, colour, *sign, 2)
         else:
             theme.canvas.frame_rect(surface, colour, *sign, 1, 2)
-        value = shown_value(each, self.editor.cursor)
+        value = shown_value(watched, self.editor.cursor)
         right = theme.text(surface, value, x + w - 4, y + 3, size=SMALL, bold=True, align="right")
         room = right.left / theme.canvas.scale - theme.canvas.origin[0] / theme.canvas.scale - (x + 16) - 4
-        theme.text(surface, each.watch.text, x + 16, y + 3, size=SMALL, width=room)
+        theme.text(surface, watched.watch.text, x + 16, y + 3, size=SMALL, width=room)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """In the plot: the wheel zooms, a drag moves, a click puts the cursor there, the right button shows all."""
@@ -401,5 +401,7 @@ class ValuesTab(Tab):
 
     def _tell(self, tick: int) -> None:
         tick = min(max(0, tick), self.editor.last_tick)
-        values = "  ".join(f"{each.watch.text}: {shown_value(each, tick)}" for each in self.watched if each.plotted)
+        values = "  ".join(
+            f"{watched.watch.text}: {shown_value(watched, tick)}" for watched in self.watched if watched.plotted
+        )
         self.editor.hint = f"tick {tick}  {values}   (wheel: zoom, drag: move, right: all)"

@@ -91,8 +91,8 @@ class RunFolder:
     def files(self) -> Iterator[tuple[str, str]]:
         """The paths of all files in the folder, and why one is left out; no link is followed."""
         above = len(self.folder.parts)
-        for found in files_below(self.folder, follow_links=False):
-            path, why = (found.path, found.why) if isinstance(found, Skipped) else (found, "")
+        for file in files_below(self.folder, follow_links=False):
+            path, why = (file.path, file.why) if isinstance(file, Skipped) else (file, "")
             yield "/".join(path.parts[above:]), why
 
     def file(self, name: str) -> SentFile:
@@ -107,8 +107,8 @@ class RunFolder:
 
     def stamp(self, name: str) -> list[int]:
         """As ``stamp_of``; [] for a file so new that it may be changed again in the same moment."""
-        found = stamp_of(f"{self.folder}/{name}")
-        return found if found and time.time_ns() - max(found[1:3]) > SETTLED else []
+        now = stamp_of(f"{self.folder}/{name}")
+        return now if now and time.time_ns() - max(now[1:3]) > SETTLED else []
 
     def recordings(self, file: SentFile) -> list[Sent]:
         """What a file holds; one that is refused says why. Paths in replays are not followed."""
@@ -124,9 +124,9 @@ class RunFolder:
                 kept = whole is parsed and claimed < 0
                 return [Sent(Chunk(name, text=text if kept else write_replay(whole)), whole, claimed)]
             if is_episode(text):
-                runs = [self._whole(each) for each in parse_episode(text)]
+                runs = [self._whole(run) for run in parse_episode(text)]
                 text = write_episode(runs)
-                return [Sent(Chunk(name, number, text), each) for number, each in enumerate(runs)]
+                return [Sent(Chunk(name, number, text), run) for number, run in enumerate(runs)]
             records = records_of(text, name)
             if not records and holds_recordings(text):
                 raise ReplayError("inputs without a level", hint="send a replay, or a record of N")

@@ -217,11 +217,11 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
             copies.append(Rejected(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
             continue
         same = ways[way]
-        if not same or (run.added == same[0].added != "" and run.player not in (each.player for each in same)):
+        if not same or (run.added == same[0].added != "" and run.player not in (copy.player for copy in same)):
             on_level[run.level].append(run)
             same.append(run)
         else:
-            first = next((each for each in same if each.player == run.player), same[0])
+            first = next((copy for copy in same if copy.player == run.player), same[0])
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
@@ -229,7 +229,7 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
     together: dict[Key, str] = {}
     for same in ways.values():
         for run in same if len(same) > 1 else ():
-            others = " and ".join(f"{each.player} in {each.file}" for each in same if each is not run)
+            others = " and ".join(f"{copy.player} in {copy.file}" for copy in same if copy is not run)
             together[run.key] = f"the same run as that by {others}, which came in together with it: whose is not known"
     kept = [run for level in on_level.values() for run in _remarked(level, memo, together)]
     return sorted(kept, key=lambda run: run.order), copies

@@ -109,7 +109,7 @@ class LevelPages:
         self.game = f"../{game}"
         self.site = address and f"{address}{BOARD}/"
         assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
-        others = [each for each in LINKS[2:] if each != EPISODES or ranking.shown.levels.episodes]
+        others = [link for link in LINKS[2:] if link != EPISODES or ranking.shown.levels.episodes]
         self.links = [(self.game, "Play"), *LINKS[:2], *assisted, *others]
         self.deeper = [(UP + address, name) for address, name in self.links]
         self.around = digest_of([self.links, self.site])
@@ -129,7 +129,7 @@ class LevelPages:
         ]
         for number, (file, part) in enumerate(zip(names, parts, strict=True)):
             lead = () if number else before
-            others = joined(*(joined(each, " ") for each in turns if each is not turns[number]))
+            others = joined(*(joined(turn, " ") for turn in turns if turn is not turns[number]))
             more = tag("p", others, class_="pages") if others else None
 
             def content(part: Sequence[Any] = part, lead: Sequence[Content] = lead, more: Content = more) -> str:
@@ -181,7 +181,7 @@ class LevelPages:
 
         def content() -> str:
             drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.shown_name(run.player), run.path)])
-            more = joined(*(tag("p", each) for each in links))
+            more = joined(*(tag("p", link) for link in links))
             return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn, more)
 
         self.pages.make(f"{stem}.html", [title, facts, links, self.around], content, replay=True)
@@ -202,7 +202,7 @@ class LevelPages:
         gold, linked = f"{run.gold} of {run.entry.all_gold}", self.run_link(run, UP, str(results[0]))
         about = gold, run.made or "unknown", run.day, medal_mark(run.medal if timed else ""), self.run_link(run, UP)
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
-        notes = [tag("div", each, class_="note") for each in (remark, run.remark) if each]
+        notes = [tag("div", text, class_="note") for text in (remark, run.remark) if text]
         return (
             joined(self.player_link(run.player, UP), others, *notes),
             linked,
@@ -222,7 +222,7 @@ class LevelPages:
         """A level's page, the list of all its runs, and their pages and files."""
         digest, named, runs = entry.digest, entry.named, self.ranking.by_level.get(entry.digest, [])
         rows: list[list[Any]] = [[self.stems[run.key], run.added, run.remark, run.near, run.tick] for run in runs]
-        rules = [[each.name, each.rank, each.when] for each in self.ranking.categories]
+        rules = [[category.name, category.rank, category.when] for category in self.ranking.categories]
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
 
         def content() -> str:
@@ -256,17 +256,21 @@ class LevelPages:
         said = f"All runs: {len(self.ranking.by_level[entry.digest])}"
         link = tag("p", tag("a", said, href=f"{entry.digest[:16]}-runs.html"))
         drawn, beside = self._side_by_side(*self.ranking.side_by_side(entry.digest, TOGETHER))
-        fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > 1]
-        first, *others = [self._progression(entry, each, RECORDS * (not at)) for at, each in enumerate(fell)] or [None]
+        fell = [board for board in tables if len(self.ranking.history[entry.digest, board]) > 1]
+        first, *others = [self._progression(entry, board, RECORDS * (not at)) for at, board in enumerate(fell)] or [
+            None
+        ]
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
         same: dict[str, dict[Leaderboard, list[Ranked]]] = defaultdict(dict)
-        for each, rows in tables.items():
-            same[f"{each[0]} {[(row.place, row.run.key) for row in rows[:FIRST]]}"][each] = rows[:FIRST]
+        for board, rows in tables.items():
+            same[f"{board[0]} {[(row.place, row.run.key) for row in rows[:FIRST]]}"][board] = rows[:FIRST]
         near = {row.run.key for rows in tables.values() for row in rows[:FIRST] if row.run.near}
         remarks: set[str] = set()
         shown, leads = list[Content](), list[tuple[str, str]]()
         for number, leaderboards in enumerate(same.values(), 1):
-            waiting = [row for each in leaderboards for row in self.ranking.waiting(entry.digest, each, tables[each])]
+            waiting = [
+                row for board in leaderboards for row in self.ranking.waiting(entry.digest, board, tables[board])
+            ]
             near |= {row.run.key for row in waiting}
             shown.append(self._table(leaderboards, remarks, anchor := f"ranks-{number}"))
             better = [
@@ -274,10 +278,10 @@ class LevelPages:
                 for row in waiting
             ]
             shown.append(tag("p", f"Better, and waiting: {', '.join(dict.fromkeys(better))}.") if better else "")
-            for each, (best, *_) in leaderboards.items():
-                leader = f": {self.shown_name(best.run.player)}, {each[1].text(best.values[0])}"
-                leads.append((anchor, self.leaderboard_name(each) + leader * (best.place == 1)))
-        leads += [(each, each.capitalize()) for each, content in ((RECORDS, first), (SPLITS, beside)) if content]
+            for board, (best, *_) in leaderboards.items():
+                leader = f": {self.shown_name(best.run.player)}, {board[1].text(best.values[0])}"
+                leads.append((anchor, self.leaderboard_name(board) + leader * (best.place == 1)))
+        leads += [(tab, tab.capitalize()) for tab, content in ((RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
         return on_this_page(leads), drawn, joined(*shown, note, link, first, folded, beside)
 
@@ -288,7 +292,7 @@ class LevelPages:
         for same in zip(*leaderboards.values(), strict=True):
             place, run = same[0].place, same[0].run
             shown = replace(run, remark="as above") if run.remark in above else run
-            results = [category.text(each.values[0]) for category, each in zip(categories, same, strict=True)]
+            results = [category.text(row.values[0]) for category, row in zip(categories, same, strict=True)]
             late = self.behind(categories[0], same[0], next(iter(leaderboards.values()))[0])
             unsaid = NOT_SAID * (0 < place <= PODIUM and not run.made)
             rows.append((place or "", *self.run_cells(shown, *results, late, timed=timed, remark=unsaid)))
@@ -322,9 +326,9 @@ class LevelPages:
         names = [self.shown_name(run.player) + ", assisted" * (run.ladder != PLAYED) for run in runs]
         if len(runs) == 1:
             return paths(UP + picture_name(runs[0].level), [(names[0], runs[0].path)]), None
-        found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
-        rows, kept = _split_rows(found), runs[0].folder.drawn
-        known = [kept.get(run.key) or path_data(each.positions) for run, each in zip(runs, found, strict=True)]
+        ghosts = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
+        rows, kept = _split_rows(ghosts), runs[0].folder.drawn
+        known = [kept.get(run.key) or path_data(ghost.positions) for run, ghost in zip(runs, ghosts, strict=True)]
         places = [(row.split.x, row.split.y) for row in rows]
         drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)), places)
         together = tag("p", self.watch_link(runs, UP, f"Watch the first {len(runs)} together"))
@@ -341,7 +345,7 @@ class LevelPages:
         splits = table(said, ("No.", "Split", names[0], "Fastest segment", *names[1:]), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
         drawn = joined(drawn, tag("p", f"The first {len(runs)} runs: {category.name}"), together)
-        where = _where_time_goes(names, found) if len(rows) < ENOUGH_SPLITS else None
+        where = _where_time_goes(names, ghosts) if len(rows) < ENOUGH_SPLITS else None
         return drawn, joined(
             section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS),
             section("Where time goes", *where) if where else None,
@@ -351,13 +355,13 @@ class LevelPages:
         return "" if run is other else self.watch_link([run, other], UP, signed(run.tick - other.tick))
 
 
-def _where_time_goes(names: Sequence[str], found: Sequence[RunSplits]) -> list[Markup]:
+def _where_time_goes(names: Sequence[str], runs: Sequence[RunSplits]) -> list[Markup]:
     """Where each run loses most on the first, and a table of how much later it is there at each of its seconds."""
-    first, *others = found
-    if max(each.ticks for each in found) > LONGEST_ALIGNED:
+    first, *others = runs
+    if max(run.ticks for run in runs) > LONGEST_ALIGNED:
         return []
     ticks = range(step := TICKS_PER_SECOND * (1 + first.ticks // MOST_SECONDS), first.ticks, step)
-    late = [_leads(first.positions, each.positions, ticks) for each in others]
+    late = [_leads(first.positions, other.positions, ticks) for other in others]
     said = []
     for name, leads in zip(names[1:], late, strict=True):
         near = [(0, 0), *((tick, lead) for tick, lead in zip(ticks, leads, strict=True) if lead is not None)]
@@ -365,7 +369,7 @@ def _where_time_goes(names: Sequence[str], found: Sequence[RunSplits]) -> list[M
         span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of the first"
         said += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
     rows = [
-        (f"{tick // TICKS_PER_SECOND} s", *("" if each is None else signed(each) for each in leads))
+        (f"{tick // TICKS_PER_SECOND} s", *("" if ahead is None else signed(ahead) for ahead in leads))
         for tick, *leads in zip(ticks, *late, strict=True)
     ]
     caption = f"Seconds by which each is later where {names[0]} is then; empty: it goes another way"
@@ -376,21 +380,21 @@ def _where_time_goes(names: Sequence[str], found: Sequence[RunSplits]) -> list[M
 def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
     """How many ticks later the other run is where ours is at each of these; None: it is not near there."""
     partner = aligned(ours[::COARSE], theirs[::COARSE])
-    found: list[int | None] = []
+    leads: list[int | None] = []
     for tick in ticks:
         start = max(0, COARSE * (int(partner[tick // COARSE]) - 1))
         apart = np.hypot(*(theirs[start : start + 2 * COARSE + 1] - ours[tick]).T)
-        found.append(start + int(apart.argmin()) - tick if partner[tick // COARSE] >= 0 else None)
-    return found
+        leads.append(start + int(apart.argmin()) - tick if partner[tick // COARSE] >= 0 else None)
+    return leads
 
 
-def _split_rows(found: Sequence[RunSplits]) -> list[SplitRow]:
+def _split_rows(runs: Sequence[RunSplits]) -> list[SplitRow]:
     """Rows of splits of the fastest run; gold that only others take is left out, all of it where it is too much."""
-    best = min(range(len(found)), key=lambda number: found[number].ticks)
-    gold, rows = SPLIT_EVENTS[0], split_table(found, found[best])
+    best = min(range(len(runs)), key=lambda number: runs[number].ticks)
+    gold, rows = SPLIT_EVENTS[0], split_table(runs, runs[best])
     if len(rows) > MOST_SPLITS:
-        found = [replace(run, splits=tuple(each for each in run.splits if each.event != gold)) for run in found]
-        rows = split_table(found, found[best])
+        runs = [replace(run, splits=tuple(split for split in run.splits if split.event != gold)) for run in runs]
+        rows = split_table(runs, runs[best])
     return [row for row in rows if row.ticks[best] is not None or row.split.event != gold][:MOST_SPLITS]
 
 

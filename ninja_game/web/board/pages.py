@@ -64,7 +64,7 @@ def check_ledger(data: Path, folder: Path) -> None:
 def is_in(path: Path, folder: Path) -> bool:
     """Whether a path, of something that may not be there yet, is a folder or leads into it; links are followed."""
     place = path.resolve()
-    return folder.exists() and any(each.exists() and each.samefile(folder) for each in (place, *place.parents))
+    return folder.exists() and any(parent.exists() and parent.samefile(folder) for parent in (place, *place.parents))
 
 
 EPISODE_NUMBERS = (
@@ -121,11 +121,11 @@ class BoardPages(LevelPages):
         said = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
         parts = [*leaders, *self._contested(), *self._week(), *newest]
         contents = [section(title, content, anchor=anchor) for anchor, title, content in parts]
-        return page("Board", lead, said, on_this_page([each[:2] for each in parts]), *contents, links=self.links)
+        return page("Board", lead, said, on_this_page([part[:2] for part in parts]), *contents, links=self.links)
 
     def _moments(self) -> Iterator[list[Record]]:
         """The records of each moment, the newest first."""
-        for _, group in groupby(self.ranking.records, key=lambda each: each.run.added):
+        for _, group in groupby(self.ranking.records, key=lambda record: record.run.added):
             yield [*group]
 
     def _of_a_moment(self, records: Sequence[Record]) -> list[tuple[Content, ...]]:
@@ -135,11 +135,11 @@ class BoardPages(LevelPages):
             return [
                 (
                     level_link(run.entry), self.watch_link([run], ""), self.player_link(run.player),
-                    tag("div", *(tag("div", each) for each in self._achieved(record)), class_="text"), moment,
+                    tag("div", *(tag("div", text) for text in self._achieved(record)), class_="text"), moment,
                 )
                 for record in records for run in [record.run]
             ]  # fmt: skip
-        levels, players = ({getattr(each.run, name) for each in records} for name in ("level", "player"))
+        levels, players = ({getattr(record.run, name) for record in records} for name in ("level", "player"))
         where = tag("a", counted(len(levels), "level"), href="levels.html")
         return [(where, "", counted(len(players), "player"), _together(records), moment)]
 
@@ -151,9 +151,9 @@ class BoardPages(LevelPages):
             yield f"{self.leaderboard_name((record.run.ladder, category))}: {result}, {gain}"
 
     def _week(self) -> list[Piece]:
-        if not (found := self.ranking.level_of_the_week):
+        if not (chosen := self.ranking.level_of_the_week):
             return []
-        digest, players, runs = found
+        digest, players, runs = chosen
         sent = f": {counted(runs, 'run')} by {counted(players, 'player')} in the seven days up to the newest run."
         return [("week", "Level of the week", tag("p", level_link(self.entries[digest]), sent))]
 
@@ -162,7 +162,7 @@ class BoardPages(LevelPages):
         for digest in self.ranking.contested[:CONTESTED]:
             if ranked := self._placed(digest, PLAYED):
                 counts = self.ranking.beaten[digest], self._counts(digest)[1]
-                spread = [self.main.difference(each.behind) for each in ranked[1:5:3]]
+                spread = [self.main.difference(standing.behind) for standing in ranked[1:5:3]]
                 spread += [""] * (2 - len(spread))
                 rows.append([pictured(self.entries[digest]), *counts, *self._best(digest)])
                 rows[-1][5:5] = spread
@@ -183,15 +183,15 @@ class BoardPages(LevelPages):
 
     def _best_heads(self) -> list[str]:
         ladders = self.ranking.ladders
-        return [head for each in ladders for head in (self.leaderboard_name((each, self.main)), "First")]
+        return [head for ladder in ladders for head in (self.leaderboard_name((ladder, self.main)), "First")]
 
     def _best(self, digest: str) -> list[Content]:
         """The best number and its player in the first category of each ladder, "" where nobody has one."""
-        found: list[Content] = []
+        cells: list[Content] = []
         for ladder in self.ranking.ladders:
             first = next(iter(self._placed(digest, ladder)), None)
-            found += [self.main.text(first.values[0]), self.player_link(first.run.player)] if first else ["", ""]
-        return found
+            cells += [self.main.text(first.values[0]), self.player_link(first.run.player)] if first else ["", ""]
+        return cells
 
     def _feed(self) -> str:
         """New records as Atom (RFC 4287); dates are those of the ledger."""
@@ -220,16 +220,22 @@ class BoardPages(LevelPages):
     # --- players ---
 
     def _heads(self) -> list[str]:
-        names = [f"First, {each.name}" for each in self.ranking.categories]
+        names = [f"First, {category.name}" for category in self.ranking.categories]
         return ["Player", "Levels", "Runs", *names, *map(str.capitalize, MEDALS)]
 
     def _players_of(self, ladder: str) -> str:
         """The title of a list of players; the ladder only where there are two."""
         return f"Players, {ladder}" if len(self.ranking.ladders) > 1 else "Players"
 
-    def _standing(self, each: Standing) -> tuple[Content, ...]:
-        firsts = [each.records[category] for category in self.ranking.categories]
-        return self.player_link(each.player), each.levels, each.runs, *firsts, *(n or "" for n in each.medals.values())
+    def _standing(self, standing: Standing) -> tuple[Content, ...]:
+        firsts = [standing.records[category] for category in self.ranking.categories]
+        return (
+            self.player_link(standing.player),
+            standing.levels,
+            standing.runs,
+            *firsts,
+            *(n or "" for n in standing.medals.values()),
+        )
 
     def _players(self) -> None:
         sums: dict[str, list[Content]] = defaultdict(list)
@@ -240,8 +246,8 @@ class BoardPages(LevelPages):
             ]
             title, rows = self._players_of(ladder), [*map(self._standing, standings)]
             self.write_table(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", link) for link in links))
-            for each in standings:
-                sums[each.player].append(tag("p", _sums(ladder, self.main.name, each)))
+            for standing in standings:
+                sums[standing.player].append(tag("p", _sums(ladder, self.main.name, standing)))
         runs: dict[str, list[Run]] = defaultdict(list)
         for run in self.ranking.judged.runs:
             runs[run.player].append(run)
@@ -281,7 +287,7 @@ class BoardPages(LevelPages):
             time = self.run_link(run, UP, seconds_text(run.tick))
             result = time, self.watch_link([run], UP), medal_mark(run.medal), seconds_text(run.score), gold
             leads = run.made or "unknown", run.day, self.run_link(run, UP)
-            places = tag("div", *(tag("div", each) for each in row[3]), class_="text") if row[3] else ""
+            places = tag("div", *(tag("div", text) for text in row[3]), class_="text") if row[3] else ""
             return (row[1], level_link(run.entry, UP), *result, places, *leads)
 
         rows = [
@@ -293,12 +299,12 @@ class BoardPages(LevelPages):
 
     def _places(self, run: Run) -> list[str]:
         """Its place in each category, and how far behind it is."""
-        found = []
+        places = []
         for part, rows, number in self.ranking.places.get(run.key, ()):
             if place := rows[number].place:
                 late = self.behind(part[1], rows[number], rows[0], " behind")
-                found.append(f"{self.leaderboard_name(part)}: {place}" + f", {late}" * bool(late))
-        return found
+                places.append(f"{self.leaderboard_name(part)}: {place}" + f", {late}" * bool(late))
+        return places
 
     # --- levels, episodes, and what does not count ---
 
@@ -315,7 +321,7 @@ class BoardPages(LevelPages):
     def _placed(self, digest: str, ladder: str) -> list[Ranked]:
         """The runs with a place in the first category of a ladder."""
         table = self.ranking.tables.get(digest, {}).get((ladder, self.main), [])
-        return [each for each in table if each.place]
+        return [row for row in table if row.place]
 
     def _counts(self, digest: str) -> tuple[int, int]:
         """How many runs a level has, and of how many players, in all ladders and categories."""
@@ -323,8 +329,13 @@ class BoardPages(LevelPages):
         return len(runs), len({run.player for run in runs})
 
     def _episodes(self) -> list[Content]:
-        found: list[Content] = []
-        parts = [(ladder, each) for ladder in self.ranking.ladders for each in self.ranking.categories if each.episodes]
+        sections: list[Content] = []
+        parts = [
+            (ladder, category)
+            for ladder in self.ranking.ladders
+            for category in self.ranking.categories
+            if category.episodes
+        ]
         kinds = ("sum of the best of all its levels", self.ranking.episode), ("in one recording", self.ranking.whole)
         for number, episode in sorted(self.ranking.shown.levels.episodes.items()):
             tables = []
@@ -344,21 +355,21 @@ class BoardPages(LevelPages):
                 ]
                 caption = f"Episode {number:02d}, {self.leaderboard_name(part)}: {what}"
                 tables += [table(caption, EPISODE_HEADS, rows)] if rows else []
-            levels = [tag("li", level_link(each)) for each in episode.levels]
+            levels = [tag("li", level_link(level)) for level in episode.levels]
             nobody = tag("p", "No player yet.")
             listed = tag("ul", *levels, class_="facts")
-            found.append(section(f"Episode {number:02d}: {episode.name}", listed, *tables or [nobody]))
-        return found
+            sections.append(section(f"Episode {number:02d}: {episode.name}", listed, *tables or [nobody]))
+        return sections
 
     def _rejected(self) -> None:
         rejected, order = self.ranking.judged.rejected, list(KINDS)
-        counts = Counter(each.kind for each in rejected)
+        counts = Counter(item.kind for item in rejected)
         said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title, _) in KINDS.items() if counts[kind])
         rows: list[tuple[Content, ...]] = [
-            (KINDS[each.kind][2], each.file + f", record {each.record}" * (each.record > 0),
-             self.shown_name(each.player), each.level, each.why, self._first_run(each.first),
-             each.added.partition("T")[0])
-            for each in sorted(rejected, key=lambda each: order.index(each.kind))
+            (KINDS[item.kind][2], item.file + f", record {item.record}" * (item.record > 0),
+             self.shown_name(item.player), item.level, item.why, self._first_run(item.first),
+             item.added.partition("T")[0])
+            for item in sorted(rejected, key=lambda item: order.index(item.kind))
         ]  # fmt: skip
         lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."
         near = [
@@ -386,14 +397,14 @@ def _together(records: Sequence[Record]) -> str:
     return f"{len(records)} runs with records came in together"
 
 
-def _sums(ladder: str, category: str, each: Standing) -> str:
+def _sums(ladder: str, category: str, standing: Standing) -> str:
     """What a player has reached in a ladder, ranks in a category, in a sentence."""
-    said = f"{ladder.capitalize()}: {counted(each.runs, 'run')} on {counted(each.levels, 'level')}"
-    if not each.ranks:
+    said = f"{ladder.capitalize()}: {counted(standing.runs, 'run')} on {counted(standing.levels, 'level')}"
+    if not standing.ranks:
         return f"{said}."
-    ranks = f"total of ranks {sum(each.ranks)}, {mean(each.ranks):.2f} on average"
-    close = f"in the median {100 * median(each.behind):.1f}% slower than the fastest"
-    return f"{said}; in {category} first on {each.ranks.count(1)}; {ranks}; {close}."
+    ranks = f"total of ranks {sum(standing.ranks)}, {mean(standing.ranks):.2f} on average"
+    close = f"in the median {100 * median(standing.behind):.1f}% slower than the fastest"
+    return f"{said}; in {category} first on {standing.ranks.count(1)}; {ranks}; {close}."
 
 
 def _about(element: ET.Element, title: str, name: str, date: str) -> None:

@@ -92,46 +92,46 @@ class Ranking:
         """
         valued = [(bool(run.near), values, run) for run in runs if (values := self.values(category, run)) is not None]
         best: dict[str, tuple[bool, tuple[float, ...], Run]] = {}
-        for each in sorted(valued, key=itemgetter(0, 1)):
-            best.setdefault(each[2].player, each)
-        found: list[Ranked] = []
+        for row in sorted(valued, key=itemgetter(0, 1)):
+            best.setdefault(row[2].player, row)
+        table: list[Ranked] = []
         for number, (near, values, run) in enumerate(best.values(), 1):
-            shared = found and found[-1].values == values
-            place = 0 if near else found[-1].place if shared else number
-            found.append(Ranked(place, run, values, values[0] - (found[0].values if found else values)[0]))
-        return found
+            shared = table and table[-1].values == values
+            place = 0 if near else table[-1].place if shared else number
+            table.append(Ranked(place, run, values, values[0] - (table[0].values if table else values)[0]))
+        return table
 
     @cached_property
     def tables(self) -> dict[str, dict[Leaderboard, list[Ranked]]]:
         """All tables that have a run, by level, then by ladder and category."""
-        found: dict[str, dict[Leaderboard, list[Ranked]]] = {}
+        of_levels: dict[str, dict[Leaderboard, list[Ranked]]] = {}
         for level, runs in self.by_level.items():
             ladders: dict[str, list[Run]] = defaultdict(list)
             for run in runs:
                 ladders[run.ladder].append(run)
             leaderboards = {
-                (ladder, each): self._table(ladders[ladder], each)
+                (ladder, category): self._table(ladders[ladder], category)
                 for ladder in self.ladders
-                for each in self.categories
+                for category in self.categories
             }
-            found[level] = {leaderboard: table for leaderboard, table in leaderboards.items() if table}
-        return found
+            of_levels[level] = {leaderboard: table for leaderboard, table in leaderboards.items() if table}
+        return of_levels
 
     def waiting(self, level: str, leaderboard: Leaderboard, table: Sequence[Ranked]) -> list[Ranked]:
         """Near copies that nobody has confirmed, and that are better than the run of their player in the table."""
         ladder, category = leaderboard
         best = {row.run.player: row for row in table if row.run.ladder == ladder}
-        found = []
+        near_copies = []
         for run in self.by_level.get(level, ()):
             values, row = self.values(category, run), best.get(run.player)
             if run.near and run.ladder == ladder and values and row and values < row.values:
-                found.append(Ranked(0, run, values, values[0] - table[0].values[0]))
-        return found
+                near_copies.append(Ranked(0, run, values, values[0] - table[0].values[0]))
+        return near_copies
 
     def side_by_side(self, level: str, most: int) -> tuple[Category, list[Run]]:
         """The first category that a level has runs in, and the first of them: of both ladders in turn, played first."""
         tables = self.tables[level]
-        category = next(each for each in self.categories if any((ladder, each) in tables for ladder in self.ladders))
+        category = next(other for other in self.categories if any((ladder, other) in tables for ladder in self.ladders))
         turns = zip_longest(*(tables.get((ladder, category), [])[:most] for ladder in self.ladders))
         runs = [ranked.run for turn in turns for ranked in turn if ranked][:most]
         return category, sorted(runs, key=lambda run: run.ladder != PLAYED)
@@ -139,12 +139,12 @@ class Ranking:
     @cached_property
     def places(self) -> dict[Key, list[tuple[Leaderboard, list[Ranked], int]]]:
         """By run the tables that it is in, and in which row."""
-        found: dict[Key, list[tuple[Leaderboard, list[Ranked], int]]] = defaultdict(list)
+        rows_of: dict[Key, list[tuple[Leaderboard, list[Ranked], int]]] = defaultdict(list)
         for tables in self.tables.values():
             for leaderboard, table in tables.items():
                 for number, ranked in enumerate(table):
-                    found[ranked.run.key].append((leaderboard, table, number))
-        return found
+                    rows_of[ranked.run.key].append((leaderboard, table, number))
+        return rows_of
 
     @cached_property
     def ladders(self) -> list[str]:
@@ -159,37 +159,37 @@ class Ranking:
     @cached_property
     def history(self) -> dict[tuple[str, Leaderboard], list[Run]]:
         """By level, ladder and category the runs that were its record, the first one first; of one moment the last."""
-        found: dict[tuple[str, Leaderboard], list[Run]] = defaultdict(list)
+        by_board: dict[tuple[str, Leaderboard], list[Run]] = defaultdict(list)
         for run in self.judged.runs:
             for category in self.categories:
                 values = self.values(category, run)
-                records = found[run.level, (run.ladder, category)] if values else []
+                records = by_board[run.level, (run.ladder, category)] if values else []
                 best = self.values(category, records[-1]) if records else None
                 if values and not run.near and (best is None or values < best):
                     records[-1:] = [run] if best and records[-1].added == run.added else [*records[-1:], run]
-        return found
+        return by_board
 
     @cached_property
     def records(self) -> list[Record]:
         """Every record that was ever set, a run once, the newest first."""
-        found: dict[tuple[str, int], dict[Category, float | None]] = defaultdict(dict)
+        changes: dict[tuple[str, int], dict[Category, float | None]] = defaultdict(dict)
         for (_, (_, category)), runs in self.history.items():
             numbers = [self.number(category, run) for run in runs]
             for number, run in enumerate(runs):
-                found[run.key][category] = numbers[number - 1] - numbers[number] if number else None
-        set_ = [Record(run, found[run.key]) for run in self.judged.runs if run.key in found]
+                changes[run.key][category] = numbers[number - 1] - numbers[number] if number else None
+        set_ = [Record(run, changes[run.key]) for run in self.judged.runs if run.key in changes]
         return set_[::-1]
 
     @cached_property
     def standings(self) -> dict[str, list[Standing]]:
         """By ladder all players, who leads most levels first."""
-        found: dict[str, dict[str, Standing]] = {ladder: {} for ladder in self.ladders}
+        players_of: dict[str, dict[str, Standing]] = {ladder: {} for ladder in self.ladders}
         for run in self.judged.runs:
-            found[run.ladder].setdefault(run.player, Standing(run.player)).runs += 1
+            players_of[run.ladder].setdefault(run.player, Standing(run.player)).runs += 1
         for tables in self.tables.values():
             for (ladder, category), table in tables.items():
                 for ranked in table:
-                    standing = found[ladder][ranked.run.player]
+                    standing = players_of[ladder][ranked.run.player]
                     standing.records[category] += ranked.place == 1
                     if category is self.categories[0]:
                         standing.levels += 1
@@ -199,29 +199,29 @@ class Ranking:
                         if ranked.run.medal:
                             standing.medals[ranked.run.medal] += 1
         return {
-            ladder: sorted(players.values(), key=lambda each: (-sum(each.records.values()), -each.levels, each.player))
-            for ladder, players in found.items()
+            ladder: sorted(players.values(), key=lambda item: (-sum(item.records.values()), -item.levels, item.player))
+            for ladder, players in players_of.items()
         }
 
     def episode(self, episode: Episode, leaderboard: Leaderboard) -> list[tuple[str, float, Sequence[Run]]]:
         """Who has passed every level of an episode: player, sum of the best numbers, and the runs; the best first."""
         tables = [
-            {each.run.player: each for each in self.tables.get(entry.digest, {}).get(leaderboard, ())}
+            {row.run.player: row for row in self.tables.get(entry.digest, {}).get(leaderboard, ())}
             for entry in episode.levels
         ]
-        found = []
+        totals = []
         for player in tables[0] if tables else ():
             best = [table[player] for table in tables if player in table]
             if len(best) == len(tables):
-                found.append((player, sum(each.values[0] for each in best), [each.run for each in best]))
-        return sorted(found, key=itemgetter(1, 0))
+                totals.append((player, sum(row.values[0] for row in best), [row.run for row in best]))
+        return sorted(totals, key=itemgetter(1, 0))
 
     def whole(self, episode: Episode, leaderboard: Leaderboard) -> list[tuple[str, float, Sequence[Run]]]:
         """The same of each player's best recording of the whole episode; with an assisted run in it, it is assisted."""
         ladder, category = leaderboard
         best: dict[str, tuple[str, float, Sequence[Run]]] = {}
         for runs in self.judged.episodes.get(episode.key, ()):
-            values = [found[0] for run in runs if (found := self.values(category, run))]
+            values = [of_run[0] for run in runs if (of_run := self.values(category, run))]
             player = runs[0].player
             if max(run.ladder != PLAYED for run in runs) == (ladder != PLAYED) and len(values) == len(runs):
                 now = player, sum(values), runs
@@ -240,13 +240,13 @@ class Ranking:
     def contested(self) -> list[str]:
         """The levels by how often their records were beaten, else those with a second by how close it is."""
         players = {level: len({run.player for run in runs}) for level, runs in self.by_level.items()}
-        close = {each: 0.0 if self.beaten else self._close(each) for each in self.by_level}
-        found = [level for level in self.by_level if close[level] < inf]
-        return sorted(found, key=lambda level: (-self.beaten[level], close[level], -players[level]))
+        close = {digest: 0.0 if self.beaten else self._close(digest) for digest in self.by_level}
+        close_levels = [level for level in self.by_level if close[level] < inf]
+        return sorted(close_levels, key=lambda level: (-self.beaten[level], close[level], -players[level]))
 
     def _close(self, level: str) -> float:
         """By how much the second played run is behind in the first category."""
-        placed = [each for each in self.tables[level].get((PLAYED, self.categories[0]), ()) if each.place]
+        placed = [row for row in self.tables[level].get((PLAYED, self.categories[0]), ()) if row.place]
         return placed[1].behind if len(placed) > 1 else inf
 
     @cached_property

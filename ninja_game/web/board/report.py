@@ -66,8 +66,8 @@ def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
     data = {"runs": [_run_data(run) for run in sorted(judged.runs, key=lambda run: run.key)]}
     counted = {run.key for run in judged.runs}
     rejected = {
-        (each.file, each.record): {key: getattr(each, key) for key in _FIELDS["rejected"]}
-        for each in (*judged.rejected, *judged.again)
+        (item.file, item.record): {key: getattr(item, key) for key in _FIELDS["rejected"]}
+        for item in (*judged.rejected, *judged.again)
     }
     for key, old in (before.rejected | before.runs).items():
         whole = rejected.get((key[0], 0), {})
@@ -104,7 +104,7 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
     first, second, *_ = _FIELDS[part]
     if not isinstance(rows, list):
         raise FormatError(f"{part!r} is of the wrong type", str(path), expected="a list of rows")
-    found: Rows = {}
+    rows_by_key: Rows = {}
     for number, row in enumerate(rows, 1):
         place = f"row {number} of {part!r}"
         for name, kind in (_FIELDS[part] | {key: kind for key, kind in _KEPT.items() if key in row}).items():
@@ -117,10 +117,10 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
             expected = ", ".join(DECISIONS)
             raise FormatError(f"{place}: 'what' is no decision", str(path), found=plain(row["what"]), expected=expected)
         key = row[first], _decided(row) if part == "decisions" else row[second]
-        if key in found:
+        if key in rows_by_key:
             raise FormatError(f"{place}: given twice", str(path), found=plain(key[0]))
-        found[key] = row
-    return found
+        rows_by_key[key] = row
+    return rows_by_key
 
 
 def _decided(row: Mapping[str, Any]) -> tuple[str, ...]:
@@ -161,25 +161,25 @@ def moderate(
 
 def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -> list[dict[str, Any]]:
     """The rows of a file. Raises ArgumentError, with those that there are, for none."""
-    if found := [row for row in rows if row["file"] == name]:
-        return found
+    if of_file := [row for row in rows if row["file"] == name]:
+        return of_file
     files = ", ".join(dict.fromkeys(plain(row["file"]) for row in rows[:10])) or "none"
     raise ArgumentError(f"{what} {name!a}: no run of the ledger {which}; there are: {files}")
 
 
 def read_dates(path: Path, now: datetime) -> dict[str, str]:
     """Dates by file, of rows FILE,DATE, below a head or none. Raises FormatError with the row, FileError, OSError."""
-    found: dict[str, str] = {}
+    dates: dict[str, str] = {}
     for number, row in enumerate(read_utf8(path).splitlines(), 1):
         file, _, day = map(str.strip, row.rpartition(","))
         if number == 1 and (file.upper(), day.upper()) == ("FILE", "DATE"):
             continue
         date = f"{day}T00:00:00Z" if len(day) == len("2026-01-31") else day
-        if file in found or not _is_date(date, now):
+        if file in dates or not _is_date(date, now):
             expected = "FILE,DATE, once for a file, with a date in the past as 2026-01-31 or 2026-01-31T12:00:00Z"
             raise FormatError(f"row {number}: no date of a file", str(path), found=plain(row), expected=expected)
-        found[file] = date
-    return found
+        dates[file] = date
+    return dates
 
 
 def dates_of(before: Ledger, now: datetime, given: Mapping[str, str]) -> Dates:
@@ -209,26 +209,27 @@ def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
             yield True, f"new: {_place(run.key)}: {_achieved(ranking, run)}"
         elif now[run.key] | {"near": ""} != runs[run.key] | {"near": ""}:
             yield False, f"changed: {_place(run.key)}: {_achieved(ranking, run)}"
-    new = [each for each in ranking.judged.again if (each.file, each.record) not in rejected]
-    for (file, player), levels in Counter((each.file, each.player) for each in new).items():
+    new = [item for item in ranking.judged.again if (item.file, item.record) not in rejected]
+    for (file, player), levels in Counter((item.file, item.player) for item in new).items():
         what = counted(levels, "level")
         yield True, f"new: {plain(file)}: an episode in which {plain(player)} plays {what} as in an earlier run"
-    for each in ranking.judged.rejected:
-        key = each.file, each.record
-        if key not in rejected or rejected[key].get("why") != each.why:
-            yield each.kind == "practice", f"{each.kind}: {_place(key)}: {plain(each.why)}"
+    for item in ranking.judged.rejected:
+        key = item.file, item.record
+        if key not in rejected or rejected[key].get("why") != item.why:
+            yield item.kind == "practice", f"{item.kind}: {_place(key)}: {plain(item.why)}"
     yield from ((False, line) for line in gone(ranking, before))
 
 
 def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
     """A line for each run of a ledger whose file is not there any more, with who is first on its level now."""
     judged = ranking.judged
-    here = {run.key for run in judged.runs} | {(each.file, each.record) for each in judged.rejected + judged.again}
+    here = {run.key for run in judged.runs} | {(item.file, item.record) for item in judged.rejected + judged.again}
     for key, row in sorted(before.runs.items()):
         if key not in here:
             leaders = [
-                f"{ranking.leaderboard_name(board)} {plain(each.run.player)}, {board[1].text(each.values[0])}"
-                for board, table in ranking.tables.get(row["level"], {}).items() for each in table if each.place == 1
+                f"{ranking.leaderboard_name(board)} {plain(ranked.run.player)}, {board[1].text(ranked.values[0])}"
+                for board, table in ranking.tables.get(row["level"], {}).items()
+                for ranked in table if ranked.place == 1
             ]  # fmt: skip
             first = f"first now: {'; '.join(leaders) or 'nobody'}"
             yield f"gone: {_place(key)}: {plain(row['player'])} on {plain(row['level_name'])}; {first}"
@@ -258,7 +259,7 @@ def plain(text: str) -> str:
 def summary(judged: ValidatedRuns) -> str:
     players, levels = {run.player for run in judged.runs}, {run.level for run in judged.runs}
     counts = ("run", judged.runs), ("player", players), ("level", levels)
-    runs, by, on = (counted(len(each), name, f"{name}s") for name, each in counts)
-    kinds = Counter(each.kind for each in judged.rejected)
+    runs, by, on = (counted(len(group), name, f"{name}s") for name, group in counts)
+    kinds = Counter(item.kind for item in judged.rejected)
     rejected = ", ".join(f"{kinds[kind]} {KINDS[kind][0]}" for kind in sorted(kinds))
     return f"{runs} by {by} on {on}; rejected: {rejected or 'none'}"

@@ -54,14 +54,14 @@ class Category:
 
     def __post_init__(self) -> None:
         """Read the formulas. Raises FormulaError."""
-        object.__setattr__(self, "_numbers", tuple(parse_number(each, _ARGUMENTS, ()) for each in self.rank))
+        object.__setattr__(self, "_numbers", tuple(parse_number(number, _ARGUMENTS, ()) for number in self.rank))
         object.__setattr__(self, "_truth", parse_truth(self.when or "0 == 0", _ARGUMENTS, ()))
 
     def values(self, runs: Sequence[Run]) -> list[tuple[float, ...] | None]:
         """What each run is ranked by, the smaller the better; None for a run that is not of the category."""
         view = {name: _all(np.array([value(run) for run in runs], np.float64)) for name, value in NAMES.items()}
         with np.errstate(all="ignore"):
-            columns = [np.broadcast_to(each.value(view), len(runs)) for each in (self._truth, *self._numbers)]
+            columns = [np.broadcast_to(number.value(view), len(runs)) for number in (self._truth, *self._numbers)]
         table = np.stack(columns, axis=1)
         counts = np.isfinite(table).all(axis=1) & (table[:, 0] > 0)
         return [tuple(row[1:]) if good else None for row, good in zip(table.tolist(), counts.tolist(), strict=True)]
@@ -142,8 +142,8 @@ def read_categories(path: Path) -> tuple[Category, ...]:
         raise FormatError(
             "not the rules of a board", file, expected=f"1 to {MOST_CATEGORIES} tables [[category]] alone"
         )
-    categories = tuple(_category(each, f"{file}: category {number}") for number, each in enumerate(found, 1))
-    names = [each.name.casefold() for each in categories]
+    categories = tuple(_category(category, f"{file}: category {number}") for number, category in enumerate(found, 1))
+    names = [category.name.casefold() for category in categories]
     if len(set(names)) < len(names):
         raise FormatError("two categories have one name", file, found=next(n for n in names if names.count(n) > 1))
     return categories
@@ -160,7 +160,7 @@ def _category(table: Any, place: str) -> Category:
     name, rank = table["name"], table["rank"]
     if not name.strip() or len(name) > LONGEST_NAME:
         raise FormatError("a name that is empty or too long", place, expected=f"1 to {LONGEST_NAME} characters")
-    if not 1 <= len(rank) <= MOST_RANKS or not all(isinstance(each, str) for each in rank):
+    if not 1 <= len(rank) <= MOST_RANKS or not all(isinstance(part, str) for part in rank):
         raise FormatError(
             "'rank' is no list of formulas", place, expected=f'1 to {MOST_RANKS}, such as ["gold", "ticks"]'
         )
