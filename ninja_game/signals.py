@@ -95,8 +95,8 @@ def signals_deferred() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
-        for each, handler in handlers.items():
-            signal.signal(each, handler)
+        for signum, handler in handlers.items():
+            signal.signal(signum, handler)
     for number in came:
         signal.raise_signal(number)
 
@@ -125,5 +125,5 @@ def _end(number: int) -> None:
 
 def _known(module: str, name: str) -> Callable[[], Any]:
     """A function of a module if that is loaded, else one that does nothing."""
-    found: Callable[[], Any] = getattr(sys.modules.get(module), name, lambda: None)
-    return found
+    method: Callable[[], Any] = getattr(sys.modules.get(module), name, lambda: None)
+    return method

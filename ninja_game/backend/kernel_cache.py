@@ -134,15 +134,15 @@ class KernelCache:
         context.refresh()
         system, *processor = context.codegen().magic_tuple()
         path = self.folder / self._file(signature, (system, *processor))
-        found = _read(path, context) or _read(SHIPPED / self._file(signature, (system, *GENERIC)), context)
-        if found is None:
+        code = _read(path, context) or _read(SHIPPED / self._file(signature, (system, *GENERIC)), context)
+        if code is None:
             while before_compiling:
                 before_compiling.pop()()
             self._wait(path)
-            found = _read(path, context)
-            if found is not None:
+            code = _read(path, context)
+            if code is not None:
                 self._release(path)
-        return found
+        return code
 
     def _wait(self, path: Path) -> None:
         """Keep other processes from making a file; where one is making it, wait until it has, or has died."""

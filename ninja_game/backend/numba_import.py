@@ -54,8 +54,8 @@ class _ConfigFinder:
         if fullname != _CONFIG:
             return None
         # A program without a Python has a finder of its own.
-        found = (each.find_spec(fullname, path, target) for each in sys.meta_path if each is not self)
-        spec = next(filter(None, found), None)
+        specs = (finder.find_spec(fullname, path, target) for finder in sys.meta_path if finder is not self)
+        spec = next(filter(None, specs), None)
         if spec:
             spec.loader = _ConfigLoader(spec.loader)  # type: ignore[assignment]  # importing its class takes 11 ms
         return spec
@@ -163,8 +163,8 @@ def _make_pipeline() -> type:
 
         def define_pipelines(self) -> list[Any]:
             rules = passes("rules")
-            for each, why in make_passes(self.state).passes:
-                rules.add_pass(RuleLowering if each is lowering else each, why)
+            for pass_, why in make_passes(self.state).passes:
+                rules.add_pass(RuleLowering if pass_ is lowering else pass_, why)
             rules.finalize()
             return [rules]
 

@@ -67,8 +67,8 @@ def self_test_digest(open_world: Callable[[Level, bool], Worlds]) -> str:
 
 def known_keys(number: int) -> bytes:
     """The keys of a run: all sorts, each held for 1 to 20 ticks."""
-    found = bytearray()
-    while len(found) < TICKS:
+    keys = bytearray()
+    while len(keys) < TICKS:
         number = (number * 1103515245 + 12345) % 2**31
-        found += bytes([b"\0\1\2\1\2\3\5\6\4\6\5\6"[(number >> 16) % 12]] * (1 + (number >> 20) % 20))
-    return with_press_bits(bytes(found[:TICKS]))
+        keys += bytes([b"\0\1\2\1\2\3\5\6\4\6\5\6"[(number >> 16) % 12]] * (1 + (number >> 20) % 20))
+    return with_press_bits(bytes(keys[:TICKS]))

@@ -222,13 +222,13 @@ class Batch:
     def state_digests(self, worlds: WorldChoice = None) -> list[str]:
         """The sha256 (hex) of what decides how each world goes on (``state_digest``), once for equal worlds."""
         known: dict[bytes, str] = {}
-        found = []
+        digests = []
         for index in numbers_of(worlds, self.count, "worlds").tolist():
             key = self._worlds.states[index].tobytes()
             if key not in known:
                 known[key] = state_digest(self.world(index))
-            found.append(known[key])
-        return found
+            digests.append(known[key])
+        return digests
 
     def _owner(self) -> tuple[Any, ...]:
         return self.levels, self.body, self.memory

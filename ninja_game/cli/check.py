@@ -99,15 +99,17 @@ def check(
     without: dict[str, list[str]] = {goal: [] for goal in goals}
     with progress_line() as report:
         results = certify_all(chosen, kept, wanted, jobs=jobs, report=report.of_level)
-        for level, files, found in zip(chosen, kept, results, strict=True):
-            if isinstance(found, NinjaGameError):
+        for level, files, by_goal in zip(chosen, kept, results, strict=True):
+            if isinstance(by_goal, NinjaGameError):
                 broken += 1
-                placed = replace(found, file=level.file, line=level.line) if isinstance(found, LevelError) else found
+                placed = (
+                    replace(by_goal, file=level.file, line=level.line) if isinstance(by_goal, LevelError) else by_goal
+                )
                 print_error(str(placed))
                 continue
-            for goal, certified in found.items():
+            for goal, certified in by_goal.items():
                 without[goal] += [] if certified.run else [shown_text(Path(level.file).stem)]
-            click.echo(json.dumps(_facts(level, found, files)) if as_json else _rows(level, found))
+            click.echo(json.dumps(_facts(level, by_goal, files)) if as_json else _rows(level, by_goal))
     if not as_json:
         click.echo(_summary(len(chosen), broken, without))
     return BAD_INPUT if broken else FAILED if without[next(iter(goals))] else 0
@@ -143,10 +145,10 @@ def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | No
         yield files
 
 
-def _rows(level: NamedLevel, found: Mapping[str, Certified]) -> str:
-    rows = [_row(goal, certified, level) for goal, certified in found.items()]
+def _rows(level: NamedLevel, by_goal: Mapping[str, Certified]) -> str:
+    rows = [_row(goal, certified, level) for goal, certified in by_goal.items()]
     rows[0] += f"  {shown_text(level.name)}  {shown_text(level.file)}:{level.record}"
-    best = next(iter(found.values())).run
+    best = next(iter(by_goal.values())).run
     return "\n         ".join([*rows, *(f"warning: {warning}" for warning in _warnings(level, best))])
 
 
@@ -164,15 +166,15 @@ def _row(goal: str, certified: Certified, level: NamedLevel) -> str:
     return f"{mark} no run found{why}"
 
 
-def _facts(level: NamedLevel, found: Mapping[str, Certified], files: Mapping[str, Path]) -> dict[str, Any]:
+def _facts(level: NamedLevel, by_goal: Mapping[str, Certified], files: Mapping[str, Path]) -> dict[str, Any]:
     from ninja_game.formats.n14.level_string import level_digest
 
-    run = next(iter(found.values())).run
+    run = next(iter(by_goal.values())).run
     facts: dict[str, Any] = {
         "file": level.file, "record": level.record, "name": level.name, "level_digest": level_digest(level.level),
         "solvable": True if run else None, "warnings": _warnings(level, run), "runs": {},
     }  # fmt: skip
-    for goal, certified in found.items():
+    for goal, certified in by_goal.items():
         best = certified.run
         facts["runs"][goal] = best and {
             "ticks": best.end_tick, "seconds": best.end_tick / TICKS_PER_SECOND, "gold": best.gold,

@@ -86,9 +86,9 @@ def convert(
     form = form or next((form for suffix, form in FORM_OF_NAME.items() if target.lower().endswith(suffix)), "")
     if level and form in ("ascii", "string"):
         raise click.UsageError("--level is for recordings: add --to replay or --to file")
-    found: Sequence[NamedLevel | Recording]
+    holdings: Sequence[NamedLevel | Recording]
     if form in RUN_FORMS or form == "episode" or level:
-        found = recordings = [recording for source in sources for recording in load_replays(source, level=level)]
+        holdings = recordings = [recording for source in sources for recording in load_replays(source, level=level)]
         form = form or "file"
         if form in RUN_FORMS:
             written = replay_texts(recordings, budget) if form == "replay" else input_texts(recordings, form)
@@ -96,7 +96,7 @@ def convert(
         elif form == "episode":
             output.write(episode_text(recordings, budget))
     else:
-        found = levels = [named for source in sources for named in load_levels(source)]
+        holdings = levels = [named for source in sources for named in load_levels(source)]
         form = form or ("file" if all(named.ascii for named in levels) else "ascii")
         if form == "ascii":
             pictures = [write_ascii_level(named.level, **headers_of(named), legend=legend) for named in levels]
@@ -104,8 +104,8 @@ def convert(
     if form == "file":
         output.write(level_file_text(texts, level))
     elif form == "string":
-        output.write("".join(write_level_string(named.level, exact=True) + "\n" for named in found))
-    if lost := left_out(form, found, [text for _, text in texts]):
+        output.write("".join(write_level_string(named.level, exact=True) + "\n" for named in holdings))
+    if lost := left_out(form, holdings, [text for _, text in texts]):
         click.echo(f"left out: {', '.join(lost)}", err=True)
 
 
@@ -124,7 +124,7 @@ class Output:
         else:
             self._put([(Path(self.target), text)])
 
-    def write_each(self, texts: Sequence[str], found: Sequence[NamedLevel | Recording], suffix: str) -> None:
+    def write_each(self, texts: Sequence[str], items: Sequence[NamedLevel | Recording], suffix: str) -> None:
         """Write a file each; one text is a file by itself unless OUT is a folder."""
         folder = Path(self.target)
         if self.target == STANDARD_STREAM and (suffix == ".txt" or len(texts) == 1):
@@ -135,7 +135,7 @@ class Output:
             what = f"{len(texts)} {'levels' if suffix == '.txt' else 'recordings'} do not fit into one file"
             raise LevelError(what, self.target, hint="name a folder, or use --to file")
         else:
-            names = _file_names(found, suffix)
+            names = _file_names(items, suffix)
             self._put([(folder / name, text) for name, text in zip(names, texts, strict=True)], Tree(folder))
             click.echo(f"{counted(len(texts), 'file')} written to {folder}", err=True)
 
@@ -158,15 +158,15 @@ class Output:
                 write_atomically(path, text, keep=self.sources)
 
 
-def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterator[str]:
+def _file_names(items: Sequence[NamedLevel | Recording], suffix: str) -> Iterator[str]:
     """`0007-name-of-the-level.txt`, of several files with theirs before it; single files keep their names."""
-    digits = max(3, len(str(len(found) - 1)))
-    stems = [Path(each.file).name.removesuffix(".txt").removesuffix(".replay") for each in found]
+    digits = max(3, len(str(len(items) - 1)))
+    stems = [Path(item.file).name.removesuffix(".txt").removesuffix(".replay") for item in items]
     names = [Path(stem).stem + suffix for stem in stems]
-    alone = len({name_key(name) for name in names}) == len(found) > 1 and not any(map(name_problem, names))
-    several = len({each.file for each in found}) > 1
-    for number, (each, own) in enumerate(zip(found, names, strict=True)):
-        name = file_stem(f"{stems[number]} {each.name}" if several else each.name)
+    alone = len({name_key(name) for name in names}) == len(items) > 1 and not any(map(name_problem, names))
+    several = len({item.file for item in items}) > 1
+    for number, (item, own) in enumerate(zip(items, names, strict=True)):
+        name = file_stem(f"{stems[number]} {item.name}" if several else item.name)
         yield own if alone else f"{number:0{digits}d}{'-' * bool(name)}{name}{suffix}"
 
 
@@ -246,8 +246,10 @@ def link_of(files: Sequence[Path], record: int | None = None) -> str:
             raise click.UsageError("a link carries one pack, whole")
         return PackFiles(first).link()
     if all(holds_recordings(text) for file in files for _, text in texts_of(file)):
-        found = [recording for file in files for recording in load_replays(file)]
-        return recording_link(found if record is None else [options.choose(found, "recordings", first, record)])
+        recordings = [recording for file in files for recording in load_replays(file)]
+        return recording_link(
+            recordings if record is None else [options.choose(recordings, "recordings", first, record)]
+        )
     if len(files) > 1:
         raise click.UsageError("a link carries one level; make a pack of several, or give replays only")
     named = options.choose(load_levels(first), "levels", first, record)

@@ -75,19 +75,19 @@ def demonstrations(
     observation = parts[0] if len(parts) == 1 else list(parts)
     limit = max([LIFETIME, *(len(recording.inputs) for recording in recordings)])
     settings: dict[str, Any] = {"observation": observation, "flat": flat, "actions": actions, "time_limit": limit}
-    found, left_bytes = [], megabytes * 2**20
+    episodes, left_bytes = [], megabytes * 2**20
     for recording in with_progress(recordings, "recording"):
         try:
-            found.append(learn.demonstration(recording, memory=memory, most_bytes=left_bytes, **settings))
-            left_bytes -= learn.bytes_of(found[-1].observations)
+            episodes.append(learn.demonstration(recording, memory=memory, most_bytes=left_bytes, **settings))
+            left_bytes -= learn.bytes_of(episodes[-1].observations)
         except learn.UnplayableRecordingError as error:
             print_error(f"left out: {error}")
-    if not found:
+    if not episodes:
         raise ArgumentError("none of these recordings can be a demonstration")
     if output is not None:
-        learn.write_npz(output, found)
+        learn.write_npz(output, episodes)
     else:
-        learn.write_minari(str(dataset), found, **settings)
-    steps, passed = sum(len(run.rewards) for run in found), sum(run.outcome == "exit" for run in found)
-    left = f", {len(recordings) - len(found)} left out" * (len(found) < len(recordings))
-    click.echo(f"{output or dataset}: {len(found)} demonstrations, {steps:,} steps, {passed} to the exit{left}")
+        learn.write_minari(str(dataset), episodes, **settings)
+    steps, passed = sum(len(run.rewards) for run in episodes), sum(run.outcome == "exit" for run in episodes)
+    left = f", {len(recordings) - len(episodes)} left out" * (len(episodes) < len(recordings))
+    click.echo(f"{output or dataset}: {len(episodes)} demonstrations, {steps:,} steps, {passed} to the exit{left}")

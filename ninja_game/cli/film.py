@@ -68,8 +68,8 @@ def film(
     from ninja_game.formats.load import load_replays
 
     level = load_level_option(level_path)
-    found = load_replays(replay, level=level)
-    parts = found if found[0].episode and record is None else [choose(found, "recordings", replay, record)]
+    replays = load_replays(replay, level=level)
+    parts = replays if replays[0].episode and record is None else [choose(replays, "recordings", replay, record)]
     path = output or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
     if path.exists() and any(not is_link(file) and path.samefile(file) for file in (replay, *ghosts, *beside)):
         raise click.UsageError("the film would replace the replay")

@@ -43,20 +43,20 @@ def lint(pack: Path, design: bool) -> int:
     from ninja_game.runs.packs import lint
 
     opened = Pack(pack)
-    found = list(lint(opened, with_design=design))
-    _show(found)
-    click.echo(_summary(opened, len(found)))
-    return 1 if found else 0
+    findings = list(lint(opened, with_design=design))
+    _show(findings)
+    click.echo(_summary(opened, len(findings)))
+    return 1 if findings else 0
 
 
-def _show(found: list[PackFinding]) -> None:
-    for finding in found:
+def _show(findings: list[PackFinding]) -> None:
+    for finding in findings:
         click.echo(f"{shown_text(str(finding), 500)}. {finding.hint} [{finding.code}]")
 
 
-def _summary(pack: Pack, found: int) -> str:
+def _summary(pack: Pack, count: int) -> str:
     parts = [counted(len(pack.episodes), "episode"), counted(len(pack.levels), "level")]
-    parts.append(counted(found, "finding") if found else "nothing odd")
+    parts.append(counted(count, "finding") if count else "nothing odd")
     accepted = len(pack.index.accepted)
     return f"{shown_text(pack.name)}: {', '.join(parts)}{f', {accepted} accepted' if accepted else ''}"
 

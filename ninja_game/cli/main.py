@@ -46,10 +46,10 @@ class Commands(click.Group):
         near = get_close_matches(args[0], COMMANDS, 1) if args and args[0] not in COMMANDS else []
         if near:
             ctx.fail(f"No such command {args[0]!r}; did you mean '{near[0]}'?")
-        found = super().resolve_command(ctx, args)
-        command = COMMANDS.get(found[0] or "")
+        resolved = super().resolve_command(ctx, args)
+        command = COMMANDS.get(resolved[0] or "")
         protect_inputs(not (command and command.in_place))
-        return found
+        return resolved
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         width = max(map(len, COMMANDS))

@@ -131,15 +131,15 @@ def choose_level(path: Path, record: int | None) -> NamedLevel:
     return choose(load_levels(path), "levels", path, record)
 
 
-def choose(found: Sequence[N], what: str, path: Path, record: int | None) -> N:
+def choose(items: Sequence[N], what: str, path: Path, record: int | None) -> N:
     """The only level or recording of those in a file, or that with a record number. Usage error if it is not there."""
     if record is not None:
-        found = [item for item in found if item.record == record]
-        if not found:
+        items = [item for item in items if item.record == record]
+        if not items:
             raise click.UsageError(f"{path}: there is no record {record}")
-    if len(found) > 1:
-        raise click.UsageError(f"{path} holds {len(found)} {what}; choose one with --record")
-    return found[0]
+    if len(items) > 1:
+        raise click.UsageError(f"{path} holds {len(items)} {what}; choose one with --record")
+    return items[0]
 
 
 def load_level_option(path: Path | None) -> Level | None:

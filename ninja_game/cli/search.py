@@ -41,12 +41,12 @@ class SearchLog:
         if not path.exists():
             write_atomically(path, f"{self.HEAD}\n")
         head, *lines = read_utf8(path, 2**20).splitlines() or [""]
-        found = [re.match(r" *(\d{1,9}) s  ", line) for line in lines]
-        if head != self.HEAD or None in found:
+        matches = [re.match(r" *(\d{1,9}) s  ", line) for line in lines]
+        if head != self.HEAD or None in matches:
             raise FileError("not the log of a search", str(path), hint="name another file")
         self._path, self._start = path, time.monotonic()
         self.starts = sum(line.endswith("begins") for line in lines)
-        self.seconds_spent = max((int(match[1]) for match in found if match), default=0)
+        self.seconds_spent = max((int(match[1]) for match in matches if match), default=0)
         self.note("begins")
 
     def note(self, what: str) -> None:
@@ -263,26 +263,26 @@ def search(
             shown.say(f"{standing}  {ticks / 1e6:.1f}M ticks")
             return spent < seconds
 
-        found = search_span(
+        results = search_span(
             task, report, method=method, every=every, seed=seed, threads=jobs, report_miss=misses.append
         )
-    found = tuple(tidied(task, result) for result in found)
-    if save and found:
-        save(record_replay(task.level, found[0].inputs, body=task.body))
-    for result in found or misses[-1:]:
+    results = tuple(tidied(task, result) for result in results)
+    if save and results:
+        save(record_replay(task.level, results[0].inputs, body=task.body))
+    for result in results or misses[-1:]:
         click.echo(f"{score_text(task, result)}: {_keys(result)}")
-    if not found:
+    if not results:
         click.echo("the goal was not reached; more time, a longer span or another --method may reach it")
     elif output:
         click.echo(f"{output}: the first of them")
-    return 0 if found else FAILED
+    return 0 if results else FAILED
 
 
-def _keys(found: SpanResult) -> str:
+def _keys(result: SpanResult) -> str:
     from ninja_game.formats.replay.notations import write_inputs
     from ninja_game.sim.inputs import with_press_bits
 
-    return " ".join(write_inputs(with_press_bits(found.keys[: found.ticks].tolist())))
+    return " ".join(write_inputs(with_press_bits(result.keys[: result.ticks].tolist())))
 
 
 def check_gold(task: Task) -> None:

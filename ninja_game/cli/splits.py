@@ -73,10 +73,10 @@ def splits(
         [name for name in SPLIT_EVENTS if gold or name != "gold-taken"],
     )
     read = Readable(recordings_in(files, level))
-    found = list(read)
+    recordings = list(read)
     best = list(Readable(recordings_in([against], level)))[:1] if against else []
     # A run that costs too much ends the command: a table without it would be wrong.
-    all_runs = list(with_progress((run_splits(run, events, budget) for run in [*best, *found]), "run"))
+    all_runs = list(with_progress((run_splits(run, events, budget) for run in [*best, *recordings]), "run"))
     bests, runs = all_runs[: len(best)], all_runs[len(best) :]
     groups: dict[str, list[RunSplits]] = {}
     for run in runs:
@@ -148,18 +148,18 @@ def compare(
     ours = options.choose(load_replays(first, level=level), "recordings", first, record)
     theirs = options.choose(load_replays(second, level=level), "recordings", second, against_record)
     with heartbeat(lambda: "running both"):
-        found = compare_runs(ours, theirs, budget)
+        comparison = compare_runs(ours, theirs, budget)
     if form == "json":
-        parts = {"first_keys": found.first_keys, "first_place": found.first_place}
-        leads = {"splits": list(map(_cells, found.splits)), "places": list(map(_cells, found.places))}
+        parts = {"first_keys": comparison.first_keys, "first_place": comparison.first_place}
+        leads = {"splits": list(map(_cells, comparison.splits)), "places": list(map(_cells, comparison.places))}
         click.echo(json.dumps({**parts, "columns": COMPARED, **leads}))
     elif form == "csv":
         writer = csv.writer(data_output(), lineterminator="\n")
-        writer.writerows([COMPARED, *map(_cells, [*found.splits, *found.places])])
+        writer.writerows([COMPARED, *map(_cells, [*comparison.splits, *comparison.places])])
     else:
-        _show_comparison(found, ours, theirs)
+        _show_comparison(comparison, ours, theirs)
     if picture:
-        paths = list(zip(titles([ours, theirs]), found.positions, strict=True))
+        paths = list(zip(titles([ours, theirs]), comparison.positions, strict=True))
         draw(picture, ours.level, paths, [first, second, *filter(None, [level_path])])
 
 
@@ -167,19 +167,19 @@ def _cells(lead: Lead) -> tuple[str, float, float, int, int, int]:
     return *lead, lead.ahead
 
 
-def _show_comparison(found: Comparison, ours: Recording, theirs: Recording) -> None:
+def _show_comparison(comparison: Comparison, ours: Recording, theirs: Recording) -> None:
     from ninja_game.runs.compare import each_second
 
-    both = zip("AB", titles([ours, theirs]), found.positions, found.deaths, strict=True)
+    both = zip("AB", titles([ours, theirs]), comparison.positions, comparison.deaths, strict=True)
     for letter, name, positions, death in both:
         click.echo(f"{letter}: {name}, {len(positions)} ticks{f', dead: {death}' if death else ''}")
-    if found.first_keys is None and found.first_place is None:
+    if comparison.first_keys is None and comparison.first_place is None:
         click.echo("the runs are equal")
         return
-    for what, tick in (("keys", found.first_keys), ("place", found.first_place)):
+    for what, tick in (("keys", comparison.first_keys), ("place", comparison.first_place)):
         click.echo(f"first other {what}: {'never' if tick is None else f'tick {tick}'}")
-    _show_leads("at the splits of both", found.splits)
-    _show_leads("at the place where A is, each second", each_second(found.places))
+    _show_leads("at the splits of both", comparison.splits)
+    _show_leads("at the place where A is, each second", each_second(comparison.places))
 
 
 def _show_leads(heading: str, leads: Sequence[Lead]) -> None:

@@ -144,10 +144,10 @@ def _write(traces: Readable[FiledTrace], output: Path | None, files: Sequence[Pa
     from ninja_game.files.writing import write_atomically
     from ninja_game.runs.trace_files import write_csv, write_npz
 
-    found = next(iter(traces), None)
-    if found is None:
+    first = next(iter(traces), None)
+    if first is None:
         return  # and no heads of columns before the error
-    runs = chain([found], traces)
+    runs = chain([first], traces)
     if output is None:
         write_csv(runs, data_output())
     elif output.suffix == ".npz":

@@ -229,11 +229,11 @@ def board(
             click.echo(line)
         click.echo(summary(judged))
         return 0
-    found = list(changes(ranking, before))
-    for _, line in found:
+    rows = list(changes(ranking, before))
+    for _, line in rows:
         click.echo(line)
-    click.echo(summary(judged) if found else f"nothing has changed: {summary(judged)}")
-    return 0 if all(allowed for allowed, _ in found) else FAILED
+    click.echo(summary(judged) if rows else f"nothing has changed: {summary(judged)}")
+    return 0 if all(allowed for allowed, _ in rows) else FAILED
 
 
 def _ranking(
@@ -342,34 +342,40 @@ def ask(
     chosen = _category(ranking, category)
     tables = ranking.tables.get(entry.digest, {})
     table, other = (tables.get((ladder, chosen), []) for ladder in sorted((PLAYED, ASSISTED), reverse=not assisted))
-    found = [_of_player([*table, *other], player) for player in players] or table[
+    rows = [_of_player([*table, *other], player) for player in players] or table[
         : None if what == "rank" else MOST_RUNS
     ]
     if what == "rank":
-        found = [*found, *ranking.waiting(entry.digest, (ASSISTED if assisted else PLAYED, chosen), found)]
-    if not found:
+        rows = [*rows, *ranking.waiting(entry.digest, (ASSISTED if assisted else PLAYED, chosen), rows)]
+    if not rows:
         ladder, way = ("played", "without") if assisted else ("assisted", "with")
         hint = f"; {ladder}: {len(other)}, {way} --assisted" if other else ""
         raise ArgumentError(f"nobody has a run in {chosen.name!r} on {shown_text(entry.title)} yet{hint}")
-    _answer(what, found[:1] if what == "best" else found, chosen, output, as_data=as_data, keep=[folder])
+    _answer(what, rows[:1] if what == "best" else rows, chosen, output, as_data=as_data, keep=[folder])
     if other and not (assisted or players or as_data) and other[0].place and other[0].values < table[0].values:
         result, player = chosen.text(other[0].values[0]), other[0].run.player
         click.echo(shown_text(f"assisted: {result} by {player} (--assisted)", LONGEST))
 
 
 def _answer(
-    what: str, found: Sequence[Ranked], category: Category, output: Path | None, *, as_data: bool, keep: Sequence[Path]
+    what: str,
+    ranked_runs: Sequence[Ranked],
+    category: Category,
+    output: Path | None,
+    *,
+    as_data: bool,
+    keep: Sequence[Path],
 ) -> None:
     from ninja_game.formats.recording import Recording
     from ninja_game.runs.compare import run_splits
 
-    rows: Any = [_row(ranked, category) for ranked in found]
+    rows: Any = [_row(ranked, category) for ranked in ranked_runs]
     form = RANKED
-    ladders = sorted({ranked.run.ladder for ranked in found}, reverse=True)
-    names = [ranked.run.player + f", {ranked.run.ladder}" * (len(ladders) > 1) for ranked in found]
+    ladders = sorted({ranked.run.ladder for ranked in ranked_runs}, reverse=True)
+    names = [ranked.run.player + f", {ranked.run.ladder}" * (len(ladders) > 1) for ranked in ranked_runs]
     runs = [
         Recording(ranked.run.entry.named.level, replace(ranked.run.replay, name=name))
-        for ranked, name in zip(found, names, strict=True) if what not in ("rank", "best")
+        for ranked, name in zip(ranked_runs, names, strict=True) if what not in ("rank", "best")
     ]  # fmt: skip
     if what == "inputs":
         form, rows = TYPED, [row | _inputs(run.inputs) for row, run in zip(rows, runs, strict=True)]
@@ -388,7 +394,7 @@ def _answer(
     if as_data:
         click.echo(json.dumps(rows))
     else:
-        entry, ladder = found[0].run.entry, " and ".join(ladders)
+        entry, ladder = ranked_runs[0].run.entry, " and ".join(ladders)
         click.echo(shown_text(f"{entry.number} {entry.title}, {category.name.lower()}, {ladder}:".strip(), LONGEST))
         click.echo("\n".join(_line(form, row | {"player": name}) for row, name in zip(rows, names, strict=True)))
 
@@ -414,11 +420,11 @@ def _level(text: str, entries: Sequence[Entry]) -> Entry:
     words = text.casefold()
     stems = {entry.digest: Path(entry.named.file).stem.casefold() for entry in entries}
     exact = [entry for entry in entries if words in (entry.title.casefold(), entry.number, stems[entry.digest])]
-    found = exact or [entry for entry in entries if words in entry.title.casefold() or entry.digest.startswith(words)]
-    if len(found) == 1:
-        return found[0]
-    named = ", ".join(f"{entry.number} {shown_text(entry.title)}".strip() for entry in (found or entries)[:5])
-    if found:
+    matches = exact or [entry for entry in entries if words in entry.title.casefold() or entry.digest.startswith(words)]
+    if len(matches) == 1:
+        return matches[0]
+    named = ", ".join(f"{entry.number} {shown_text(entry.title)}".strip() for entry in (matches or entries)[:5])
+    if matches:
         raise ArgumentError(f"{text!a} is several levels: {named}")
     titles = {entry.title.casefold(): entry.title for entry in entries}
     near = ", ".join(shown_text(titles[title]) for title in get_close_matches(words, titles, 5))

@@ -52,7 +52,7 @@ def play(
         raise click.UsageError("LEVEL and --replay cannot be used together")
     if level_path is not None and replay is None:
         raise click.UsageError("--level is the level of what --replay names")
-    path = next((str(each) for each in (level, level_path) if each is not None), None)
+    path = next((str(option) for option in (level, level_path) if option is not None), None)
     from ninja_game.play.window import open_at_once
 
     # What is wrong with a file is said in the terminal before a window opens.

@@ -121,7 +121,7 @@ class Search:
             self.run, self.route = run, route_of(self.level, run.inputs)
         if run.gold >= self.level.gold and (self.full is None or run.end_tick < self.full.end_tick):
             self.full = run
-        self.obstacles = passed_by(self.level, [each.inputs for each in (self.run, self.full) if each])
+        self.obstacles = passed_by(self.level, [known.inputs for known in (self.run, self.full) if known])
 
     @property
     def share(self) -> float:
@@ -144,12 +144,12 @@ def passed_by(level: Level, runs: Sequence[bytes]) -> tuple[Finding, ...]:
     made = [number for number, spec in enumerate(level.objects) if makes_object(spec)]
     names = [object_type_name(level.objects[number]) for number in made]
     opened = {place for inputs in (runs if "locked door" in names else ()) for place in _unlocked(level, inputs)}
-    found = []
+    findings = []
     for id_, (number, name) in enumerate(zip(made, names, strict=True)):
         spec = level.objects[number]
         if name == "locked door" and spec.values[:2] not in opened:
-            found.append(level_finding("unneeded-door", (number,))._replace(names=object_name(spec, id_)))
-    return tuple(found)
+            findings.append(level_finding("unneeded-door", (number,))._replace(names=object_name(spec, id_)))
+    return tuple(findings)
 
 
 def search_of(level: Level, run: Replay) -> Search:
@@ -183,8 +183,8 @@ class Solver:
             from ninja_game.search.task import Task, obstacle
 
             task, report = Task(search.level, seconds=search.seconds), partial(setattr, search, "progress")
-            found = solve(task, report=report, on_better=search.take, stop=search.stopping)
-            if not (found or search.run or search.end) and search.progress:
+            result = solve(task, report=report, on_better=search.take, stop=search.stopping)
+            if not (result or search.run or search.end) and search.progress:
                 search.obstacles = (obstacle(search.level, 0, search.progress),)
         except BaseException as error:
             search.end, search.failed = reason(error), True
@@ -230,7 +230,7 @@ class Certifier:
         """Its place in the queue, or for how long it has been at work."""
         search, solver = self.search, self.solver
         if search is not solver.at_work and not solver.at_work.end:
-            return f"#{1 + sum(not each.end for each in solver.left)}"
+            return f"#{1 + sum(not other.end for other in solver.left)}"
         return f"{search.progress.seconds if search.progress else monotonic() - search.began:.0f} s"
 
     @property
@@ -261,13 +261,13 @@ class Certifier:
         self.solver.stopped.discard(level)
         self.solver.job.ask(self.search)
 
-    def adopt(self, found: Search) -> None:
+    def adopt(self, search: Search) -> None:
         """What is known of a level counts, until the solver has better; a search without a run changes nothing."""
-        if found.run and self.search.level != found.level:
+        if search.run and self.search.level != search.level:
             self.stop()
-            self.search = found
-        elif found.run:
-            self.search.take(found.run)
+            self.search = search
+        elif search.run:
+            self.search.take(search.run)
 
     def stop(self) -> None:
         """End the search; what was found stays. Nobody waits: a solver that is being compiled ends when it is ready."""
@@ -281,11 +281,13 @@ class Certifier:
         self.search.then = then
         if then is None:
             self.stop()
-        self.solver.left = [each for each in (*self.solver.left, self.search) if each.then and not each.end]
+        self.solver.left = [search for search in (*self.solver.left, self.search) if search.then and not search.end]
 
     def edit(self, level: Level) -> None:
         """Another level is under edit, perhaps one whose search goes on."""
-        self.search = next((each for each in self.solver.left if each.level == level and not each.end), Search())
+        self.search = next(
+            (search for search in self.solver.left if search.level == level and not search.end), Search()
+        )
         self.search.then = None
 
 

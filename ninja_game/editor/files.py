@@ -67,8 +67,8 @@ def open_source(path: Path, record: int = 0) -> Source:
     data = b"" if linked else read_bytes(path)
     texts = list(texts_of(path))
     text = texts[0][1]
-    levels = [level for file, each in texts for level in parse_levels(each, file=file)]
-    named = next((each for each in levels if each.record == record), None)
+    levels = [level for file, content in texts for level in parse_levels(content, file=file)]
+    named = next((item for item in levels if item.record == record), None)
     if named is None:
         raise LevelError(f"there is no record {record}", str(path))
     draft = draft_of(named)

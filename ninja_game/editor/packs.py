@@ -91,7 +91,7 @@ class Steps(list[Step]):
         for (folder, name), (old, _) in texts.items():
             _put(folder, name, old)
         made = [folder for (folder, name), (old, _) in texts.items() if name == INDEX and old is None]
-        for empty in [each for folder in made for each in (folder / CERTIFICATES, folder)]:
+        for empty in [place for folder in made for place in (folder / CERTIFICATES, folder)]:
             with suppress(OSError):
                 empty.rmdir()
         self.pop()
@@ -230,8 +230,8 @@ def bin_pack(path: Path, folder: Path) -> Path:
 def same_pack(pack: Pack, other: Pack) -> bool:
     """Whether two packs have the same files, but for certificates, which a link has shorter."""
     one, two = (
-        {name: each.files.text(name) for name in each.files.own_names if not name.startswith(CERTIFICATES)}
-        for each in (pack, other)
+        {name: pack.files.text(name) for name in pack.files.own_names if not name.startswith(CERTIFICATES)}
+        for pack in (pack, other)
     )
     return one == two
 
@@ -285,8 +285,8 @@ def move_episode(path: Path, number: int, to: int) -> None:
     pack = Pack(path)
     files = {episode.number: episode.files(pack.files.levels) for episode in pack.index.episodes}
     column = to // EPISODES_PER_COLUMN
-    there = sorted(each for each in files if each // EPISODES_PER_COLUMN == column)
-    order = [each for each in there if each != number]
+    there = sorted(other for other in files if other // EPISODES_PER_COLUMN == column)
+    order = [other for other in there if other != number]
     below = there.index(to) if to in there else len(order)
     places = there if number in there else sorted([*there, _free_number(set(files), column)])
     order.insert(below, number)
@@ -301,12 +301,12 @@ def place(path: Path, file: str, number: int | None, before: str = "") -> None:
     """Put a level into an episode, before another or at the end; ``number``: None for no episode."""
     pack = Pack(path)
     old = {episode.number: list(episode.files(pack.files.levels)) for episode in pack.index.episodes}
-    new = {each: [name for name in files if name != file] for each, files in old.items()}
+    new = {key: [name for name in files if name != file] for key, files in old.items()}
     if number is not None:
         if len(new[number]) >= LEVELS_PER_EPISODE:
             raise PackError(f"episode {number + 1} is full", expected=f"at most {LEVELS_PER_EPISODE} levels")
         new[number].insert(new[number].index(before) if before in new[number] else len(new[number]), file)
-    _change_episodes(path, {each: {"levels": files} for each, files in new.items() if files != old[each]})
+    _change_episodes(path, {key: {"levels": files} for key, files in new.items() if files != old[key]})
 
 
 def new_level(path: Path, name: str, author: str) -> str:
@@ -328,7 +328,7 @@ def rename_level(file: Path, name: str) -> None:
 
 def duplicate(path: Path, level: NamedLevel) -> str:
     """A copy of a level in the folder, by a name that no level there has; its file's name."""
-    names = {each.name for each in Pack(path).levels.values()}
+    names = {other.name for other in Pack(path).levels.values()}
     copies = (f"{level.name} copy{f' {number}' if number > 1 else ''}" for number in count(1))
     return _write_level(path, replace(draft_of(level), name=next(name for name in copies if name not in names)))
 
@@ -409,7 +409,7 @@ def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Ob
 
 def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
     """What is odd about a pack; where a run was searched in vain, why: to the exit alone where there is none."""
-    found, no_exit = dict[PackFinding, None](), set[Level]()
+    findings, no_exit = dict[PackFinding, None](), set[Level]()
     for finding in lint(pack, with_gold=True):
         said, missing = finding, missing_run(pack, finding)
         if missing and (why := obstacles.get(missing)):
@@ -418,8 +418,8 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
                 continue
             no_exit |= {level} if kind == "exit" else set()
             said = finding._replace(text=f"the search found no {_SOUGHT[kind]}: {why.sentence}")
-        found[said] = None
-    return list(found)
+        findings[said] = None
+    return list(findings)
 
 
 def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:
@@ -446,13 +446,13 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
     from ninja_game.search.solve import compile_solver
     from ninja_game.search.task import Progress, obstacle
 
-    accepted = {_missing(pack, each.file, each.code) for each in pack.index.accepted}
+    accepted = {_missing(pack, entry.file, entry.code) for entry in pack.index.accepted}
 
     def is_open(file: str, kind: str) -> bool:
         known = (pack.levels[file].level, kind) in obstacles or (file, kind) in accepted
         return not (known or is_certified(pack, file, kind))
 
-    in_order = [Path(each.named.file).name for each in episode_set(pack, "").levels]
+    in_order = [Path(level.named.file).name for level in episode_set(pack, "").levels]
     levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in KINDS)}
     wanted = CertifyOptions({"exit": 0, "gold": -1}, {"seconds": seconds})
     files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
@@ -473,9 +473,9 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
         say("Starting the search", None)
     began = monotonic()
     all_found = certify_all(list(levels.values()), files, wanted, jobs=jobs, report=report)
-    for named, found in zip(levels.values(), all_found, strict=True):
-        for kind, each in found.items() if isinstance(found, dict) else ():
-            if not each.run and each.progress:
-                obstacles[named.level, kind] = obstacle(named.level, each.gold, each.progress)
+    for named, by_goal in zip(levels.values(), all_found, strict=True):
+        for kind, certified in by_goal.items() if isinstance(by_goal, dict) else ():
+            if not certified.run and certified.progress:
+                obstacles[named.level, kind] = obstacle(named.level, certified.gold, certified.progress)
         done += 1
         say(f"Looking for runs: {done} of {total} done", done / len(files))

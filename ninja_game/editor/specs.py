@@ -99,10 +99,10 @@ def points(spec: ObjectSpec) -> dict[int, Point]:
     if spec.kind not in (EXIT, DOOR) or not well_formed(spec):
         return {BODY: (x, y)} if isfinite(x) and isfinite(y) else {}
     if spec.kind == EXIT:
-        found = {BODY: (x, y), SWITCH: (spec.values[2], spec.values[3])}
+        places = {BODY: (x, y), SWITCH: (spec.values[2], spec.values[3])}
     else:
-        found = {BODY: door_middle(spec.values)} | ({SWITCH: (x, y)} if has_switch(spec) else {})
-    return {part: point for part, point in found.items() if all(map(isfinite, point))}
+        places = {BODY: door_middle(spec.values)} | ({SWITCH: (x, y)} if has_switch(spec) else {})
+    return {part: point for part, point in places.items() if all(map(isfinite, point))}
 
 
 def carried(spec: ObjectSpec, motion: Motion, parts: Collection[int] = (BODY, SWITCH)) -> ObjectSpec:

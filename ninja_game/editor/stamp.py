@@ -96,15 +96,15 @@ def filled(draft: Draft, cell: Cell) -> list[Cell]:
     if not is_inside(cell):
         return []
     tile = draft.tile(cell)
-    found = {cell}
+    cells = {cell}
     waiting = [cell]
     while waiting:
         column, row = waiting.pop()
         for there in ((column + 1, row), (column, row + 1), (column - 1, row), (column, row - 1)):
-            if there not in found and is_inside(there) and draft.tile(there) == tile:
-                found.add(there)
+            if there not in cells and is_inside(there) and draft.tile(there) == tile:
+                cells.add(there)
                 waiting.append(there)
-    return sorted(found)
+    return sorted(cells)
 
 
 def chosen_in(draft: Draft, area: CellArea) -> Selection:
@@ -208,14 +208,14 @@ def middle_of(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[flo
 
 def nearest(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None:
     """The part of an object nearest to a point and within ``reach`` px of it; of equals the newest."""
-    found: ObjectPart | None = None
+    closest: ObjectPart | None = None
     best = reach * reach
     for number, spec in enumerate(draft.objects):
         for part, (px, py) in points(spec).items():
             distance = (px - x) ** 2 + (py - y) ** 2
             if distance <= best:
-                found, best = (number, part), distance
-    return found
+                closest, best = (number, part), distance
+    return closest
 
 
 _PIECES = 64
@@ -351,7 +351,7 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
         """What the path from a corner of cells to the top costs, and the path; ``heading``: as it came, degrees."""
         if at == (wide, 0):
             return _TURN * heading**2, ()
-        found: list[tuple[float, tuple[_Stretch, ...]]] = [(inf, ())]
+        ways: list[tuple[float, tuple[_Stretch, ...]]] = [(inf, ())]
         for stretch in _STRETCHES:
             x, y = at[0] + stretch.right, at[1] - stretch.up
             # It begins upright in a middle row and ends flat in a middle column; no cell at its ends stays empty.
@@ -359,8 +359,8 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
             first = at[1] == high and stretch.right and (rows % 2 or not stretch.up)
             if x <= wide and y >= 0 and stretch.begins <= heading and not (first or last):
                 cost, path = cheapest((x, y), stretch.ends)
-                found.append((cost + between(at, stretch) + _TURN * (stretch.begins - heading) ** 2, (stretch, *path)))
-        return min(found, key=lambda each: each[0])
+                ways.append((cost + between(at, stretch) + _TURN * (stretch.begins - heading) ** 2, (stretch, *path)))
+        return min(ways, key=lambda way: way[0])
 
     tiles, (x, y) = dict[Cell, int](), (0, high)
     for stretch in cheapest((0, high), 90.0)[1]:

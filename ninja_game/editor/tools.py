@@ -33,13 +33,13 @@ DRAGGED = PICK_REACH = 12.0
 REACH = 17.32
 """px within which an object is deleted (√300: game.md §6), or selected by a click."""
 
-OTHER_KINDS = tuple(each.name for each in brush.OBJECT_TYPES if each.spec.kind not in (NINJA, EXIT, DOOR))
+OTHER_KINDS = tuple(kind.name for kind in brush.OBJECT_TYPES if kind.spec.kind not in (NINJA, EXIT, DOOR))
 """Types that an object can become: not those of which there is one, or which have a side or a switch."""
 
 
 def said_cells(says: str) -> list[Cell | None]:
     """The cell near which each message of a level is said; None for one without a place."""
-    return [each.cell if each.place else None for each in parse_messages(says)]
+    return [message.cell if message.place else None for message in parse_messages(says)]
 
 
 def can_be_remade(spec: ObjectSpec) -> bool:
@@ -51,9 +51,9 @@ def remade(spec: ObjectSpec, name: str) -> ObjectSpec:
     if not can_be_remade(spec):
         return spec
     place, made = points(spec)[BODY], brush.object_of_type(name)
-    for each in properties(made).keys() & properties(spec).keys() - {"type"}:
-        if word(spec, each) in properties(made)[each].words:
-            made = with_word(made, each, word(spec, each))
+    for shared in properties(made).keys() & properties(spec).keys() - {"type"}:
+        if word(spec, shared) in properties(made)[shared].words:
+            made = with_word(made, shared, word(spec, shared))
     return brush.placed(made, *place, "cell" if brush.placed(spec, *place, "cell") == spec else "px")
 
 
@@ -193,8 +193,8 @@ class EditorTools:
                 self.finish()
             return
         if self._doing == "choose" and self.marquee is None and not self._chosen_before:
-            found = stamps.nearest(self.draft, *self.pointer, REACH)
-            self.selection = stamps.Selection(parts=frozenset({found} if found else ()))
+            part = stamps.nearest(self.draft, *self.pointer, REACH)
+            self.selection = stamps.Selection(parts=frozenset({part} if part else ()))
         self._doing, self.marquee = "", None
         self.history.end()
 
@@ -214,9 +214,9 @@ class EditorTools:
         return busy
 
     def pick(self) -> None:
-        found = stamps.nearest(self.draft, *self.pointer, PICK_REACH)
-        if found:
-            self.pick_up(self.draft.objects[found[0]])
+        part = stamps.nearest(self.draft, *self.pointer, PICK_REACH)
+        if part:
+            self.pick_up(self.draft.objects[part[0]])
         else:
             self.pick_up(self.draft.tile(self.cell))
 
@@ -307,8 +307,8 @@ class EditorTools:
     def delete_nearest(self, reach: float = REACH) -> None:
         """Delete the object nearest to the pointer, and its images in the symmetry."""
         places = [self.pointer, *(motion.point(*self.pointer) for motion in SYMMETRIES[self.symmetry])]
-        found = [stamps.nearest(self.draft, *place, reach) for place in places]
-        self.history.change(stamps.removed(self.draft, stamps.Selection(parts=frozenset(filter(None, found)))))
+        parts = [stamps.nearest(self.draft, *place, reach) for place in places]
+        self.history.change(stamps.removed(self.draft, stamps.Selection(parts=frozenset(filter(None, parts)))))
 
     # --- choosing ---
 
@@ -317,20 +317,20 @@ class EditorTools:
         return stamps.Selection(selection.area or before.area, selection.parts | before.parts)
 
     def _choose(self, *, add: bool) -> None:
-        found = stamps.nearest(self.draft, *self.pointer, PICK_REACH)
-        if not add and (found in self.selection.parts or self._in_area()):
+        part = stamps.nearest(self.draft, *self.pointer, PICK_REACH)
+        if not add and (part in self.selection.parts or self._in_area()):
             self._begin_drag()
             return
         self._chosen_before = self.selection if add else stamps.Selection()
-        if found is None and not add and self.cell in said_cells(self.draft.says):
+        if part is None and not add and self.cell in said_cells(self.draft.says):
             self.history.begin()
             self._doing = "message"
-        elif found is None:
+        elif part is None:
             self._doing = "choose"
-        elif add and found in self.selection.parts:
-            self.selection = stamps.Selection(self.selection.area, self.selection.parts - {found})
+        elif add and part in self.selection.parts:
+            self.selection = stamps.Selection(self.selection.area, self.selection.parts - {part})
         else:
-            self.selection = self._joined(stamps.Selection(parts=frozenset({found})))
+            self.selection = self._joined(stamps.Selection(parts=frozenset({part})))
             self._begin_drag()
 
     def _in_area(self) -> bool:
@@ -366,7 +366,7 @@ class EditorTools:
         before, parts = len(self.draft.objects), self.selection.parts
         done = step()
         objects = self.draft.objects
-        kept = (each for each in parts if len(objects) == before and each[1] in points(objects[each[0]]))
+        kept = (part for part in parts if len(objects) == before and part[1] in points(objects[part[0]]))
         self.selection = stamps.Selection(parts=frozenset(kept))
         return done
 

@@ -95,10 +95,10 @@ def read_abandoned(
             if handle is None:
                 continue
             try:
-                found = read(file)
+                data = read(file)
             finally:
                 os.close(handle)
-            yield found
+            yield data
 
 
 def remove_abandoned(file: Path) -> bool:
@@ -108,6 +108,6 @@ def remove_abandoned(file: Path) -> bool:
         if handle is None:
             return False
         os.close(handle)
-        for each in (file, file.with_suffix(LOCK_SUFFIX)):
-            each.unlink(missing_ok=True)
+        for path in (file, file.with_suffix(LOCK_SUFFIX)):
+            path.unlink(missing_ok=True)
     return True

@@ -63,7 +63,7 @@ def files_below(folder: Path, *, follow_links: bool = True) -> Iterator[Path | S
                 continue
             visited.add((about.st_dev, about.st_ino))
             with os.scandir(path) as entries:
-                names = sorted(((each.name, _is_folder(each)) for each in entries), reverse=True)
+                names = sorted(((entry.name, _is_folder(entry)) for entry in entries), reverse=True)
         except (OSError, ValueError) as error:
             yield Skipped(path, getattr(error, "strerror", "") or str(error))
             continue
@@ -86,7 +86,7 @@ def files_in(folder: Path, *, follow_links: bool = True) -> list[str]:
     """The names of the regular files in a folder, sorted, hidden ones apart; none where there is no folder."""
     try:
         with os.scandir(folder) as entries:
-            files = [each.name for each in entries if each.is_file(follow_symlinks=follow_links)]
+            files = [entry.name for entry in entries if entry.is_file(follow_symlinks=follow_links)]
             return sorted(name for name in files if not name.startswith("."))
     except OSError:
         return []

@@ -56,7 +56,7 @@ def shown_text(text: str, longest: int = MAX_SHOWN) -> str:
     """
     if len(text) > longest:
         return shown_text(text[:longest]) + "..."
-    text = INVISIBLE.sub(lambda found: _escape(found[0]), _BLANKS.sub(" ", text))
+    text = INVISIBLE.sub(lambda match: _escape(match[0]), _BLANKS.sub(" ", text))
     return text if text.isprintable() else "".join(map(shown_character, text))
 
 

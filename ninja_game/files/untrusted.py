@@ -45,8 +45,8 @@ def parse_toml(text: str, *, any_number: bool = False) -> dict[str, Any]:
 
 def _check_numbers(value: object) -> None:
     if isinstance(value, dict | list):
-        for each in value.values() if isinstance(value, dict) else value:
-            _check_numbers(each)
+        for item in value.values() if isinstance(value, dict) else value:
+            _check_numbers(item)
     elif isinstance(value, int) and not -(2**63) <= value < 2**63:
         raise ValueError("A whole number of more than 64 bits")
 

@@ -101,7 +101,7 @@ def free_path(folder: Path, stem: str, suffix: str, first: int = 1) -> Path:
     """
     there: set[str] = set()
     with suppress(OSError):
-        there = {name_key(each.name) for each in folder.iterdir()}
+        there = {name_key(path.name) for path in folder.iterdir()}
     names = (f"{stem}-{number}{suffix}" if number > first else f"{stem}{suffix}" for number in count(1))
     return folder / next(name for name in names if name_key(name) not in there)
 
@@ -180,7 +180,7 @@ def install_hint(extra: str) -> str:
     if tool.is_file():
         return f"start the command as 'python3 {tool} run ...', which installs what is missing"
     try:
-        needed = [each.partition(";") for each in requires("ninja-game") or ()]
+        needed = [requirement.partition(";") for requirement in requires("ninja-game") or ()]
     except PackageNotFoundError:
         return "this copy of the program cannot be added to; use one that is installed in a Python"
     wanted = [

@@ -128,7 +128,7 @@ def remove_leftovers(folder: Path, at: int | None = None) -> None:
     _tidied.add(folder)
     try:
         with os.scandir(folder if at is None else at) as entries:
-            parts = [folder / each.name for each in entries if each.name.startswith(PART_PREFIX)]
+            parts = [folder / entry.name for entry in entries if entry.name.startswith(PART_PREFIX)]
     except OSError:
         return
     for part in parts:
@@ -151,7 +151,7 @@ def _target(path: Path, keep: Iterable[Path]) -> tuple[Path, os.stat_result | No
         raise OSError(error.errno, error.strerror, str(path)) from None
     if not stat.S_ISREG(about.st_mode):
         raise FileError("only a regular file is written", str(path), found=file_type(about.st_mode))
-    if is_input(about) or any(_reads(each, target) for each in keep):
+    if is_input(about) or any(_reads(kept, target) for kept in keep):
         raise FileError("this file is read by the same command", str(path), hint="choose another name for the output")
     if not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))

@@ -171,10 +171,10 @@ def watched(fragment: str) -> list[str]:
     ['replays/0123456789abcdef.txt']
     """
     _, mark, names = fragment.partition("#watch=")
-    found = names.split(",") if mark else []
-    if len(found) > MOST_TEXTS or not all(_STEM.fullmatch(name) for name in found):
+    parts = names.split(",") if mark else []
+    if len(parts) > MOST_TEXTS or not all(_STEM.fullmatch(name) for name in parts):
         raise LinkError("not a link of runs of this page", LINK, found=ascii(names[:40]), hint="copy it again, whole")
-    return [f"replays/{name}.txt" for name in found]
+    return [f"replays/{name}.txt" for name in parts]
 
 
 _NAME_LIMIT = 100  # characters of the name of a file in a pack
@@ -209,7 +209,7 @@ def recording_link(recordings: Iterable[Recording]) -> str:
 
     Raises LinkError; LevelError or DemoError for what N's record cannot hold.
     """
-    return write_link("replay", [_recording_text(each) for each in recordings])
+    return write_link("replay", [_recording_text(recording) for recording in recordings])
 
 
 def _recording_text(recording: Recording) -> str:
@@ -262,18 +262,18 @@ def _is_plain(name: str) -> bool:
 
 def linked_texts(link: str | Path, *kinds: LinkKind) -> tuple[str, ...]:
     """The texts in a link of one of some kinds, as a file would hold them. Raises LinkError."""
-    found: Link = read_link(link)
-    if found.kind not in kinds:
-        raise LinkError(f"a link of a {found.kind}", LINK, expected=f"one of a {' or '.join(kinds)}")
-    return tuple(map(_whole, found.texts))
+    content: Link = read_link(link)
+    if content.kind not in kinds:
+        raise LinkError(f"a link of a {content.kind}", LINK, expected=f"one of a {' or '.join(kinds)}")
+    return tuple(map(_whole, content.texts))
 
 
 def recordings_of(texts: Iterable[str]) -> list[Recording]:
     """The recordings in texts from elsewhere, which hold their levels. Raises LinkError, ReplayError, LevelError."""
-    found = []
+    recordings = []
     for text in texts:
-        found += parse_replays(_whole(text), file=LINK)
-    return found
+        recordings += parse_replays(_whole(text), file=LINK)
+    return recordings
 
 
 def _whole(text: str) -> str:

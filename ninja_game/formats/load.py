@@ -77,7 +77,9 @@ def load_replays(path: Path | str, *, level: Level | None = None, changed: bool 
     Raises ReplayError, DemoError or LevelError naming file and line; OSError for a file that cannot be opened.
     """
     recordings = [
-        found for file, text in texts_of(path) for found in parse_replays(text, file=file, level=level, changed=changed)
+        replay
+        for file, text in texts_of(path)
+        for replay in parse_replays(text, file=file, level=level, changed=changed)
     ]
     if not recordings:
         raise ReplayError("no recordings here", str(path), expected=f"files *{', *'.join(SUFFIXES)}")

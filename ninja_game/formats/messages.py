@@ -84,7 +84,7 @@ def with_message_moved(says: str, number: int, cell: tuple[int, int]) -> str:
 
 
 def _read(part: str) -> LevelMessage:
-    when, colon, text = (each.strip() for each in part.partition(":"))
+    when, colon, text = (piece.strip() for piece in part.partition(":"))
     found = repr(part.strip()[:40])
     if not colon or not text:
         raise LevelError("not a text in 'says'", found=found, expected="WHEN: text", hint=f"WHEN is {_WHEN}")

@@ -80,25 +80,25 @@ def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
     form = format_of(text)
     if form in ("replay", "episode"):
         replays = [parse_replay(text, file=file)] if form == "replay" else parse_episode(text, file=file)
-        levels = [level_of_replay(each, file) for each in replays]
+        levels = [level_of_replay(replay, file) for replay in replays]
         return [
-            NamedLevel(each.level_name or each.name, each.level_author, "", level, file, number, form=form)
-            for number, (each, level) in enumerate(zip(replays, levels, strict=True))
+            NamedLevel(replay.level_name or replay.name, replay.level_author, "", level, file, number, form=form)
+            for number, (replay, level) in enumerate(zip(replays, levels, strict=True))
         ]
     if form == "ascii":
         read = parse_ascii_level(text, file=file)
         fields = read.name or Path(file).stem, read.author, read.comment, read.level, file
         return [NamedLevel(*fields, form=form, teaches=read.teaches, says=read.says)]
     if form == "file":
-        found = []
+        named_levels = []
         for record in read_level_file(text, file=file):
             if record.level:
                 level = parse_level_string(record.level, file=file, line=record.line)
                 named = record.name, record.author, record.comment, level, file, record.number, record.line
-                found.append(NamedLevel(*named))
-        if not found:
+                named_levels.append(NamedLevel(*named))
+        if not named_levels:
             raise LevelError("recordings without their levels", file, hint="give the level file")
-        return found
+        return named_levels
     strings = [(line, parse_level_string(string, file=file, line=line)) for line, string in _level_strings(text, file)]
     stem = Path(file).stem
     return [NamedLevel(stem, "", "", level, file, k, line, "string") for k, (line, level) in enumerate(strings)]
@@ -138,12 +138,12 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, ch
         return replay.level
     source = "the given level"
     if replay.level_path:
-        found = read_included(file, replay.level_path)
-        source = found.path
-        if found.problem:
-            raise ReplayError("the replay's level cannot be read", file, found=source, hint=found.problem)
-        if found.text is not None:
-            level = _level_in(found.text, source, replay.level_record, file)
+        included = read_included(file, replay.level_path)
+        source = included.path
+        if included.problem:
+            raise ReplayError("the replay's level cannot be read", file, found=source, hint=included.problem)
+        if included.text is not None:
+            level = _level_in(included.text, source, replay.level_record, file)
     if level is None:
         hint = "give it with --level, or record the replay with its level inside"
         named = shown(replay.level_path) if replay.level_path else f"level-digest {replay.level_digest[:12]}…"

@@ -159,7 +159,7 @@ def parse_replays(text: str, *, file: str = "", level: Level | None = None, chan
             return [Recording(level_of_replay(replay, file, level, changed=changed), replay, file=file)]
         case "episode":
             replays = parse_episode(text, file=file)
-            levels = [level_of_replay(each, file, changed=changed) for each in replays]
+            levels = [level_of_replay(replay, file, changed=changed) for replay in replays]
             key = episode_key(levels)
             rows = zip(levels, replays, lifetimes(replays), strict=False)
             return [

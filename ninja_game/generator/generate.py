@@ -91,10 +91,10 @@ def generate(
             continue
         looked_at += 1
         report(f"attempt {looked_at}: {plan}")
-        found = _certified(scene, rng, wanted, effort, stop)
-        if found is None or stop.is_set():
+        certified = _certified(scene, rng, wanted, effort, stop)
+        if certified is None or stop.is_set():
             continue
-        run, measured = found
+        run, measured = certified
         lacking = len(list(design_findings(design(scene.level, run.inputs))))
         named = named_level(name_for(plan, rng), scene.level, seed, wanted, measured)
         generated = Generated(named, run, measured)

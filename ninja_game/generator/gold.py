@@ -148,7 +148,7 @@ def lay_gold(scene: Scene, rng: Random) -> bool:
     wanted = rng.randint(LEAST + 2, MOST)
     _lay(scene, hoard(scene, rng), wanted)
     first = (dangers, min(rng.choice((0, 1, 1, 2)), len(scene.board.spots) or 1)), (bows, 1)
-    for pattern, most in (*first, *((each, 3) for each in rng.sample(PATTERNS, len(PATTERNS)))):
+    for pattern, most in (*first, *((other, 3) for other in rng.sample(PATTERNS, len(PATTERNS)))):
         done = 0
         for group in pattern(scene, rng):
             if done >= most or (len(scene.baits) > 6 and len(scene.gold) > LEAST):

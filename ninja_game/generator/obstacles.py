@@ -244,7 +244,7 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
         if len(group) >= 2 and min(away for away, _ in far) < CLOSE_PX:
             groups.append((sum(away < CLOSE_PX for away, _ in far), group))
     # Of those with the most mines close to the run, one.
-    groups.sort(key=lambda each: -each[0])
+    groups.sort(key=lambda pair: -pair[0])
     return rng.choice(groups[:6])[1] if groups else []
 
 

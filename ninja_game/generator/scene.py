@@ -259,11 +259,11 @@ class Scene:
 
     def stones(self) -> list[set[Cell]]:
         """The connected groups of cells with a tile that do not touch the border."""
-        left, found = set(self.tiles), []
+        left, groups = set(self.tiles), []
         while left:
-            found.append(flood(min(left), left))
-            left -= found[-1]
-        return [each for each in found if all(1 < c < COLUMNS and 1 < r < ROWS for c, r in each)]
+            groups.append(flood(min(left), left))
+            left -= groups[-1]
+        return [stone for stone in groups if all(1 < c < COLUMNS and 1 < r < ROWS for c, r in stone)]
 
     def full(self, cell: Cell) -> bool:
         """Whether a cell is a full tile or of the border."""
@@ -276,16 +276,16 @@ class Scene:
 
     def runs(self) -> list[FloorRun]:
         """Where one can stand, in reading order."""
-        found: list[FloorRun] = []
+        floors: list[FloorRun] = []
         for row in range(1, ROWS + 1):
             for column in range(1, COLUMNS + 1):
                 if not self.stands((column, row)):
                     continue
-                if found and found[-1].row == row and found[-1].column + found[-1].length == column:
-                    found[-1] = found[-1]._replace(length=found[-1].length + 1)
+                if floors and floors[-1].row == row and floors[-1].column + floors[-1].length == column:
+                    floors[-1] = floors[-1]._replace(length=floors[-1].length + 1)
                 else:
-                    found.append(FloorRun(column, row, 1))
-        return found
+                    floors.append(FloorRun(column, row, 1))
+        return floors
 
     @cached_property
     def surfaces(self) -> list[list[Face]]:
@@ -306,8 +306,8 @@ class Scene:
                 chain = [first]
                 del left[first]
                 for end in (-1, 0):  # on to both sides
-                    while near := [each for each in left if each.joins(chain[end])]:
-                        following = min(near, key=lambda each: dist(each[:2], chain[end][:2]))
+                    while near := [face for face in left if face.joins(chain[end])]:
+                        following = min(near, key=lambda face: dist(face[:2], chain[end][:2]))
                         del left[following]
                         chain.insert(len(chain) if end else 0, following)
                 chains.append(chain)

@@ -26,10 +26,10 @@ Ink = NDArray[np.bool_]  # painted rock: a sample each, (rows * FINE, columns * 
 @cache
 def masks() -> Ink:
     """The samples of a cell that each tile covers: (tile, row, column)."""
-    at, tiles, found = [(k + 0.5) * CELL / FINE for k in range(FINE)], TileMap(), []
+    at, tiles, grids = [(k + 0.5) * CELL / FINE for k in range(FINE)], TileMap(), []
     for tiles.tiles[STRIDE + 1] in range(len(TILE_CHARS)):
-        found.append([[solid_at(tiles, x, y) for x in at] for y in at])
-    return np.array(found)
+        grids.append([[solid_at(tiles, x, y) for x in at] for y in at])
+    return np.array(grids)
 
 
 @cache
@@ -60,7 +60,7 @@ def fitted(ink: Ink, *, even: bool) -> NDArray[np.int64]:
 def shaped(ink: Ink, *, even: bool) -> dict[tuple[int, int], str]:
     """The tile of every cell that is not empty; what is painted the same on both sides is so."""
     tiles, other = fitted(ink, even=even), fitted(ink[:, ::-1], even=even)
-    turned = [next(k for k, mask in enumerate(masks()) if (mask == each[:, ::-1]).all()) for each in masks()]
+    turned = [next(k for k, mask in enumerate(masks()) if (mask == grid[:, ::-1]).all()) for grid in masks()]
     half = COLUMNS // 2 + 1
     tiles[:, half:] = np.array(turned)[other[:, ::-1]][:, half:]
     return {(c + 1, r + 1): TILE_CHARS[tiles[r, c]] for r in range(ROWS) for c in range(COLUMNS) if tiles[r, c]}

@@ -123,7 +123,7 @@ def bytes_of(observations: Observed) -> int:
 
 def _stacked(seen: Sequence[Any]) -> Observed:
     if isinstance(seen[0], dict):
-        return {name: np.stack([each[name] for each in seen]) for name in seen[0]}
+        return {name: np.stack([observation[name] for observation in seen]) for name in seen[0]}
     return np.stack(seen)
 
 
@@ -136,17 +136,17 @@ def arrays(episodes: Sequence[Demonstration]) -> dict[str, NDArray[Any]]:
     """
     if not episodes:
         raise ArgumentError("there are no demonstrations to write")
-    found: dict[str, NDArray[Any]] = {}
+    columns: dict[str, NDArray[Any]] = {}
     for name, first, last in (("observations", None, -1), ("next_observations", 1, None)):
-        parts = [each.observations for each in episodes]
+        parts = [episode.observations for episode in episodes]
         for key in parts[0] if isinstance(parts[0], dict) else [""]:
             rows = [part[key] if isinstance(part, dict) else part for part in parts]
-            found[f"{name}/{key}" if key else name] = np.concatenate([row[first:last] for row in rows])
+            columns[f"{name}/{key}" if key else name] = np.concatenate([row[first:last] for row in rows])
     for name in ("actions", "rewards", "terminations", "truncations"):
-        found[name] = np.concatenate([getattr(each, name) for each in episodes])
-    found["episode_ids"] = np.repeat(np.arange(len(episodes)), [len(each.rewards) for each in episodes])
-    found["names"] = np.array([each.name for each in episodes])
-    return found
+        columns[name] = np.concatenate([getattr(episode, name) for episode in episodes])
+    columns["episode_ids"] = np.repeat(np.arange(len(episodes)), [len(episode.rewards) for episode in episodes])
+    columns["names"] = np.array([episode.name for episode in episodes])
+    return columns
 
 
 def write_npz(path: Path, episodes: Sequence[Demonstration]) -> None:
@@ -174,20 +174,20 @@ def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: An
     import minari
     from minari.data_collector import EpisodeBuffer
 
-    bodies = {each.body for each in episodes}
+    bodies = {episode.body for episode in episodes}
     if len(bodies) != 1:
         raise ArgumentError(f"{len(episodes)} demonstrations of {len(bodies)} bodies; expected some of one body")
-    digests = [level_digest(each.level) for each in episodes]
-    levels = dict(zip(digests, (write_level_string(each.level, exact=True) for each in episodes), strict=True))
+    digests = [level_digest(episode.level) for episode in episodes]
+    levels = dict(zip(digests, (write_level_string(episode.level, exact=True) for episode in episodes), strict=True))
     buffers = [
         EpisodeBuffer(
-            id=number, observations=each.observations, actions=each.actions, rewards=each.rewards.tolist(),
-            terminations=each.terminations.tolist(), truncations=each.truncations.tolist(),
+            id=number, observations=episode.observations, actions=episode.actions, rewards=episode.rewards.tolist(),
+            terminations=episode.terminations.tolist(), truncations=episode.truncations.tolist(),
             options={"level": list(levels).index(digests[number])},
         )
-        for number, each in enumerate(episodes)
+        for number, episode in enumerate(episodes)
     ]  # fmt: skip
-    longest = max(LIFETIME, *(len(each.rewards) for each in episodes))
+    longest = max(LIFETIME, *(len(episode.rewards) for episode in episodes))
     own = {"level": list(levels.values()), "body": bodies.pop(), "frame_skip": 1, "time_limit": longest}
     env = gymnasium.make("ninja_game:Ninja-v0", **{**own, **settings})
     try:
@@ -200,8 +200,8 @@ def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: An
             )  # fmt: skip
             written.storage.update_episode_metadata(
                 [
-                    {"level_digest": digest, "frame_skip": 1, "name": each.name}
-                    for digest, each in zip(digests, episodes, strict=True)
+                    {"level_digest": digest, "frame_skip": 1, "name": episode.name}
+                    for digest, episode in zip(digests, episodes, strict=True)
                 ]
             )
             return written

@@ -86,7 +86,7 @@ class Evaluation:
 
     def count_passed(self, rate: float = 0.9) -> int:
         """How many levels were passed in that share of their episodes or more."""
-        return sum(each.rate >= rate for each in self.results)
+        return sum(result.rate >= rate for result in self.results)
 
 
 def evaluate(

@@ -116,7 +116,7 @@ def episode_text(level: Level, body: Body, inputs: bytes) -> str:
     run = Simulation(level, body=body)
     for keys in inputs:
         run.step_keys(keys)
-    seen = {each.id: (each.x, each.y, each.status) for each in run.objects}
+    seen = {obj.id: (obj.x, obj.y, obj.status) for obj in run.objects}
     objects, ninja = [], []
     for number, spec in enumerate(filter(makes_object, level.objects)):
         x, y, status = seen.get(number, (*spec.values[:2], 1))

@@ -79,7 +79,9 @@ def reward_terms(reward: RewardLike | Sequence[RewardLike] | None) -> list[Rewar
     """
     several = isinstance(reward, Sequence) and not isinstance(reward, str)
     given: Any = ["exit"] if reward is None else reward if several else [reward]
-    terms = [REWARD_TERMS[each]() if isinstance(each, str) and each in REWARD_TERMS else each for each in given]
+    terms = [
+        REWARD_TERMS[choice]() if isinstance(choice, str) and choice in REWARD_TERMS else choice for choice in given
+    ]
     wrong = [term for term in terms if type(term) not in REWARD_TERMS.values()]
     if wrong:
         expected = ", ".join(f"{name!r} ({kind.__name__})" for name, kind in REWARD_TERMS.items())

@@ -171,7 +171,7 @@ def episode_set(pack: Pack, key: str, name: str = "") -> EpisodeSet:
         named = level if level.author else replace(level, author=pack.index.author)
         return Entry(named, source, place, pars.get(level.file))
 
-    pars = {pack.files.place(file): each for file, each in pack.pars.items()}
+    pars = {pack.files.place(file): par for file, par in pack.pars.items()}
     episodes = {}
     for index, levels in pack.episodes.items():
         entries = [entry(level, f"{index.number:02d}-{place}") for place, level in enumerate(levels)]

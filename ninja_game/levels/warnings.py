@@ -213,7 +213,7 @@ def level_findings(level: Level, says: str = "") -> list[Finding]:
         names = _some([object_name(objects[id_], id_) for id_ in ids[:_NAMES_SHOWN]], len(ids))
         of_objects.append(finding._replace(records=tuple(numbers[id_] for id_ in ids), names=names))
     whole = _level_oddities(level, objects)
-    of_level = [each._replace(records=tuple(numbers[id_] for id_ in each.records)) for each in whole]
+    of_level = [oddity._replace(records=tuple(numbers[id_] for id_ in oddity.records)) for oddity in whole]
     return [*of_level, *unseen_messages(says, ground), *_odd_tiles(level), *of_objects]
 
 
@@ -248,12 +248,12 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
         "switch": "exit" * (kinds.EXIT not in kinds_here), "gold": "gold" * (kinds.GOLD not in kinds_here),
         "lock": "locked door" * (LOCKED not in doors), "trap": "trap door" * (TRAP not in doors),
     }  # fmt: skip
-    for each in parse_messages(says):
-        if lacks := missing.get(each.when):
-            yield level_finding("unseen-message", text=each.text, why=f"there is no {lacks}")
-        elif each.place and not ground.comes_near(*each.place, NEAR):
+    for message in parse_messages(says):
+        if lacks := missing.get(message.when):
+            yield level_finding("unseen-message", text=message.text, why=f"there is no {lacks}")
+        elif message.place and not ground.comes_near(*message.place, NEAR):
             why = "the ninja never comes near its place"
-            yield level_finding("unseen-message", cells=(each.cell,), text=each.text, why=why)
+            yield level_finding("unseen-message", cells=(message.cell,), text=message.text, why=why)
 
 
 def _odd_tiles(level: Level) -> Iterator[Finding]:

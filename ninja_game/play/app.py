@@ -358,8 +358,8 @@ class App:
                 if not simulated:
                     clock.tick(self.settings.frame_limit or pygame.display.get_current_refresh_rate() or FALLBACK_RATE)
         finally:
-            for each in self.aside:
-                each.end()
+            for task in self.aside:
+                task.end()
             self.stack.clear()
             if self.window.was_resized:
                 self.change_settings(window_width=self.surface.width, window_height=self.surface.height)
@@ -381,8 +381,8 @@ class App:
         if self.wipe.going_on:
             self.wipe.update(real_ms)
             self.stack.redraw_all()
-        for each in self.aside:
-            each.update()
+        for task in self.aside:
+            task.update()
         for screen in self.stack.running():
             screen.update(real_ms)
         if self.notice:

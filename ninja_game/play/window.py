@@ -157,11 +157,11 @@ def _has_window_manager() -> bool:
     if not display:
         return True
     names = x.XListProperties(display, x.XDefaultRootWindow(display), count)
-    found = x.XInternAtom(display, b"_NET_SUPPORTING_WM_CHECK", 0) in names[: count.value]
+    supported = x.XInternAtom(display, b"_NET_SUPPORTING_WM_CHECK", 0) in names[: count.value]
     if names:
         x.XFree(names)
     x.XCloseDisplay(display)
-    return found
+    return supported
 
 
 def fitting_size(wished: tuple[int, int] = (0, 0)) -> tuple[int, int]:

@@ -289,7 +289,7 @@ class WorkspaceScreen(MenuScreen):
         x, y = self.theme.canvas.logical(pos)
         if raw.type == pygame.MOUSEMOTION:
             self.hint("")
-        part = self._grabbed or next((each for each in self.parts if each.contains(x, y)), None)
+        part = self._grabbed or next((other for other in self.parts if other.contains(x, y)), None)
         if self._pointed is not part and self._pointed is not None:
             self._pointed.mouse_left()
         self._pointed = part

@@ -61,12 +61,12 @@ class Catalogue:
         read = {os.path.realpath(path): path for path in [*self.more, *self._pack_paths()]}
         packs = [(path, pack) for path in read.values() if (pack := self._pack_at(path))]
         indexes = [pack.index for _, pack in packs]
-        found = {"": self.ours}
+        sets = {"": self.ours}
         for path, pack in packs:
-            key = f"{pack.name} ({path.name})" if pack.name in {GAME, YOURS, *found} else pack.name
-            found[key] = self._set_of(path, pack, key, _name_among(indexes, pack.index, path.name))
-        self._known = found
-        return list(found.values())
+            key = f"{pack.name} ({path.name})" if pack.name in {GAME, YOURS, *sets} else pack.name
+            sets[key] = self._set_of(path, pack, key, _name_among(indexes, pack.index, path.name))
+        self._known = sets
+        return list(sets.values())
 
     def author_run(self, entry: Entry) -> Replay | None:
         """The certificate to the exit beside a level; None without one for exactly this level."""
@@ -99,17 +99,17 @@ class Catalogue:
 
     def following(self, episode: Episode) -> Episode | None:
         """The next existing episode of its column, or None."""
-        later = [each for each in self._column(episode) if each.number > episode.number]
-        return min(later, key=lambda each: each.number, default=None)
+        later = [other for other in self._column(episode) if other.number > episode.number]
+        return min(later, key=lambda other: other.number, default=None)
 
     def preceding(self, episode: Episode) -> Episode | None:
         """The episode before it in its column, which has to be passed first; None for the first one."""
-        earlier = [each for each in self._column(episode) if each.number < episode.number]
-        return max(earlier, key=lambda each: each.number, default=None)
+        earlier = [other for other in self._column(episode) if other.number < episode.number]
+        return max(earlier, key=lambda other: other.number, default=None)
 
     def _column(self, episode: Episode) -> list[Episode]:
         episodes = self._known[episode.pack].episodes if episode.pack in self._known else self.episodes
-        return [each for each in episodes.values() if each.column == episode.column]
+        return [other for other in episodes.values() if other.column == episode.column]
 
     def _pack_paths(self) -> Iterator[Path]:
         try:
@@ -153,11 +153,11 @@ class Catalogue:
         entries: list[Entry] = []
         if self.folder is not None:
             packs = [*self._pack_paths(), self.folder / CERTIFICATES]
-            for found in files_below(self.folder):
-                if isinstance(found, Skipped):
-                    self.problems.append(str(found))
-                elif not any(found.is_relative_to(pack) for pack in packs):
-                    entries += self._entries_of(found)
+            for path in files_below(self.folder):
+                if isinstance(path, Skipped):
+                    self.problems.append(str(path))
+                elif not any(path.is_relative_to(pack) for pack in packs):
+                    entries += self._entries_of(path)
         return entries
 
     def _entries_of(self, file: Path) -> list[Entry]:
@@ -171,12 +171,12 @@ class Catalogue:
 
 def _name_among(packs: Sequence[PackIndex], index: PackIndex, file: str) -> str:
     """What a pack is called: its title, with author, version or ``file`` where that tells it from its namesakes."""
-    alike = [each for each in packs if each.name == index.name]
-    authors, versions = {each.author for each in alike}, {each.version for each in alike}
+    alike = [other for other in packs if other.name == index.name]
+    authors, versions = {other.author for other in alike}, {other.version for other in alike}
     distinct = replace(
         index, author=index.author if len(authors) > 1 else "", version=index.version if len(versions) > 1 else ""
     )
-    same_title = len(alike) > 1 and [each.title for each in packs].count(index.title) > 1
+    same_title = len(alike) > 1 and [pack.title for pack in packs].count(index.title) > 1
     return f"{distinct.title} ({file})" if same_title else distinct.title
 
 

@@ -196,7 +196,7 @@ class LevelRun(LevelContext):
             return False
         self._stamp = stamp
         levels = load_levels(self.entry.named.file)
-        named = next((each for each in levels if each.record == self.entry.named.record), levels[0])
+        named = next((level for level in levels if level.record == self.entry.named.record), levels[0])
         Simulation(named.level, body=self.body)
         changed = named.level != before
         pars = None if changed else self.entry.pars
@@ -208,7 +208,7 @@ class LevelRun(LevelContext):
         return bool(self._ahead())
 
     def _ahead(self) -> list[Entry]:
-        return [each for each in self._following if not self.data.lock_of(each)]
+        return [entry for entry in self._following if not self.data.lock_of(entry)]
 
     def advance(self) -> Navigation:
         """The next level of the list that can be played."""
@@ -265,8 +265,8 @@ class FileRun(LevelRun):
 
     def advance(self) -> Navigation:
         """The next level of the file that can be played."""
-        place = [each.record for each in self._levels].index(self.entry.named.record)
-        self._following = [Entry(each, YOURS) for each in (*self._levels[place + 1 :], *self._levels[:place])]
+        place = [level.record for level in self._levels].index(self.entry.named.record)
+        self._following = [Entry(named, YOURS) for named in (*self._levels[place + 1 :], *self._levels[:place])]
         return super().advance()
 
 
@@ -412,8 +412,8 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
     if not practice_mode and (run := unfinished_run(data)):
         return run
     episodes = [data.catalogue.episodes[number] for number in sorted(data.catalogue.episodes)]
-    ahead = [each for each in episodes if not data.progress.is_beaten(each.number)]
-    opened = [each for each in ahead if data.episode_state(each) != LOCKED]
+    ahead = [episode for episode in episodes if not data.progress.is_beaten(episode.number)]
+    opened = [episode for episode in ahead if data.episode_state(episode) != LOCKED]
     chosen = next(iter(opened or ahead or episodes), None)
     if chosen is None:
         return None

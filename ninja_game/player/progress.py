@@ -240,8 +240,8 @@ def has_all_gold(entry: Entry, mark: Mark | None) -> bool:
 def worst_medal(entries: Iterable[Entry], marks: dict[str, Mark]) -> str:
     """The medal that all the levels have, or a better one; "" where one has none."""
     order = [*MEDALS, ""]
-    found = (order.index(medal_of(entry, marks.get(entry.digest))) for entry in entries)
-    return order[max(found, default=len(MEDALS))]
+    medals = (order.index(medal_of(entry, marks.get(entry.digest))) for entry in entries)
+    return order[max(medals, default=len(MEDALS))]
 
 
 def tally(entries: Iterable[Entry], marks: dict[str, Mark], helped: Collection[str] = ()) -> Tally:

@@ -93,8 +93,8 @@ class Records:
             # Ids grow with time, and this order needs no look at all the others.
             return self._saved("ORDER BY id DESC LIMIT ?", NEWEST_SHOWN)
         rows = self.store.rows("SELECT id, name, player FROM replay ORDER BY id DESC", (), (int, str, str))
-        found = [number for number, *texts in rows if has_words(words, *texts)][:NEWEST_SHOWN]
-        return self._saved(f"WHERE id IN ({', '.join('?' * len(found))}) ORDER BY id DESC", *found)
+        ids = [number for number, *texts in rows if has_words(words, *texts)][:NEWEST_SHOWN]
+        return self._saved(f"WHERE id IN ({', '.join('?' * len(ids))}) ORDER BY id DESC", *ids)
 
     def replay(self, number: int) -> Replay | None:
         """A whole replay by its id, with its level inside; None if it has gone or is damaged."""
@@ -119,12 +119,12 @@ class Records:
 
     def _saved(self, condition: str, *values: object) -> list[SavedReplay]:
         query = f"SELECT {_SAVED} FROM replay {condition}"
-        found = (SavedReplay(*row) for row in self.store.rows(query, values, _SAVED_KINDS))
-        return [saved for saved in found if saved.outcome in OUTCOMES and saved.body in BODIES]
+        runs = (SavedReplay(*row) for row in self.store.rows(query, values, _SAVED_KINDS))
+        return [run for run in runs if run.outcome in OUTCOMES and run.body in BODIES]
 
     def level_best(self, digest: str, body: str = "circle") -> SavedReplay | None:
-        found = self._saved(f"{_BEST} AND level_best.level = ?", body, digest)
-        return found[0] if found else None
+        rows = self._saved(f"{_BEST} AND level_best.level = ?", body, digest)
+        return rows[0] if rows else None
 
     def level_bests(self, body: str = "circle") -> dict[str, SavedReplay]:
         return {saved.level: saved for saved in self._saved(_BEST, body)}
@@ -242,8 +242,8 @@ class Statistics:
 
     def deaths(self) -> dict[str, int]:
         """Deaths by killer, every killer present, in the order of KILLERS."""
-        found = dict(self.store.rows("SELECT killer, times FROM death", (), [str, int]))
-        return {killer: found.get(killer, 0) for killer in KILLERS}
+        times = dict(self.store.rows("SELECT killer, times FROM death", (), [str, int]))
+        return {killer: times.get(killer, 0) for killer in KILLERS}
 
     def played(self, level: str | None = None) -> Played:
         query = "SELECT attempts, passes, deaths, ticks, gold FROM played WHERE ?1 IS NULL OR level = ?1"

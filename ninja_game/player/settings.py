@@ -50,7 +50,7 @@ class SettingRule(NamedTuple):
     expected: str
     meaning: str
     span: tuple[float, float, float] = (0, 0, 0)
-    convert: Callable[[Any], Any] = lambda found: found
+    convert: Callable[[Any], Any] = lambda value: value
 
 
 def _setting(default: Any, table: str, fits: Callable[[Any], bool], expected: str, meaning: str) -> Any:
@@ -91,8 +91,8 @@ def _is_bindings(value: Any) -> bool:
     )
 
 
-def _bindings_of(found: Mapping[str, Sequence[str]]) -> InputNames:
-    return {action: tuple(inputs) for action, inputs in found.items()}
+def _bindings_of(bindings: Mapping[str, Sequence[str]]) -> InputNames:
+    return {action: tuple(inputs) for action, inputs in bindings.items()}
 
 
 def _bindings(what: str, example: str) -> dict[str, SettingRule]:
@@ -174,7 +174,7 @@ class Settings:
         return replace(self, **values)
 
 
-RULES: dict[str, SettingRule] = {each.name: each.metadata["rule"] for each in fields(Settings)}
+RULES: dict[str, SettingRule] = {setting.name: setting.metadata["rule"] for setting in fields(Settings)}
 """By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""
 
 
@@ -231,19 +231,19 @@ def _settings_of(data: Mapping[str, Any]) -> tuple[Settings, list[str]]:
     wrong: dict[str, tuple[Any, str]] = {}  # by place: what was found, and what is expected
     for name, rule in RULES.items():
         place = BINDING_TABLES.get(name, rule.table)
-        found = data.get(place)
-        if found is not None and name not in BINDING_TABLES:
-            if not isinstance(found, Mapping):
-                wrong[place] = found, f"the table [{place}]"
+        value = data.get(place)
+        if value is not None and name not in BINDING_TABLES:
+            if not isinstance(value, Mapping):
+                wrong[place] = value, f"the table [{place}]"
                 continue
-            place, found = f"{place}.{key_of(name)}", found.get(key_of(name))
-        if found is not None and rule.fits(found):
-            values[name] = rule.convert(found)
-        elif found is not None:
-            wrong[place] = found, rule.expected
+            place, value = f"{place}.{key_of(name)}", value.get(key_of(name))
+        if value is not None and rule.fits(value):
+            values[name] = rule.convert(value)
+        elif value is not None:
+            wrong[place] = value, rule.expected
     return Settings(**values), [
-        f"settings.toml: {place} is {_shown(found)}; expected {expected}; the default is used."
-        for place, (found, expected) in wrong.items()
+        f"settings.toml: {place} is {_shown(value)}; expected {expected}; the default is used."
+        for place, (value, expected) in wrong.items()
     ]
 
 

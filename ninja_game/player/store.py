@@ -95,14 +95,14 @@ class Store:
         A file that cannot be read has no rows, and is reported; within a transaction this raises sqlite3.Error.
         """
         try:
-            found = self.connection.execute(query, values).fetchall()
+            raw = self.connection.execute(query, values).fetchall()
         except sqlite3.Error as error:
             if self.connection.in_transaction:
                 raise
             self.report(f"The records cannot be read ({error}).")
             return []
-        sound = [row for row in found if [type(value) for value in row] == list(kinds)]
-        if len(sound) < len(found):
+        sound = [row for row in raw if [type(value) for value in row] == list(kinds)]
+        if len(sound) < len(raw):
             self.report("Some of the records are damaged; they are left out.")
         return sound
 

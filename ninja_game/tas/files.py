@@ -69,10 +69,12 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     texts = list(texts_of(path))
     if not any(holds_recordings(text) for _, text in texts):
         return _begun_on(path, "".join(text for _, text in texts), record, level)
-    recordings = [each for file, text in texts for each in parse_replays(text, file=file, level=level, changed=True)]
+    recordings = [
+        replay for file, text in texts for replay in parse_replays(text, file=file, level=level, changed=True)
+    ]
     if record is None and len(recordings) > 1:
         raise ReplayError(f"{len(recordings)} recordings", str(path), hint="say which one with --record")
-    recording = next((each for each in recordings if each.record == (record or 0)), None)
+    recording = next((other for other in recordings if other.record == (record or 0)), None)
     if recording is None:
         raise ReplayError(f"there is no record {record}", str(path), expected=f"0 to {len(recordings) - 1}")
     on = on_level(recording, level)
@@ -95,7 +97,7 @@ def _begun_on(path: Path, text: str, record: int | None, level: Level | None) ->
     levels = load_levels(path)
     if record is None and len(levels) > 1:
         raise LevelError(f"{len(levels)} levels", str(path), hint="say which one with --record")
-    chosen = next((each for each in levels if each.record == (record or 0)), None)
+    chosen = next((other for other in levels if other.record == (record or 0)), None)
     if chosen is None:
         raise LevelError(f"there is no record {record}", str(path), expected=f"0 to {len(levels) - 1}")
     return new_run(replace(chosen, level=level or chosen.level))
@@ -135,11 +137,11 @@ def runs_of_level(path: Path, about: Recording) -> list[Recording]:
 
     Those without a level are on that of the run. Raises ReplayError if there is none, and what ``load_replays`` does.
     """
-    found = load_replays(path, level=about.level)
-    fitting = [each for each in found if same_level(each, about)]
+    recordings = load_replays(path, level=about.level)
+    fitting = [recording for recording in recordings if same_level(recording, about)]
     if not fitting:
         raise ReplayError(
-            f"no run of {about.name or 'this level'} with its body", str(path), found=f"{len(found)} others"
+            f"no run of {about.name or 'this level'} with its body", str(path), found=f"{len(recordings)} others"
         )
     return fitting
 
@@ -150,7 +152,7 @@ def same_level(recording: Recording, other: Recording) -> bool:
 
 def track_of(recording: Recording) -> InputTrack:
     """A recording as an input track: the keys of all ticks that it plays."""
-    markers = (each for each in recording.replay.markers if each.tick <= recording.ticks)
+    markers = (marker for marker in recording.replay.markers if marker.tick <= recording.ticks)
     return InputTrack(recording.inputs, tuple(markers))
 
 
@@ -228,7 +230,7 @@ def replay_of_track(about: Recording, track: InputTrack) -> Replay:
 
 def has_tail(track: InputTrack, ticks: int) -> bool:
     """Whether an input track has keys, or names of ticks, behind the first ``ticks`` ticks."""
-    return any(track.inputs[ticks:]) or any(each.tick > ticks for each in track.markers)
+    return any(track.inputs[ticks:]) or any(marker.tick > ticks for marker in track.markers)
 
 
 def save_run(
@@ -240,8 +242,8 @@ def save_run(
     ``replacing``; FileError, OSError for what cannot be written.
     """
     own, beside = path == file.path, branches_path(path)
-    for each, known in ((path, file.digest), (beside, file.branches_digest)):
-        check_free(each, digest_of_file(each), known if own else None, replacing=replacing)
+    for file_path, known in ((path, file.digest), (beside, file.branches_digest)):
+        check_free(file_path, digest_of_file(file_path), known if own else None, replacing=replacing)
     if not own or track != file.track or digest_of_file(path) != file.digest:
         replay = replay_of_track(about, track)
         write_atomically(path, write_replay(_with_old_path(replay, about) if own else replay))

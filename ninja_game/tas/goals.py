@@ -76,8 +76,8 @@ class SearchedSpan:
 
     def _ninja(self, tick: int) -> dict[str, float]:
         timeline = self._known(tick)
-        found = {name: float(timeline.column(name)[tick]) for name in ("x", "y", "prev_x", "prev_y", "state", "gold")}
-        return {**found, "vx": found["x"] - found["prev_x"], "vy": found["y"] - found["prev_y"]}
+        numbers = {name: float(timeline.column(name)[tick]) for name in ("x", "y", "prev_x", "prev_y", "state", "gold")}
+        return {**numbers, "vx": numbers["x"] - numbers["prev_x"], "vy": numbers["y"] - numbers["prev_y"]}
 
 
 def be_there(span: SearchedSpan) -> SpanGoal:
@@ -140,10 +140,10 @@ def _piece_left(span: SearchedSpan, first: int) -> int:
     x, y = span.places(first).T
     splits = run_splits(span.session.recording(), ("gold-taken",)).splits
     taken = {split.object_id for split in splits if split.tick < span.last}
-    pieces = [each for each in span.session.timeline.objects if each[1] == GOLD and each[0] not in taken]
+    pieces = [obj for obj in span.session.timeline.objects if obj[1] == GOLD and obj[0] not in taken]
     if not pieces:
         raise ArgumentError("no gold is left at the end of the span")
-    return min(pieces, key=lambda each: float(np.hypot(each[2] - x, each[3] - y).min()))[0]
+    return min(pieces, key=lambda obj: float(np.hypot(obj[2] - x, obj[3] - y).min()))[0]
 
 
 def same_end(span: SearchedSpan) -> SpanGoal:

@@ -46,7 +46,7 @@ def edit_as_json(old: InputTrack, new: InputTrack) -> dict[str, Any]:
     tail = first_difference(old.inputs[at:][::-1], new.inputs[at:][::-1])
     keys = new.inputs[at : len(new) - tail]
     change = {"at": at, "to": len(old) - tail, "keys": keys.hex()[1::2], "sum": _sum(new), "made": new.made.as_json()}
-    return change if old.markers == new.markers else change | {"markers": [list(each) for each in new.markers]}
+    return change if old.markers == new.markers else change | {"markers": [list(marker) for marker in new.markers]}
 
 
 def _sum(track: InputTrack) -> int:

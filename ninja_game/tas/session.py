@@ -229,18 +229,18 @@ class Session:
         self.end()
         self.journal.close(keep=keep and not self.is_saved)
 
-    def recover(self, found: RecoveredRun) -> None:
+    def recover(self, run: RecoveredRun) -> None:
         """Go on where a session that has died was, which had opened the same run; its edits can be undone.
 
         Raises FileError where another window does so already.
         """
-        journal = Journal(found.file.parent.parent, found.said, found.file)
+        journal = Journal(run.file.parent.parent, run.said, run.file)
         self.journal.close()
         self.journal = journal
-        for track in found.tracks:
+        for track in run.tracks:
             self.history.change(track)
         self._credit()
-        self.branches = found.branches
+        self.branches = run.branches
         # The program may have died when the file was written, and the journal not yet started again.
         self._file_differs = self.file.path is not None and digest_of_file(self.file.path) != self.file.digest
         self._noted = self.track

@@ -292,8 +292,8 @@ class Watch:
         while True:
             try:
                 with np.errstate(all="ignore"):
-                    found = np.asarray(self.formula.value(timeline_view(timeline)), np.float64)
-                return np.broadcast_to(found, (timeline.simulated_until,))
+                    series = np.asarray(self.formula.value(timeline_view(timeline)), np.float64)
+                return np.broadcast_to(series, (timeline.simulated_until,))
             except _UnwatchedError as error:
                 valid = timeline.simulated_until
                 timeline.watch([*timeline.watched, error.id])
@@ -329,8 +329,8 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
     def of(name: str) -> Values:
         if name == "tick":
             return np.arange(0.0, timeline.simulated_until)
-        found: Values = column(name[1]) - column(f"prev_{name[1]}") if name in {"vx", "vy"} else column(name)
-        return found
+        values: Values = column(name[1]) - column(f"prev_{name[1]}") if name in {"vx", "vy"} else column(name)
+        return values
 
     def of_object(name: str) -> Callable[..., Values]:
         return lambda number: _object_column(timeline, id_of(number), name)

@@ -59,7 +59,7 @@ class InputTrack:
 
     def up_to(self, ticks: int) -> InputTrack:
         """Its first ticks, with their markers and that of the tick behind them."""
-        return InputTrack(self.inputs[:ticks], tuple(each for each in self.markers if each.tick <= ticks))
+        return InputTrack(self.inputs[:ticks], tuple(marker for marker in self.markers if marker.tick <= ticks))
 
     def _joined(self, tick: int, held: int) -> int:
         """A tick behind an edit: it triggers as the keys say, unless it was odd before."""
@@ -168,7 +168,7 @@ class Branches:
             return other if other is None or other < number else other - 1
 
         self.current = moved(self.current)
-        self.all = [replace(each, parent=moved(each.parent)) for at, each in enumerate(self.all) if at != number]
+        self.all = [replace(branch, parent=moved(branch.parent)) for at, branch in enumerate(self.all) if at != number]
 
     def checked(self, number: int) -> int:
         """The number of a branch. Raises ArgumentError for an unknown one."""
@@ -210,16 +210,16 @@ class Branches:
 
 def branches_of_json(kept: dict[str, Any]) -> Branches:
     """What ``as_json`` gave. Raises one of DAMAGED for anything else."""
-    found = Branches()
-    for number, each in enumerate(kept["branches"]):
-        branch = branch_of_json(each)
+    branches = Branches()
+    for number, entry in enumerate(kept["branches"]):
+        branch = branch_of_json(entry)
         if branch.parent is not None and not 0 <= branch.parent < number:
             raise ValueError("a branch whose parent comes later")
-        found.all.append(branch)
+        branches.all.append(branch)
     if kept["current"] is not None:
-        found.checkout(int(kept["current"]))
-    found.watched = tuple(map(str, kept.get("watched", ())))
-    return found
+        branches.checkout(int(kept["current"]))
+    branches.watched = tuple(map(str, kept.get("watched", ())))
+    return branches
 
 
 def branch_as_json(branch: Branch) -> dict[str, Any]:
@@ -240,7 +240,7 @@ def branch_of_json(kept: dict[str, Any]) -> Branch:
 
 def track_as_json(track: InputTrack) -> dict[str, Any]:
     """An input track as JSON can say it: its inputs a hexadecimal digit a tick."""
-    said = {"inputs": track.inputs.hex()[1::2], "markers": [list(each) for each in track.markers]}
+    said = {"inputs": track.inputs.hex()[1::2], "markers": [list(marker) for marker in track.markers]}
     return said | {"made": track.made.as_json()}
 
 

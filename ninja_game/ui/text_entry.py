@@ -255,7 +255,7 @@ class EditedText:
     def select_word(self, place: int) -> None:
         """Select the word, or what stands between two words, around a place."""
         place = min(place, len(self.text) - 1)
-        kind = [_character_class(each) for each in self.text]
+        kind = [_character_class(char) for char in self.text]
         first = last = max(0, place)
         while first > 0 and kind[first - 1] == kind[place]:
             first -= 1

@@ -149,7 +149,7 @@ def touched_cells(x: float, y: float, cell: int) -> list[int]:
     dx, dy = x - CENTRE_X[cell], y - CENTRE_Y[cell]
     beside = cell + (1 if dx > 0 else -1) if abs(dx) + RADIUS > HALF else 0
     above = cell + (STRIDE if dy > 0 else -STRIDE) if abs(dy) + RADIUS > HALF else 0
-    cells += [found for found in (above, beside) if found]
+    cells += [place for place in (above, beside) if place]
     if above and beside:
         cells.append(above + beside - cell)
     return cells

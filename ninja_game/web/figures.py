@@ -25,7 +25,7 @@ class PageFigure:
         self._clock = RunClock()
         self._tick = -1
         widgets = [make((0, 0, 1, 1)) for make in self.figure.controls()]
-        self.controls = [each for each in widgets if isinstance(each, (Choice, Slider))]
+        self.controls = [widget for widget in widgets if isinstance(widget, (Choice, Slider))]
 
     @property
     def sheet(self) -> int:
@@ -35,10 +35,10 @@ class PageFigure:
     def about(self) -> str:
         """Title and controls, as JSON."""
         controls = [
-            {"text": each.text, "span": [each.low, each.high, each.step]}
-            if isinstance(each, Slider)
-            else {"text": each.text, "options": [text for text, _ in each.options]}
-            for each in self.controls
+            {"text": control.text, "span": [control.low, control.high, control.step]}
+            if isinstance(control, Slider)
+            else {"text": control.text, "options": [text for text, _ in control.options]}
+            for control in self.controls
         ]
         return json.dumps({"title": self.figure.title, "controls": controls})
 
@@ -52,8 +52,8 @@ class PageFigure:
         self._picture.draw()
         display.flip()
         values = [
-            (each.get(), each.show(each.get())) if isinstance(each, Slider) else (each.index, "")
-            for each in self.controls
+            (control.get(), control.show(control.get())) if isinstance(control, Slider) else (control.index, "")
+            for control in self.controls
         ]
         return json.dumps({"numbers": self.figure.numbers(), "values": values})
 

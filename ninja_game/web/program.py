@@ -32,7 +32,7 @@ def run_program(text: str) -> str:
             sys.settrace(count)
             exec(program, {"__name__": "__main__"})  # noqa: S102 - the reader's own words, in the reader's own page
     except BaseException as error:  # noqa: BLE001 - whatever it raises, SystemExit too, is for the reader
-        lines = [each.lineno for each in extract_tb(error.__traceback__) if each.filename == NAME]
+        lines = [entry.lineno for entry in extract_tb(error.__traceback__) if entry.filename == NAME]
         line, words = (error.lineno, error.msg) if isinstance(error, SyntaxError) else ([0, *lines][-1], error)
         wrong = f"Line {line}: {type(error).__name__}: {words}"
     finally:

@@ -118,7 +118,7 @@ class PageServices:
 
         names: dict[str, str] = {}
         for levels in bundled_levels():
-            names |= {level_digest(each.level): each.name for each in load_levels(levels)}
+            names |= {level_digest(level.level): level.name for level in load_levels(levels)}
             yield None
         with TemporaryDirectory() as folder:
             path = Path(folder) / Path(name).name
@@ -127,12 +127,12 @@ class PageServices:
             except (OSError, ValueError):
                 yield json.dumps({"unreadable": f"{name!a:.200}: no file can have this name"})
                 return
-            for found in recordings_in([path]):
-                if isinstance(found, Unreadable):
-                    yield json.dumps({"unreadable": found.message})
+            for recording in recordings_in([path]):
+                if isinstance(recording, Unreadable):
+                    yield json.dumps({"unreadable": recording.message})
                     continue
                 try:
-                    verdict = yield from verify_in_slices(found, "plain", budget=PAGE_BUDGET, slice_work=TURN_WORK)
+                    verdict = yield from verify_in_slices(recording, "plain", budget=PAGE_BUDGET, slice_work=TURN_WORK)
                     shown = with_demands(verdict, names, only_these=False, strict=False).as_json() | {"file": name}
                 except BudgetError as error:
                     shown = {"unreadable": str(replace(error, hint="`ninja-game verify` judges it on a desktop"))}

@@ -177,18 +177,18 @@ class OddTile(NamedTuple):
 
 def tokens_of(text: str) -> list[Token]:
     """The words of a line, without the comment that a semicolon begins."""
-    found = (Token(match.group(), match.start() + 1) for match in _TOKEN.finditer(text))
-    return [token for token in found if not token.text.startswith(";")]
+    tokens = (Token(match.group(), match.start() + 1) for match in _TOKEN.finditer(text))
+    return [token for token in tokens if not token.text.startswith(";")]
 
 
-def suggestion(found: str, known: Iterable[str]) -> str:
+def suggestion(unknown: str, known: Iterable[str]) -> str:
     """A hint that names the nearest known words, or all of a short list."""
     known = list(known)
-    if found.startswith(("#", "//")):
+    if unknown.startswith(("#", "//")):
         return "comments begin with ;"
-    near = [word for word in _SYNONYMS.get(found.lower(), ()) if word in known]
-    near = near or [word for word in known if found and (found in word.split() or found.startswith(word))]
-    near = near or difflib.get_close_matches(found, known, 3, 0.6)
+    near = [word for word in _SYNONYMS.get(unknown.lower(), ()) if word in known]
+    near = near or [word for word in known if unknown and (unknown in word.split() or unknown.startswith(word))]
+    near = near or difflib.get_close_matches(unknown, known, 3, 0.6)
     if near:
         return f"did you mean {' or '.join(near)}?"
     return f"known are {', '.join(known)}"

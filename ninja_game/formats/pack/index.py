@@ -95,12 +95,12 @@ def parse_index(text: str, *, file: str = "") -> PackIndex:
     if len(columns) > most:
         raise PackError("too many columns", file, whole.line("columns"), 0, str(len(columns)), f"at most {most}")
     accepted = []
-    for each in whole.tables("accept"):
-        each.check(_ACCEPT_KEYS)
-        values = {key: each.text(key) for key in ("file", "code", "reason")}
+    for entry in whole.tables("accept"):
+        entry.check(_ACCEPT_KEYS)
+        values = {key: entry.text(key) for key in ("file", "code", "reason")}
         if missing := next((key for key, value in values.items() if not value), ""):
-            raise PackError(f"accept without its {missing}", file, each.start, expected=f'{missing} = "…"')
-        accepted.append(Accepted(**values, line=each.start))
+            raise PackError(f"accept without its {missing}", file, entry.start, expected=f'{missing} = "…"')
+        accepted.append(Accepted(**values, line=entry.start))
     return PackIndex(
         name, whole.text("author"), whole.text("comment"), columns, _episodes(whole), whole.text("version"),
         tuple(accepted),
@@ -108,22 +108,22 @@ def parse_index(text: str, *, file: str = "") -> PackIndex:
 
 
 def _episodes(whole: _Table) -> tuple[EpisodeIndex, ...]:
-    found: dict[int, EpisodeIndex] = {}
-    for each in whole.tables("episode"):
-        each.check(_EPISODE_KEYS)
-        number, file = each.table.get("number"), whole.file
+    indexes: dict[int, EpisodeIndex] = {}
+    for table in whole.tables("episode"):
+        table.check(_EPISODE_KEYS)
+        number, file = table.table.get("number"), whole.file
         if type(number) is not int or not 0 <= number < MOST_EPISODES:
-            place, given = each.line("number") or each.start, repr(number)[:40]
+            place, given = table.line("number") or table.start, repr(number)[:40]
             raise PackError("an episode's number", file, place, found=given, expected="a number from 0 to 99")
-        if number in found:
-            other = f"line {found[number].line} too"
-            raise PackError(f"episode {number} is there twice", file, each.start, found=other)
-        levels = each.texts("levels")
+        if number in indexes:
+            other = f"line {indexes[number].line} too"
+            raise PackError(f"episode {number} is there twice", file, table.start, found=other)
+        levels = table.texts("levels")
         if levels and len(levels) > LEVELS_PER_EPISODE:
             what, given = f"the levels of episode {number}", str(len(levels))
-            raise PackError(what, file, each.line("levels"), 0, given, "at most five files")
-        found[number] = EpisodeIndex(number, each.text("name"), levels, each.start)
-    return tuple(found[number] for number in sorted(found))
+            raise PackError(what, file, table.line("levels"), 0, given, "at most five files")
+        indexes[number] = EpisodeIndex(number, table.text("name"), levels, table.start)
+    return tuple(indexes[number] for number in sorted(indexes))
 
 
 @dataclass(frozen=True)
@@ -157,14 +157,14 @@ class _Table:
 
     def tables(self, key: str) -> list[_Table]:
         tables = self.table.get(key, [])
-        if not isinstance(tables, list) or not all(isinstance(each, dict) for each in tables):
+        if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
             raise PackError(
                 f"not a list of tables: {key}", self.file, self.line(key), 0, "", f"a table [[{key}]] for each"
             )
         head = re.compile(rf"\s*\[\[\s*{key}\s*\]\]")
         heads = [n for n, line in enumerate(self.whole.splitlines(), 1) if head.match(line)]
         starts = heads if len(heads) == len(tables) else [0] * len(tables)
-        return [_Table(each, self.file, self.whole, start) for each, start in zip(tables, starts, strict=True)]
+        return [_Table(table, self.file, self.whole, start) for table, start in zip(tables, starts, strict=True)]
 
     def text(self, key: str) -> str:
         value = self.table.get(key, "")
@@ -177,7 +177,7 @@ class _Table:
         value = self.table.get(key)
         if value is None:
             return None
-        if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
+        if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
             what, expected = f"{key} is not a list of texts", f'{key} = ["…", "…"]'
             raise PackError(what, self.file, self.line(key), 0, repr(value)[:40], expected)
         return tuple(value)

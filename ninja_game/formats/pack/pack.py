@@ -172,20 +172,20 @@ class Pack:
     @cached_property
     def levels(self) -> dict[str, NamedLevel]:
         """The level of each file, the first one where it holds several."""
-        found = {}
+        named_levels = {}
         for name in self.files.levels:
             try:
-                found[name] = parse_levels(self.files.text(name), file=self.files.place(name))[0]
+                named_levels[name] = parse_levels(self.files.text(name), file=self.files.place(name))[0]
             except NinjaGameError as error:
                 self.problems.append(str(error))
             except OSError as error:
                 self.problems.append(f"{self.files.place(name)}: {error.strerror}")
-        return found
+        return named_levels
 
     @cached_property
     def episodes(self) -> dict[EpisodeIndex, tuple[NamedLevel, ...]]:
         """The levels of each episode that has any, at most five, in the order of the episodes' numbers."""
-        found = {}
+        members = {}
         for episode in self.index.episodes:
             files = episode.files(self.files.levels)
             self.problems += [f"{self.files.place(file)}: not there" for file in files if file not in self.files.names]
@@ -193,8 +193,8 @@ class Pack:
             if len(levels) > LEVELS_PER_EPISODE:
                 self.problems.append(f"{self.files.place(files[LEVELS_PER_EPISODE])}: the sixth level of its episode")
             if levels:
-                found[episode] = levels[:LEVELS_PER_EPISODE]
-        return found
+                members[episode] = levels[:LEVELS_PER_EPISODE]
+        return members
 
     def read_pars(self) -> dict[str, Pars]:
         """The table of pars as it stands, by level file. Raises PackError, FileError, OSError."""
@@ -206,12 +206,12 @@ class Pack:
     def pars(self) -> dict[str, Pars]:
         """The pars of levels, by level file; those of a level that was changed since count no more."""
         try:
-            found = self.read_pars()
+            all_pars = self.read_pars()
         except (NinjaGameError, OSError) as error:
             self.problems.append(str(error))
             return {}
-        digests = {file: level_digest(named.level) for file, named in self.levels.items() if file in found}
-        return {file: pars for file, pars in found.items() if digests.get(file, "").startswith(pars.level or "?")}
+        digests = {file: level_digest(named.level) for file, named in self.levels.items() if file in all_pars}
+        return {file: pars for file, pars in all_pars.items() if digests.get(file, "").startswith(pars.level or "?")}
 
     def certificate(self, file: str, kind: str) -> str | None:
         """The name of a level file's certificate, "exit" or "gold"; None where it has none."""
@@ -221,5 +221,5 @@ class Pack:
 
 def episodes_of(path: Path) -> set[str]:
     """The keys of a pack's episodes; none of anything else. Raises as ``Pack`` does."""
-    found = Pack(path).episodes.values() if is_pack(path) else ()
-    return {episode_key(each.level for each in levels) for levels in found}
+    episodes = Pack(path).episodes.values() if is_pack(path) else ()
+    return {episode_key(level.level for level in levels) for levels in episodes}

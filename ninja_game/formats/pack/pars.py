@@ -82,12 +82,12 @@ def parse_pars(text: str, *, file: str = "") -> dict[str, Pars]:
         tables = parse_toml(text)
     except ValueError as error:
         raise PackError(f"no TOML: {error}", file) from None
-    found = {}
+    pars = {}
     for name, table in tables.items():
         if not isinstance(table, dict) or not _is_whole(table):
             raise PackError(f"the pars of {name!r}", file, hint="`ninja-game levels pars` makes the table again")
-        found[name] = Pars(**table)
-    return found
+        pars[name] = Pars(**table)
+    return pars
 
 
 def _is_whole(table: Mapping[str, Any]) -> bool:
@@ -101,10 +101,10 @@ def write_pars(pars: Mapping[str, Pars]) -> str:
     """The table as TOML, one line per level file, in their order."""
     lines = []
     for name in sorted(pars):
-        each = pars[name]
-        values = [f'level = "{each.level}"', f'run = "{each.run}"', f"exit = {each.exit}"]
-        values += [f"gold = {each.gold}"] if each.gold is not None else []
-        values += [f"difficulty = {each.difficulty:.2f}"] if each.difficulty is not None else []
+        par = pars[name]
+        values = [f'level = "{par.level}"', f'run = "{par.run}"', f"exit = {par.exit}"]
+        values += [f"gold = {par.gold}"] if par.gold is not None else []
+        values += [f"difficulty = {par.difficulty:.2f}"] if par.difficulty is not None else []
         lines.append(f"{_key(name)} = {{ {', '.join(values)} }}\n")
     return _HEAD + "".join(lines)
 

@@ -211,16 +211,16 @@ def include_reader(file: str) -> Include | None:
     texts: dict[str, str] = {}
 
     def include(name: str) -> tuple[str, str]:
-        found = read_included(file, name)
-        if not found.path:
+        included = read_included(file, name)
+        if not included.path:
             expected = "a file in the replay's folder or below it"
             raise ReplayError("a file elsewhere", found=repr(name[:40]), expected=expected)
-        if found.text is None:
-            hint = found.problem or "no file of this name is there"
+        if included.text is None:
+            hint = included.problem or "no file of this name is there"
             raise ReplayError("a file that cannot be included", found=repr(name[:40]), hint=hint)
-        texts[found.path] = found.text
+        texts[included.path] = included.text
         if sum(map(len, texts.values())) > MAX_BYTES:
             raise ReplayError("too much included", found=repr(name[:40]), expected=f"{MAX_BYTES >> 20} MiB in all")
-        return found.path, found.text
+        return included.path, included.text
 
     return include

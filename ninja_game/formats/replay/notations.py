@@ -91,8 +91,8 @@ _KEYS = re.compile(r"[0-9a-f]+(:[0-9a-f]+)*")
 
 def is_tas_text(text: str) -> bool:
     """Whether a text may be of one of these notations."""
-    for _, found in numbered_lines(text):
-        line = found.strip()
+    for _, raw in numbered_lines(text):
+        line = raw.strip()
         if not _SKIPPED.fullmatch(line) and not line.startswith("#") and not _ABOUT.fullmatch(line):
             return line.startswith("|") or any(form.fullmatch(line) for form in (_FRAMES, _REPEAT, _READ))
     return False
@@ -105,8 +105,8 @@ def in_our_notation(text: str, file: str = "") -> Iterator[Line]:
     """
     repeats: list[tuple[int, str]] = []
     names: dict[str, int] = {}
-    for number, found in numbered_lines(text):
-        line = found.strip()
+    for number, raw in numbered_lines(text):
+        line = raw.strip()
         if _SKIPPED.fullmatch(line) or _ABOUT.fullmatch(line):
             continue
         if line.startswith("#"):
@@ -168,12 +168,12 @@ def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
     # How many markers there are up to each tick: a line never goes on over one.
     parts = accumulate(tick in names for tick in range(len(inputs)))
     at = 0
-    for (_, keys), ticks in groupby(zip(parts, (each & KEYS_DOWN for each in inputs), strict=True)):
+    for (_, keys), ticks in groupby(zip(parts, (down & KEYS_DOWN for down in inputs), strict=True)):
         if at in names:
             lines.append(f"#{names[at]}")
         count = sum(1 for _ in ticks)
         frames = (min(MOST_FRAMES, count - first) for first in range(0, count, MOST_FRAMES))
-        lines += [",".join([f"{each:>4}", *KEY_NAMES[keys].strip(".")]) for each in frames]
+        lines += [",".join([f"{frame:>4}", *KEY_NAMES[keys].strip(".")]) for frame in frames]
         at += count
     return "".join(f"{line}\n" for line in lines)
 
@@ -214,12 +214,12 @@ def _libtas_word(line: str, file: str, number: int) -> str:
     return in_order(letters)
 
 
-def _celeste_word(found: str, file: str, number: int) -> str:
+def _celeste_word(token: str, file: str, number: int) -> str:
     """The keys behind the frames of a line, as one of our words."""
-    letters = "".join(found.upper().replace(",", " ").split())
+    letters = "".join(token.upper().replace(",", " ").split())
     if not set(letters) <= set("LRJ"):
         hint = "a second jump key would press again what is held: write J" if "K" in letters else "take it out"
-        raise ReplayError("a key that the ninja has not", file, number, 1, repr(found[:40]), "L, R and J", hint)
+        raise ReplayError("a key that the ninja has not", file, number, 1, repr(token[:40]), "L, R and J", hint)
     return in_order(letters)
 
 

@@ -71,7 +71,7 @@ def parse_provenance(text: str) -> Provenance:
     """
     how, _, begun_by = text.partition(_BEGUN)
     if match := _MADE.fullmatch(how):
-        assists, searches = (tuple(filter(None, (match[each] or "").split(", "))) for each in ("assists", "searches"))
+        assists, searches = (tuple(filter(None, (match[kind] or "").split(", "))) for kind in ("assists", "searches"))
         made = Provenance(how.startswith("played"), assists, int(match["edits"] or 0), searches, begun_by)
         if str(made) == text:
             return made

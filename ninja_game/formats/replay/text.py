@@ -316,10 +316,10 @@ def lifetimes(replays: Sequence[Replay]) -> list[int]:
 
     Of replays that pass their levels with the gold and in the tick that they say.
     """
-    found = [LIFETIME]
-    for each in replays:
-        found.append(found[-1] + GOLD_BONUS * each.gold - each.final_tick)
-    return found
+    ticks_left = [LIFETIME]
+    for replay in replays:
+        ticks_left.append(ticks_left[-1] + GOLD_BONUS * replay.gold - replay.final_tick)
+    return ticks_left
 
 
 def parse_episode(text: str, *, file: str = "") -> list[Replay]:

@@ -194,13 +194,13 @@ def bench_source(text: str) -> BenchSource:
 
     Raises ArgumentError for anything else, FileError where the files of the game are not there.
     """
-    found = re.fullmatch(rf"(\w+)(?::({'|'.join(GRADES)}))?(?::([0-9]{{1,6}})(?:-([0-9]{{1,6}}))?)?", text)
-    split, grade, first, last = found.groups() if found else (text.partition(":")[0], None, None, None)
+    match = re.fullmatch(rf"(\w+)(?::({'|'.join(GRADES)}))?(?::([0-9]{{1,6}})(?:-([0-9]{{1,6}}))?)?", text)
+    split, grade, first, last = match.groups() if match else (text.partition(":")[0], None, None, None)
     all_of = numbers = VAL if split == "val" else range(COUNTS.get(split, 0))
     numbers = numbers[int(first) : int(last or first) + 1] if first else numbers
     if grade:
         numbers = numbers[(list(GRADES).index(grade) - numbers.start) % len(GRADES) :: len(GRADES)]
-    if not found or not numbers or int(last or first or 0) >= len(all_of):
+    if not match or not numbers or int(last or first or 0) >= len(all_of):
         expected = f"with grade {', '.join(GRADES)}, or numbers 0 to {len(all_of or VAL) - 1}, or both"
         raise ArgumentError(
             f"found 'bench:{text:.60}'; expected 'bench:train', 'bench:val' or 'bench:test', {expected}"

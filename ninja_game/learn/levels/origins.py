@@ -61,7 +61,7 @@ def level_source(origin: Origin) -> LevelSource:
     if not isinstance(origin, str):
         if not isinstance(origin, Sequence) or not origin:
             raise ArgumentError(f"level is {origin!r:.60}; expected a name, a path, a Level, or several of these")
-        parts = [level_source(each) for each in origin]
+        parts = [level_source(source) for source in origin]
         if len(parts) == 1:
             return parts[0]
         if any(part.largest is not None for part in parts):
@@ -104,9 +104,9 @@ def _split(names: Sequence[str]) -> dict[str, list[str]]:
     }
 
 
-def _named(found: Sequence[NamedLevel]) -> LevelSource:
-    names = [Path(named.file).stem or named.name or "level" for named in found]
-    return LevelSource(names, [named.level for named in found])
+def _named(levels: Sequence[NamedLevel]) -> LevelSource:
+    names = [Path(named.file).stem or named.name or "level" for named in levels]
+    return LevelSource(names, [named.level for named in levels])
 
 
 def _generated(text: str) -> LevelSource:
@@ -128,8 +128,8 @@ def _packed(wanted: str) -> LevelSource:
 
     if wanted and wanted not in map(str, range(1, 11)):
         raise ArgumentError(f"found 'packed:{wanted:.60}'; expected 'packed', or 'packed:1' to 'packed:10'")
-    found = packed.generated_levels(int(wanted) if wanted else None)
-    return LevelSource([f"generated-{each.wanted}-{each.seed}" for each in found], [each.level for each in found])
+    made = packed.generated_levels(int(wanted) if wanted else None)
+    return LevelSource([f"generated-{level.wanted}-{level.seed}" for level in made], [level.level for level in made])
 
 
 def generated_levels(seeds: Iterable[int], difficulty: int) -> LevelSource:
@@ -140,7 +140,7 @@ def generated_levels(seeds: Iterable[int], difficulty: int) -> LevelSource:
     from ninja_game.generator.generate import generate
 
     made = [(seed, generate(seed, difficulty)) for seed in seeds]
-    found = [(f"generated-{difficulty}-{seed}", level.named.level) for seed, level in made if level]
-    if not found:
+    levels = [(f"generated-{difficulty}-{seed}", level.named.level) for seed, level in made if level]
+    if not levels:
         raise ArgumentError(f"none of these seeds gives a level of difficulty {difficulty}; try others")
-    return LevelSource([name for name, _ in found], [level for _, level in found])
+    return LevelSource([name for name, _ in levels], [level for _, level in levels])

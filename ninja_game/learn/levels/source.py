@@ -67,14 +67,14 @@ class LevelSource:
         Raises ArgumentError for others.
         """
         chosen = list(choice) if isinstance(choice, Sequence | np.ndarray) and not isinstance(choice, str) else [choice]
-        found = [self.names.index(each) if isinstance(each, str) and each in self.names else each for each in chosen]
-        for each in found:
-            if not isinstance(each, int | np.integer) or not 0 <= each < len(self.levels):
-                expected = f"0 to {len(self.levels) - 1} or a name: {nearest(str(each), self.names)}"
-                raise ArgumentError(f"there is no level {each!r:.60}; expected {expected}")
-        if len(found) not in (1, count):
-            raise ArgumentError(f"{len(found)} levels for {count} worlds; expected one, or one for each")
-        return np.resize(np.array(found, np.intp), count)
+        numbers = [self.names.index(name) if isinstance(name, str) and name in self.names else name for name in chosen]
+        for level in numbers:
+            if not isinstance(level, int | np.integer) or not 0 <= level < len(self.levels):
+                expected = f"0 to {len(self.levels) - 1} or a name: {nearest(str(level), self.names)}"
+                raise ArgumentError(f"there is no level {level!r:.60}; expected {expected}")
+        if len(numbers) not in (1, count):
+            raise ArgumentError(f"{len(numbers)} levels for {count} worlds; expected one, or one for each")
+        return np.resize(np.array(numbers, np.intp), count)
 
     @property
     def digest(self) -> str:
@@ -199,7 +199,7 @@ class Curriculum(LevelSource):
 def measured_difficulties(source: LevelSource) -> list[float]:
     """The difficulties of levels as the table of the game's own levels has them. Raises ArgumentError for others."""
     pars = parse_pars(read_text(data_folder("levels") / PARS)).values()
-    known = {each.level: each.difficulty for each in pars if each.difficulty is not None}
+    known = {par.level: par.difficulty for par in pars if par.difficulty is not None}
     digests = [level_digest(level)[:DIGITS] for level in source.levels]
     unknown = [name for name, digest in zip(source.names, digests, strict=True) if digest not in known]
     if unknown:

@@ -164,15 +164,15 @@ def observe_objects(
         w = worlds[index]
         n = w.ninja
         base = index * count
-        found = 0
+        count_here = 0
         for object_ in range(bounds[2 * level], bounds[2 * level + 1]):
             o = w.objects[int(slots[object_])]
             if is_there(w, o):
                 x, y = contact_place_of(o)
                 distance = (x - n.x) * (x - n.x) + (y - n.y) * (y - n.y)
-                if found < count or distance < distances[base + count - 1]:
-                    found = min(found + 1, count)
-                    place = base + found - 1
+                if count_here < count or distance < distances[base + count - 1]:
+                    count_here = min(count_here + 1, count)
+                    place = base + count_here - 1
                     while place > base and distance < distances[place - 1]:
                         distances[place] = distances[place - 1]
                         nearest[place] = nearest[place - 1]
@@ -182,7 +182,7 @@ def observe_objects(
         width = len(factors)
         for j in range(offset, offset + count * width):
             out[index, j] = 0.0
-        for rank in range(found):
+        for rank in range(count_here):
             object_ = int(nearest[base + rank])
             o = w.objects[int(slots[object_])]
             at = offset + rank * width

@@ -40,10 +40,10 @@ def parts_of(observation: PartLike | Sequence[PartLike]) -> list[Part]:
     several = isinstance(observation, Sequence) and not isinstance(observation, str)
     given: Any = observation if several else [observation]
     parts = []
-    for each in given:
-        part = PARTS[each]() if isinstance(each, str) and each in PARTS else each
+    for choice in given:
+        part = PARTS[choice]() if isinstance(choice, str) and choice in PARTS else choice
         if not isinstance(part, Part):
-            raise ArgumentError(f"a part of the observation is {each!r:.60}; expected a Part or one of {list(PARTS)}")
+            raise ArgumentError(f"a part of the observation is {choice!r:.60}; expected a Part or one of {list(PARTS)}")
         parts.append(part)
     names = [part.name for part in parts]
     if not parts or len(set(names)) < len(names):

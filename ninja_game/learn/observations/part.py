@@ -175,12 +175,14 @@ def initial_levels(worlds: Worlds, places: Iterable[int]) -> list[InitialLevel]:
     fresh = worlds.fresh
     every = [fresh["objects"][name] for name in ("kind", "x", "y", "partner")]
     tiles, used, ninja = worlds.maps["tiles"], fresh["slots_used"], fresh["ninja"]
-    found = []
+    levels = []
     for place in places:
         columns = [column[place, : used[place]].tolist() for column in every]
         objects = list(map(InitialObject, range(len(columns[0])), *columns))
-        found.append(InitialLevel(tiles[place].tolist(), objects, (float(ninja["x"][place]), float(ninja["y"][place]))))
-    return found
+        levels.append(
+            InitialLevel(tiles[place].tolist(), objects, (float(ninja["x"][place]), float(ninja["y"][place])))
+        )
+    return levels
 
 
 def _initial_level(tiles: Sequence[int], w: World) -> InitialLevel:

@@ -228,20 +228,20 @@ class Pixels(Part):
             return np.rint(np.pad(tiles, margins, constant_values=SAMPLES**2) * (SOLID_SHADE / SAMPLES**2)) * factor
 
         def objects(number: int) -> list[tuple[float, ...]]:
-            found = context.objects(number, *SHADES)
-            return [(o.slot, *sizes[o.kind], SHADES[o.kind] * factor, o.kind not in STILL, o.x, o.y) for o in found]
+            shaded = context.objects(number, *SHADES)
+            return [(o.slot, *sizes[o.kind], SHADES[o.kind] * factor, o.kind not in STILL, o.x, o.y) for o in shaded]
 
         def movers(number: int) -> list[tuple[float, ...]]:
             return [(place,) for place, o in enumerate(context.objects(number, *SHADES)) if o.kind not in STILL]
 
         def later(number: int) -> NDArray[np.int16]:
-            found = np.full((2 * GRID_ROWS, 2 * GRID_COLUMNS), -1, np.int16)
+            grid = np.full((2 * GRID_ROWS, 2 * GRID_COLUMNS), -1, np.int16)
             for place, o in enumerate(context.objects(number, *SHADES)):
                 reach = sizes[o.kind][0] + max(pixel_x, pixel_y) + 2.0 * ROUNDING
                 left, right, top, bottom = cells_of((o.x - reach, o.x + reach, o.y - reach, o.y + reach))
                 if o.kind in STILL:
-                    found[top : bottom + 1, left : right + 1] = place
-            return found
+                    grid[top : bottom + 1, left : right + 1] = place
+            return grid
 
         sizes = {kind.number: (kind.disc or kind.box or PLAIN_SIZE, kind.box is not None) for kind in OBSERVED}
         sizes[kinds.DOOR] = HALF, False

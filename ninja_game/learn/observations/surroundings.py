@@ -91,12 +91,12 @@ def surface_distances(context: PartContext, number: int, reach: float) -> NDArra
     within = solidity(context, number, GRID_COLUMNS, GRID_ROWS) == 1
     squares = ((np.arange(2 * margin) - margin + 0.5) * spacing) ** 2
     shares = sliding_window_view(solid, 2 * margin, axis=1)[:, FINE // 2 :: FINE][:, :GRID_COLUMNS]
-    found = []
+    surfaces = []
     for wanted in (1, 0):
         along = np.where(shares == wanted, squares, np.inf).min(axis=2)
         rows = sliding_window_view(along, 2 * margin, axis=0)[FINE // 2 :: FINE][:GRID_ROWS]
-        found.append(np.sqrt((rows + squares).min(axis=2)))
-    outside, inside = np.minimum(found, reach)
+        surfaces.append(np.sqrt((rows + squares).min(axis=2)))
+    outside, inside = np.minimum(surfaces, reach)
     distances: NDArray[np.float64] = np.where(within, -inside, outside)
     return distances
 

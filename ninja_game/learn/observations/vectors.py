@@ -87,8 +87,8 @@ class StateVector(Part):
 
         def exits(number: int) -> list[tuple[float, ...]]:
             switches = context.fresh[number].objects
-            found = context.objects(number, EXIT)
-            return [(o.slot, o.x, o.y, switches[o.partner].x, switches[o.partner].y) for o in found]
+            seen = context.objects(number, EXIT)
+            return [(o.slot, o.x, o.y, switches[o.partner].x, switches[o.partner].y) for o in seen]
 
         box = self.box
         factors = [1.0 / scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()]

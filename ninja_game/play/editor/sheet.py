@@ -99,7 +99,7 @@ class LevelSheet:
         sprites = before | self.pictures.sprites_of(spec for spec in draft.objects if spec not in before)
         self._looks = {spec: sprites[spec] for spec in draft.objects}
         self._order = [sprites[spec] for spec in sorted(self._looks, key=lambda obj: _FRONT.get(obj.kind, 0))]
-        self._rects = [each.rect for each in self._order]
+        self._rects = [sprite.rect for sprite in self._order]
         self._dirty += [sprites[spec].rect for spec in before.keys() ^ self._looks.keys()]
 
     def show_marks(self, marks: dict[Hashable, LevelMark]) -> None:

@@ -75,7 +75,7 @@ class CellsTouched(Figure):
 
     def numbers(self) -> list[tuple[str, str]]:
         cell, touched = self.cell, touched_cells(self.x, self.y, self.cell)
-        names = [f"({COLUMN[each]}, {ROW[each]})" for each in touched]
+        names = [f"({COLUMN[number]}, {ROW[number]})" for number in touched]
         return [
             ("centre", f"{self.x:.1f}, {self.y:.1f} px"),
             ("current cell", f"column {COLUMN[cell]}, row {ROW[cell]}, index {cell}"),
@@ -206,13 +206,13 @@ class RayCast(Figure):
         """The slots of the gold that the ray really meets before it stops: in cells that it visits, and in others."""
         cells, (_, stopped, end) = set(self.visited), self.asked()
         reach = dist((self.from_x, self.from_y), end) if stopped else 1e9
-        found: tuple[list[int], list[int]] = ([], [])
+        pairs: tuple[list[int], list[int]] = ([], [])
         for slot in range(1, self.world.id_count + 1):
             o = self.world.objects[slot]
             hit, x, y = ray_circle(self.from_x, self.from_y, *self.direction, o.x, o.y, GOLD_RADIUS)
             if hit and dist((self.from_x, self.from_y), (x, y)) <= reach:
-                found[o.cell not in cells].append(slot)
-        return found
+                pairs[o.cell not in cells].append(slot)
+        return pairs
 
     def numbers(self) -> list[tuple[str, str]]:
         asked, stopped, (x, y) = self.asked()

@@ -233,13 +233,13 @@ class WalkingEnemies(Figure):
         if o.slot not in self.decided:
             return []
         cell, direction, movement = self.decided[o.slot]
-        found = []
+        tries = []
         for rotation in ROTATIONS[4 * movement : 4 * movement + 4]:
             candidate = (max(direction, 0) + rotation) % 4
-            found.append((candidate, self.stage.world.edges[4 * cell + candidate]))
+            tries.append((candidate, self.stage.world.edges[4 * cell + candidate]))
             if tiles.NEIGHBOUR_OFFSET[candidate] + cell == cell_at(o.goal_x, o.goal_y):
                 break
-        return found
+        return tries
 
     def numbers(self) -> list[tuple[str, str]]:
         rows = []

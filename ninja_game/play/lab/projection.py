@@ -112,7 +112,7 @@ class Projection(Figure):
         push = self.push()
         (x, y), (to_x, to_y) = push.points[0], push.points[-1]
         pushes = [call.arguments for call in push.calls if call.name == PUSH]
-        normals = ", ".join(f"({each['mx']:.2f}, {each['my']:.2f})" for each in pushes)
+        normals = ", ".join(f"({contact['mx']:.2f}, {contact['my']:.2f})" for contact in pushes)
         return [
             ("pair", f"{tile_name(self.tile)} with {'box' if self.box else 'circle'}"),
             ("rules that ran", " > ".join(push.ran[:2]) or "none: every edge is off"),
@@ -157,7 +157,9 @@ class Response(Projection):
     def contacts(self) -> list[str]:
         """What each normal means to the rules, in the order of the pushes."""
         normals = [call.arguments for call in self.push().calls if call.name == "note_normal"]
-        return ["wall" if each["my"] == 0.0 else "floor" if each["my"] < 0.0 else "a push only" for each in normals]
+        return [
+            "wall" if normal["my"] == 0.0 else "floor" if normal["my"] < 0.0 else "a push only" for normal in normals
+        ]
 
     def numbers(self) -> list[tuple[str, str]]:
         push, (x, y) = self.push(), self.origin

@@ -117,7 +117,7 @@ def _reached(play: LevelPlay) -> list[str]:
     clock = [f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"] * play.context.carries_clock
     # Of a first pass all is new, and the medal and the gold are said already.
     first = FIRST_PASS in play.notices
-    news = [each for each in play.notices if each != NEW_ALL_GOLD and not (first and each in OF_A_LEVEL)]
+    news = [notice for notice in play.notices if notice != NEW_ALL_GOLD and not (first and notice in OF_A_LEVEL)]
     brought = "    ".join([*[gold] * bool(play.all_gold), *news])
     return [*medal, *following, *[brought] * bool(brought), *clock]
 

@@ -104,6 +104,6 @@ def _ways(tiles: tuple[int, ...]) -> tuple[list[int], list[int]]:
             for first in range(0, len(tiles), ROWS)]  # fmt: skip
     along = [all_rows, *(a | b | c for a, b, c in zip(full, full[1:], full[2:], strict=False)), all_rows]
     edges = 1 | 1 << ROWS - 1
-    return [~each & all_rows for each in full], [
-        (near | near << 1 | near >> 1 | edges) & ~each & all_rows for near, each in zip(along, full, strict=True)
+    return [~solid & all_rows for solid in full], [
+        (near | near << 1 | near >> 1 | edges) & ~solid & all_rows for near, solid in zip(along, full, strict=True)
     ]

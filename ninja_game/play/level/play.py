@@ -112,7 +112,7 @@ class LevelPlay:
         )
         level, way = context.beginning() if context.sayings() else (context.level, b"")
         world = self.attempt.simulation.world if level == context.level else Simulation(level).world
-        self.things = things_at_start(level, world, [each.text for each in context.sayings()], way)
+        self.things = things_at_start(level, world, [saying.text for saying in context.sayings()], way)
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold

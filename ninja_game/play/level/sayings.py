@@ -66,7 +66,7 @@ class Sayings:
 
     def __init__(self, sayings: Sequence[LevelMessage], *, helps: bool = False) -> None:
         self._sayings = sayings
-        self.named = arrow_targets(each.text for each in sayings)
+        self.named = arrow_targets(saying.text for saying in sayings)
         self.helps = helps
         self._again = helps
         self._said: set[LevelMessage] = set()
@@ -77,7 +77,7 @@ class Sayings:
 
     def at_start(self) -> None:
         """To be called when the level waits at its start."""
-        due = [each for each in self._sayings if each.when == "death" and each.deaths == self._deaths]
+        due = [saying for saying in self._sayings if saying.when == "death" and saying.deaths == self._deaths]
         self._say(*_in_turn([*due, *self._starts()]))
         self._still = self._quiet = 0
         self._jumped_at = self._wall = 0.0
@@ -88,17 +88,17 @@ class Sayings:
 
     def _say_first(self, *texts: _Text) -> None:
         """Say this, then go on with what it interrupts and what waits; not with the start's once the exit is open."""
-        over = {each.text for each in self._said if each.when == "start"}.union(text for text, *_ in texts)
+        over = {saying.text for saying in self._said if saying.when == "start"}.union(text for text, *_ in texts)
         now = [(self.text, self._left, self.place)] if self.is_start or self._unread > 0 else []
-        self._say(*texts, *(each for each in (*now, *self._next) if each[0] and each[0] not in over))
+        self._say(*texts, *(line for line in (*now, *self._next) if line[0] and line[0] not in over))
 
     def _starts(self) -> list[LevelMessage]:
-        return [each for each in self._sayings if each.when == "start" and each not in self._said]
+        return [saying for saying in self._sayings if saying.when == "start" and saying not in self._said]
 
     @property
     def is_start(self) -> bool:
         """Whether the present text is one of the start."""
-        return self.text in [each.text for each in self._starts()]
+        return self.text in [saying.text for saying in self._starts()]
 
     @property
     def seen(self) -> float:
@@ -126,9 +126,9 @@ class Sayings:
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
         if "switch" in happened:
             # The goal is understood: no need to say how it begins again.
-            self._said.update(each for each in self._sayings if each.when == "start")
-        new = [each for each in self._sayings if each.when in happened or _is_near(world, each.place)]
-        if new := [each for each in new if each not in self._said]:
+            self._said.update(saying for saying in self._sayings if saying.when == "start")
+        new = [saying for saying in self._sayings if saying.when in happened or _is_near(world, saying.place)]
+        if new := [saying for saying in new if saying not in self._said]:
             self._said.update(new)
             self._say_first(*_in_turn(new))
         if self._again and self._is_stuck(world):
@@ -170,7 +170,7 @@ def shown_ticks(when: str, together: int) -> int:
 
 
 def _in_turn(sayings: Sequence[LevelMessage]) -> list[_Text]:
-    return [(each.text, shown_ticks(each.when, len(sayings)), each.place) for each in sayings]
+    return [(saying.text, shown_ticks(saying.when, len(sayings)), saying.place) for saying in sayings]
 
 
 def _is_near(world: World, place: Point | None, near: float = NEAR) -> bool:

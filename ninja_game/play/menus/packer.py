@@ -189,7 +189,7 @@ class PackStatus:
         levels, checked = self.pack.levels if self.pack else [], self.checked
         states = [self.state(level) for level in levels]
         known = checked.to_do if checked and self.findings is not None else []
-        certify, gold = sum(map(states.count, NOT_CERTIFIED)), [each.code for each in known].count("no-gold-run")
+        certify, gold = sum(map(states.count, NOT_CERTIFIED)), [finding.code for finding in known].count("no-gold-run")
         work = {"certify": (certify, "level"), "measure": (certify + states.count("certified"), "medal time")}
         work["look for all gold in"] = gold, "level"
         parts = [f"{what} {counted(*count)}" for what, count in work.items() if count[0]]

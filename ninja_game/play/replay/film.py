@@ -90,10 +90,10 @@ class Film:
         runs = self.run, *self.beside
         wanted = self.first + MOST_PICTURES // len(runs) if self.last is None else self.last
         # What comes after the last picture is not run.
-        found = [
+        ends = [
             Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0).find_end(wanted + 1) for run in runs
         ]
-        end = max(wanted + 1 if each is None else each + _TAIL for each in found)
+        end = max(wanted + 1 if tick is None else tick + _TAIL for tick in ends)
         if self.last is None and end > wanted:
             raise ArgumentError(f"the film has more than {MOST_PICTURES:,} pictures; name its last tick: --to")
         last = min(wanted, end)
@@ -112,17 +112,17 @@ def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film
 
     Raises ArgumentError for an empty part.
     """
-    found, before = [], 0
+    sections, before = [], 0
     for film in films:
         count = len(film.moments)
         start, end = max(0, first - before), count - 1 if last is None else min(count - 1, last - before)
         if start <= end:
             # With what is known already the runs are not simulated once more.
-            found.append(replace(film, first=start, last=end, known=film.moments[start : end + 1]))
+            sections.append(replace(film, first=start, last=end, known=film.moments[start : end + 1]))
         before += count
-    if not found:
+    if not sections:
         raise ArgumentError(f"a film from tick {first} to {last} has no pictures; there are {before:,}")
-    return found
+    return sections
 
 
 class _Panel:
@@ -131,7 +131,7 @@ class _Panel:
     def __init__(self, film: Film, run: Recording, splits: Sequence[tuple[int, str]]) -> None:
         context = OffscreenContext(film.size, film.settings)
         self.film, self.run, self.splits, self.time = film, run, splits, 0
-        alike = [each.title for each in (film.run, *film.beside)].count(run.title) > 1
+        alike = [other.title for other in (film.run, *film.beside)].count(run.title) > 1
         self.title = run.title + f", {run.place}" * (alike and bool(run.place))
         self.playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
         self.view = LevelView(context, self.playback.simulation)
@@ -175,8 +175,8 @@ class _Panel:
         covered += hud.foot(surface, hud.theme.fit("; ".join(words), room, self.letters), "", self.letters)
         if self.film.keys:
             covered.append(hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))
-        for each in covered:
-            self.view.also_covered(each)
+        for rect in covered:
+            self.view.also_covered(rect)
 
 
 def _called(runs: Sequence[Recording]) -> list[str]:
@@ -188,14 +188,14 @@ def _called(runs: Sequence[Recording]) -> list[str]:
 
 def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
     """Tick and text of each split of a run: how many ticks later (+) or earlier (-) the others have it."""
-    found, names = [], _called([each.recording for each in (own, *others)])[1:]
+    texts, names = [], _called([run.recording for run in (own, *others)])[1:]
     for split in own.splits:
         words = [split.name]
-        for each, name in zip(others, names, strict=True):
-            there = each.by_key.get(split.key)
+        for other, name in zip(others, names, strict=True):
+            there = other.by_key.get(split.key)
             words.append(f"{name} {there.tick - split.tick:+d}" if there else f"{name} never")
-        found.append((split.tick, ", ".join(words)))
-    return found
+        texts.append((split.tick, ", ".join(words)))
+    return texts
 
 
 def film_pictures(film: Film) -> Iterator[pygame.Surface]:
@@ -207,9 +207,9 @@ def film_pictures(film: Film) -> Iterator[pygame.Surface]:
 
         events = SPLIT_EVENTS if film.gold else SPLIT_EVENTS[1:]
 
-        first, *others = [run_splits(each, events, memory="auto") for each in (*runs, *film.ghosts)]
-        splits = [split_texts(first, others), *(split_texts(each, [first]) for each in others[: len(film.beside)])]
-    panels = [_Panel(film, *each) for each in zip(runs, splits, strict=True)]
+        first, *others = [run_splits(run, events, memory="auto") for run in (*runs, *film.ghosts)]
+        splits = [split_texts(first, others), *(split_texts(other, [first]) for other in others[: len(film.beside)])]
+    panels = [_Panel(film, *pair) for pair in zip(runs, splits, strict=True)]
     panels[0].follow(film.ghosts)
     surface = pygame.Surface(film.whole_size)
     places = [surface.subsurface((number % 2 * w, number // 2 * h, w, h)) for number in range(len(runs))]
@@ -345,19 +345,19 @@ def film_colours(palette: Palette, ghosts: int = 0) -> list[int]:
     The same ones in every picture, so that nothing flickers.
     """
     roles = [getattr(palette, role) for role in ROLES]
-    found = [*roles]
+    colours = [*roles]
     for share in (0.33, 0.66):
-        found += [mixed(colour, palette.background, share) for colour in roles]
-    found += [mixed(colour, palette.background, share) for colour in RUN_COLOURS[:ghosts] for share in (0.0, 0.55)]
-    found += [mixed(colour, palette.outline, 0.5) for colour in roles]
-    found += [mixed(palette.tile, palette.background, k / 12) for k in range(1, 12)]
-    found += [mixed(palette.tile, palette.on_tile, k / 6) for k in range(1, 6)]
+        colours += [mixed(colour, palette.background, share) for colour in roles]
+    colours += [mixed(colour, palette.background, share) for colour in RUN_COLOURS[:ghosts] for share in (0.0, 0.55)]
+    colours += [mixed(colour, palette.outline, 0.5) for colour in roles]
+    colours += [mixed(palette.tile, palette.background, k / 12) for k in range(1, 12)]
+    colours += [mixed(palette.tile, palette.on_tile, k / 6) for k in range(1, 6)]
     if palette.scenery:
         behind = [getattr(palette, role) for role in GROUND_ROLES]
-        found += [mixed(one, other, k / 12) for one, other in pairwise(behind) for k in range(1, 12)]
+        colours += [mixed(one, other, k / 12) for one, other in pairwise(behind) for k in range(1, 12)]
         lights = sorted({style.role for style in (*STYLES.values(), EXIT_OPEN)})
-        found += [mixed(palette.near, getattr(palette, role), k / 16) for role in lights for k in (1, 2, 3, 5, 7)]
-    return [channel for colour in found[:256] for channel in colour[:3]]
+        colours += [mixed(palette.near, getattr(palette, role), k / 16) for role in lights for k in (1, 2, 3, 5, 7)]
+    return [channel for colour in colours[:256] for channel in colour[:3]]
 
 
 class FilmJob:

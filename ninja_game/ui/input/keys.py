@@ -126,8 +126,8 @@ class HeldKey(Generic[T]):
     def due(self, real_ms: int) -> list[T]:
         """What is to be done after so much more real time, once for each time."""
         self._again_in -= min(real_ms, LONGEST_STEP_MS)
-        found = []
+        actions = []
         while self.what is not None and self._again_in <= 0:
             self._again_in += self._every
-            found.append(self.what)
-        return found
+            actions.append(self.what)
+        return actions

@@ -37,8 +37,8 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
         if soft:
             # Made small and large again.
             few = [max(1, round(length / soft / sheet.canvas.scale)) for length in size]
-            for each in ([2 * number for number in few], few, size):
-                taken = pygame.transform.smoothscale(taken, each)
+            for numbers in ([2 * number for number in few], few, size):
+                taken = pygame.transform.smoothscale(taken, numbers)
         else:
             edge = taken.copy()
         edge.blit(taken, (0, step), special_flags=pygame.BLEND_RGBA_SUB)

@@ -21,7 +21,7 @@ from ninja_game.view.sprites.object_animation import ObjectAnimation
 
 def open_exit(world: World) -> None:
     """Open the first exit of a world that is only looked at."""
-    for exit_ in [each for each in world.objects[1:] if each.kind == EXIT][:1]:
+    for exit_ in [obj for obj in world.objects[1:] if obj.kind == EXIT][:1]:
         exit_.is_open = True
 
 

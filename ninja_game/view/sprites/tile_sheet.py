@@ -87,16 +87,16 @@ class TileSheet:
     def on_tiles(self, areas: Iterable[pygame.Rect]) -> list[pygame.Rect]:
         """Those areas of which any px may be a tile's."""
         # At once, since a picture asks for a hundred.
-        (left, top), size, rows, found = self._shift, 24 * self.canvas.scale, self._rows, []
+        (left, top), size, rows, rects = self._shift, 24 * self.canvas.scale, self._rows, []
         for area in areas:
             x, y, w, h = area
             x, y = x - left, y - top
             columns = (1 << max(0, int((x + w) / size) + 1)) - (1 << max(0, int(x / size)))
             for row in rows[max(0, int(y / size)) : max(0, int((y + h) / size) + 1)]:
                 if row & columns:
-                    found.append(area)
+                    rects.append(area)
                     break
-        return found
+        return rects
 
 
 H = 12.0

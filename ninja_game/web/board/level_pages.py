@@ -124,8 +124,8 @@ class LevelPages:
         parts = [rows[first : first + PER_PAGE] for first in range(0, len(rows), PER_PAGE)] or [()]
         names = [f"{name}{f'-{number}' if number > 1 else ''}.html" for number in range(1, len(parts) + 1)]
         turns = [
-            tag("a", f"Page {number}", href=up + each, aria_label=f"{title}, page {number} of {len(names)}")
-            for number, each in enumerate(names, 1)
+            tag("a", f"Page {number}", href=up + file, aria_label=f"{title}, page {number} of {len(names)}")
+            for number, file in enumerate(names, 1)
         ]
         for number, (file, part) in enumerate(zip(names, parts, strict=True)):
             lead = () if number else before

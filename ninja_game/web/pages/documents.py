@@ -134,12 +134,12 @@ class Documents:
         self._write(page_name, title, [*top, body, *self._neighbours(name)], figures=figures)
 
     def _neighbours(self, name: str) -> list[Content]:
-        chapters = [each for each in self.markdown if each.startswith("docs/learn/") and not each.endswith("README.md")]
+        chapters = [path for path in self.markdown if path.startswith("docs/learn/") and not path.endswith("README.md")]
         if name not in chapters:
             return []
         at = chapters.index(name)
         near = (("Before: ", chapters[at - 1] if at else ""), ("Next: ", (*chapters[at + 1 :], "")[0]))
-        links = [tag("a", word + self.markdown[each][0], href=Path(page_of(each)).name) for word, each in near if each]
+        links = [tag("a", word + self.markdown[page][0], href=Path(page_of(page)).name) for word, page in near if page]
         return [tag("nav", *links, class_="near", aria_label="Chapters")]
 
     def _index_words(self, page_name: str, title: str, tokens: list[Token]) -> None:
@@ -160,7 +160,7 @@ class Documents:
 
     def _rewrite_links(self, name: str, tokens: list[Token]) -> bool:
         """Turn links, pictures and paragraphs into what they are in the site; whether a figure is among them."""
-        found = False
+        has_pictures = False
         for at, token in enumerate(tokens):
             opened = ""
             sources = []
@@ -173,10 +173,10 @@ class Documents:
                 elif child.type == "link_close":
                     child.tag = opened
                 elif child.type == "image":
-                    found |= self._picture(child, name)
+                    has_pictures |= self._picture(child, name)
             if token.type == "inline" and tokens[at - 1].type == "paragraph_open":
                 _replace_paragraph(tokens[at - 1], token, tokens[at + 1], sources, Path(name).parent)
-        return found
+        return has_pictures
 
     def _address(self, link: str, name: str) -> str:
         """Where a link of a document leads in the site; "" for what is not here."""
@@ -239,11 +239,11 @@ class Documents:
     def _source(self, name: str) -> None:
         path = (PACKAGE.parent if name.startswith(PACKAGE.name) else data_folder("docs").parent) / name
         if path.is_dir():
-            inside = sorted(each for each in path.iterdir() if each.is_dir() or each.suffix == ".py")
-            names = [f"{name}/{each.name}" for each in inside if not each.name.startswith(("_", "."))]
+            inside = sorted(file for file in path.iterdir() if file.is_dir() or file.suffix == ".py")
+            names = [f"{name}/{file.name}" for file in inside if not file.name.startswith(("_", "."))]
             self._sources |= set(names)
             start = Path(page_of(name)).parent.as_posix()
-            rows = [tag("li", tag("a", Path(each).name, href=relpath(page_of(each), start))) for each in names]
+            rows = [tag("li", tag("a", Path(other).name, href=relpath(page_of(other), start))) for other in names]
             self._write(page_of(name), name, [tag("ul", *rows)])
         else:
             text = path.read_text("utf-8")
@@ -260,7 +260,7 @@ def _plain(token: Token) -> str:
     """The text of a token without marks."""
     if token.type == "fence":
         return token.content
-    return "".join(" " if each.type == "softbreak" else each.content for each in token.children or ())
+    return "".join(" " if part.type == "softbreak" else part.content for part in token.children or ())
 
 
 def _add_anchors(tokens: list[Token]) -> Iterator[tuple[str, str]]:
@@ -282,7 +282,7 @@ def _film(path: Path) -> dict[str, bytes]:
 
     film, still = BytesIO(), BytesIO()
     with Image.open(path) as gif:
-        first, *others = [each.convert("RGB") for each in ImageSequence.Iterator(gif)][::2]
+        first, *others = [image.convert("RGB") for image in ImageSequence.Iterator(gif)][::2]
         pace = 2 * gif.info["duration"]
     first.save(film, "webp", save_all=True, append_images=others, duration=pace, loop=0, quality=30, method=4)
     others[len(others) // 2].quantize(64).save(still, "png")
@@ -311,7 +311,7 @@ def _replace_paragraph(
     elif token.content.startswith("**Answer.**"):
         before.type = after.type = "html_block"
         before.content, after.content = "<details><summary>Answer</summary><p>", "</p></details>"
-        del children[: next(place for place, each in enumerate(children) if each.type == "strong_close") + 1]
+        del children[: next(place for place, item in enumerate(children) if item.type == "strong_close") + 1]
 
 
 def _function(folder: Path, link: str, address: str) -> Markup:
@@ -341,8 +341,8 @@ def _highlighted(text: str, lang: str, about: str = "") -> str:
 
 def _definitions(text: str) -> Mapping[str, ast.FunctionDef | ast.ClassDef]:
     """The functions and classes of a file; methods too, by their names."""
-    found: dict[str, ast.FunctionDef | ast.ClassDef] = {}
+    definitions: dict[str, ast.FunctionDef | ast.ClassDef] = {}
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
-            found.setdefault(node.name, node)
-    return found
+            definitions.setdefault(node.name, node)
+    return definitions

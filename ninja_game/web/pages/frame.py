@@ -41,7 +41,7 @@ def joined(*contents: Content) -> Markup:
     >>> joined("a < b", None, 7)
     'a &lt; b7'
     """
-    return Markup("".join(_escaped(each) for each in contents if each is not None))
+    return Markup("".join(_escaped(content) for content in contents if content is not None))
 
 
 def _escaped(content: Content) -> str:
@@ -249,7 +249,7 @@ def table(caption: str, heads: Iterable[str], rows: Iterable[Iterable[Content]])
     """A table with its caption, of the columns with something in them; it scrolls by itself where it is too wide."""
     cells = [list(row) for row in rows]
     filled = [any(cell not in ("", None) for cell in column) for column in zip(*cells, strict=True)] or repeat(True)
-    head = tag("tr", *(tag("th", _wrapping(each, _LONGEST_HEAD), scope="col") for each in compress(heads, filled)))
+    head = tag("tr", *(tag("th", _wrapping(cell, _LONGEST_HEAD), scope="col") for cell in compress(heads, filled)))
     lines = [tag("tr", *(tag("td", _wrapping(cell)) for cell in compress(row, filled))) for row in cells]
     whole = tag("table", tag("caption", caption), tag("thead", head), tag("tbody", *lines))
     return tag("div", whole, class_="wide", tabindex="0", role="region", aria_label=caption)

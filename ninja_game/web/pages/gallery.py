@@ -48,10 +48,10 @@ class PublishedLevels:
     @cached_property
     def entries(self) -> dict[str, Entry]:
         """The levels by digest, in playing order; of equal ones the first."""
-        found: dict[str, Entry] = {}
+        by_key: dict[str, Entry] = {}
         for entry in self.levels.levels:
-            found.setdefault(entry.digest, entry)
-        return found
+            by_key.setdefault(entry.digest, entry)
+        return by_key
 
     @cached_property
     def runs(self) -> Mapping[str, Mapping[str, Recording]]:
@@ -69,16 +69,16 @@ def published_levels(path: Path) -> PublishedLevels:
 
 
 def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:
-    found = {}
+    certificates = {}
     for kind in KINDS:
         name = pack.certificate(Path(entry.named.file).name, kind)
         if name is not None:
             try:
-                (found[kind],) = parse_replays(pack.files.text(name), level=entry.named.level)
+                (certificates[kind],) = parse_replays(pack.files.text(name), level=entry.named.level)
             except NinjaGameError:
                 # `levels lint` tells what is wrong with it; the page does without.
                 continue
-    return found
+    return certificates
 
 
 def page_name(digest: str) -> str:
@@ -310,7 +310,7 @@ def _list(shown: PublishedLevels) -> list[Content]:
 
 def _episodes(shown: PublishedLevels) -> Mapping[str, str]:
     """Numbers and names of the episodes."""
-    return {f"{number:02d}": f"{number}: {each.name}" for number, each in sorted(shown.levels.episodes.items())}
+    return {f"{number:02d}": f"{number}: {episode.name}" for number, episode in sorted(shown.levels.episodes.items())}
 
 
 def search(episodes: Mapping[str, str]) -> Markup:
@@ -320,8 +320,8 @@ def search(episodes: Mapping[str, str]) -> Markup:
     select = tag("label", "Episode ", tag("select", tag("option", "all", value=""), *chosen, name="episode"))
     sort = tag("label", "Sort ", tag("select", *options, name="sort"))
     field = tag("label", "Search ", tag("input", type="search", name="words", autocomplete="off"))
-    found = tag("p", role="status", class_="found")
-    fields = (field, select if episodes else None, sort, found)
+    status = tag("p", role="status", class_="found")
+    fields = (field, select if episodes else None, sort, status)
     return tag("form", *fields, class_="search", role="search", hidden=True)
 
 

@@ -26,7 +26,7 @@ def program() -> str:
     """Digest of what decides what is remembered: all code of the package, and what pages are made of."""
     here = Path(__file__).parent
     files = sorted({*here.parents[1].rglob("*.py"), *here.glob("*.*")})
-    return digest_of([sha256(each.read_bytes()).hexdigest() for each in files])
+    return digest_of([sha256(file.read_bytes()).hexdigest() for file in files])
 
 
 class Memo:
@@ -40,8 +40,8 @@ class Memo:
         self._before: dict[str, Any] = {}
         self._now: dict[str, Any] = {}
         try:
-            found = json.loads(read_bytes(path, MOST_BYTES)) if path else {}
-            self._before = found if isinstance(found, dict) else {}
+            pages = json.loads(read_bytes(path, MOST_BYTES)) if path else {}
+            self._before = pages if isinstance(pages, dict) else {}
         except (*DAMAGED, OSError):
             pass
 

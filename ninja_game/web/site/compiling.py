@@ -20,7 +20,9 @@ UNCHECKED = MAGIC_NUMBER + (1).to_bytes(4, "little") + bytes(8)
 
 def without_lines(code: CodeType) -> CodeType:
     """Code without line numbers: entries that say so, each for up to eight units of code."""
-    inner = tuple(without_lines(each) if isinstance(each, CodeType) else each for each in code.co_consts)
+    inner = tuple(
+        without_lines(constant) if isinstance(constant, CodeType) else constant for constant in code.co_consts
+    )
     eights, rest = divmod(len(code.co_code) // 2, 8)
     return code.replace(co_consts=inner, co_linetable=b"\xff" * eights + bytes([0xF7 + rest] * (rest > 0)))
 

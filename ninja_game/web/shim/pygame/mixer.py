@@ -51,7 +51,7 @@ class Sound:
 
     def play(self) -> Channel | None:
         """Play it once on a free channel, which this gives."""
-        free = next((each for each in _Mixer.channels[_Mixer.reserved :] if not each.get_busy()), None)
+        free = next((channel for channel in _Mixer.channels[_Mixer.reserved :] if not channel.get_busy()), None)
         if free is not None:
             free.play(self)
         return free

@@ -80,7 +80,7 @@ class Rect:
 
     def collidelistall(self, others: Sequence[Rect]) -> list[int]:
         x, y, right, bottom = self.x, self.y, self.x + self.w, self.y + self.h
-        boxes = enumerate((each.x, each.y, each.w, each.h) for each in others) if self else ()
+        boxes = enumerate((rect.x, rect.y, rect.w, rect.h) for rect in others) if self else ()
         return [k for k, (a, b, w, h) in boxes if a < right and x < a + w and b < bottom and y < b + h and w and h]
 
     def collidelist(self, others: Any) -> int:
