@@ -8,7 +8,7 @@ from random import Random
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.levels.episodes import Entry
 from ninja_game.play.app import App
-from ninja_game.play.level.play import Phase
+from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.playthrough import LevelRun, PacedRun
 from ninja_game.sim import kinds

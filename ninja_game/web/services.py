@@ -15,7 +15,7 @@ from ninja_game.budget import PAGE_BUDGET, TURN_WORK
 from ninja_game.errors import BudgetError, NinjaGameError
 from ninja_game.formats.links import is_link, watched
 from ninja_game.play.app import App
-from ninja_game.play.level.play import Phase
+from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen, watch_screen
 from ninja_game.play.menus.main_menu import MainMenu

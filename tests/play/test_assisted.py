@@ -7,7 +7,7 @@ import pytest
 
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.level.play import Phase
+from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.help import Page, read_pages
 from ninja_game.play.rooms import room_level

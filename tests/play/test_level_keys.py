@@ -13,7 +13,7 @@ from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, Screen
 from ninja_game.play.level.hud_view import hud_view
-from ninja_game.play.level.play import DEATH_PAUSE, LATE_JUMP, Phase
+from ninja_game.play.level.level_play import DEATH_PAUSE, LATE_JUMP, Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.player.playthrough import EpisodeRun, FileRun

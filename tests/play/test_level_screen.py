@@ -14,7 +14,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
 from ninja_game.play.level.hud import Hud, bar_length
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
-from ninja_game.play.level.play import DEATH_PAUSE, Phase
+from ninja_game.play.level.level_play import DEATH_PAUSE, Phase
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import FileRun

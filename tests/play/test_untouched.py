@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from ninja_game.formats.load import load_replays
-from ninja_game.play.level.play import Phase
+from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.playthrough import PacedRun
 from ninja_game.simulation import Simulation

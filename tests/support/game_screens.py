@@ -79,7 +79,7 @@ exit 28,20 switch 10,21
 """
 """A level in which everything that shoots sees the ninja."""
 
-WITHOUT_CHANCE = ("ninja_game.play.menus.main_menu.Random", "ninja_game.play.level.play.Random")
+WITHOUT_CHANCE = ("ninja_game.play.menus.main_menu.Random", "ninja_game.play.level.level_play.Random")
 DATE = "2026-02-03T04:05:06+00:00"
 
 

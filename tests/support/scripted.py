@@ -14,7 +14,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.episodes import Entry
 from ninja_game.play.app import App, build_app
-from ninja_game.play.level.play import Phase
+from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim.level import Level

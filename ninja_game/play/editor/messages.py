@@ -31,8 +31,8 @@ from ninja_game.levels.warnings import Ground, unseen_messages
 from ninja_game.play.app import App
 from ninja_game.play.level.hud import Hud, HudView, Said
 from ninja_game.play.level.hud_view import named_in
+from ninja_game.play.level.level_play import things_at_start
 from ninja_game.play.level.places import Things
-from ninja_game.play.level.play import things_at_start
 from ninja_game.play.level.sayings import shown_ticks
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
 from ninja_game.sim.level import Level

@@ -9,8 +9,8 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.messages import named_keys
 from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.play.level.hud import EndPanel, HudView, Said
+from ninja_game.play.level.level_play import STAMP_TICKS, LevelPlay, Phase
 from ninja_game.play.level.places import MUST, Things
-from ninja_game.play.level.play import STAMP_TICKS, LevelPlay, Phase
 from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
 from ninja_game.player.playthrough import Navigation

@@ -16,7 +16,7 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_level_link, copy_link
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.hud_view import hud_view
-from ninja_game.play.level.play import DEATH_PAUSE, LATE_JUMP, STUCK_AFTER, LevelPlay, Phase
+from ninja_game.play.level.level_play import DEATH_PAUSE, LATE_JUMP, STUCK_AFTER, LevelPlay, Phase
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.menu_screen import Menu, Panel, Row, nothing
 from ninja_game.play.menus.passed import EpisodePassed

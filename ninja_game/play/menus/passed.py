@@ -12,7 +12,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Episode
 from ninja_game.play.app import App
 from ninja_game.play.level.hud_view import SHINE_TICKS
-from ninja_game.play.level.play import STAMP_TICKS
+from ninja_game.play.level.level_play import STAMP_TICKS
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal

@@ -14,8 +14,8 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, Said
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
+from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER, Phase
 from ninja_game.play.level.places import MUST, solid_place, tag_top
-from ninja_game.play.level.play import DEATH_PAUSE, STUCK_AFTER, Phase
 from ninja_game.play.level.sayings import (
     CLIMB,
     CLIMBED,

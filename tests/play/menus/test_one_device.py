@@ -8,7 +8,7 @@ import pytest
 from ninja_game.play.app import Screen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
-from ninja_game.play.level.play import Phase
+from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.daily import DailyScreen

@@ -7,7 +7,7 @@ from pathlib import Path
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import lifetimes
-from ninja_game.play.level.play import Phase
+from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid

@@ -14,7 +14,7 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
-from ninja_game.play.level.play import Phase
+from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.browser import SIDE_WIDTH, TEXT_HIGH, Browser
 from ninja_game.play.menus.daily import DailyScreen

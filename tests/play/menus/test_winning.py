@@ -10,8 +10,8 @@ import pytest
 from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.play.level.hud import PRIZE, EndPanel, Hud, HudView, Said
 from ninja_game.play.level.hud_view import hud_view
+from ninja_game.play.level.level_play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.places import MUST
-from ninja_game.play.level.play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.passed import FEAST_TICKS, EpisodePassed
 from ninja_game.play.rooms import room_level
