@@ -40,10 +40,16 @@ def start() -> None:
         command = [*program, "compile", "--background"]
         _STARTED.append(
             subprocess.Popen(  # noqa: S603 - this program itself
-                command, stdin=quiet, stdout=quiet, stderr=quiet, cwd=folder, env=environment, start_new_session=True,
+                command,
+                stdin=quiet,
+                stdout=quiet,
+                stderr=quiet,
+                cwd=folder,
+                env=environment,
+                start_new_session=True,
                 creationflags=getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0),
             )
-        )  # fmt: skip
+        )
 
 
 def is_compiling() -> bool:

@@ -177,9 +177,13 @@ def _facts(level: NamedLevel, by_goal: Mapping[str, Certified], files: Mapping[s
     for goal, certified in by_goal.items():
         best = certified.run
         facts["runs"][goal] = best and {
-            "ticks": best.end_tick, "seconds": best.end_tick / TICKS_PER_SECOND, "gold": best.gold,
-            "digest": best.digest, "how": certified.how, "replay": str(files[goal]) if files else None,
-        }  # fmt: skip
+            "ticks": best.end_tick,
+            "seconds": best.end_tick / TICKS_PER_SECOND,
+            "gold": best.gold,
+            "digest": best.digest,
+            "how": certified.how,
+            "replay": str(files[goal]) if files else None,
+        }
     return facts
 
 

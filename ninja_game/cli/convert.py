@@ -45,9 +45,14 @@ FORM_OF_NAME = {
 @options.budget_option
 @click.option("--force", is_flag=True, help="Replace files that exist. IN is never replaced.")
 def convert(
-    sources: Sequence[Path], target: str, form: str | None, legend: bool, level_path: Path | None, budget: int,
+    sources: Sequence[Path],
+    target: str,
+    form: str | None,
+    legend: bool,
+    level_path: Path | None,
+    budget: int,
     force: bool,
-) -> None:  # fmt: skip
+) -> None:
     """Turn levels and recordings from one format into the other.
 
     IN is a file, folder or link in any format; OUT a file, a folder, or - for the terminal. What is written:

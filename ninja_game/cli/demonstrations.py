@@ -20,18 +20,29 @@ from ninja_game.sim.rules import LIFETIME
 @click.option("-o", "--output", type=NEW_FILE, help="Write arrays to this .npz file.")
 @click.option("--minari", "dataset", metavar="NAME", help="Write a Minari data set of this name, such as ninja/set-v0.")
 @click.option(
-    "--observation", "parts", metavar="PART", multiple=True, default=("state",), show_default=True,
+    "--observation",
+    "parts",
+    metavar="PART",
+    multiple=True,
+    default=("state",),
+    show_default=True,
     help="What is observed, as `Ninja-v0` has it; may be given several times.",
-)  # fmt: skip
+)
 @click.option("--flat", is_flag=True, help="Put all parts into one row of numbers.")
 @click.option(
-    "--actions", type=click.Choice(["discrete", "buttons"]), default="discrete", show_default=True,
+    "--actions",
+    type=click.Choice(["discrete", "buttons"]),
+    default="discrete",
+    show_default=True,
     help="An action as a number from 0 to 5, or as three keys, each up or down.",
-)  # fmt: skip
+)
 @click.option(
-    "--megabytes", type=click.IntRange(1, 10**6), default=DATASET_MIB, show_default=True,
+    "--megabytes",
+    type=click.IntRange(1, 10**6),
+    default=DATASET_MIB,
+    show_default=True,
     help="The most that all observations may take; making arrays of them takes four times as much memory.",
-)  # fmt: skip
+)
 @level_option
 @memory_option
 def demonstrations(

@@ -35,13 +35,20 @@ MOST_BESIDE = 3
     "--to", "last", type=click.IntRange(min=0), help="Last picture. [default: a second after the end; 20,000 at most]"
 )
 @click.option(
-    "--ghost", "ghosts", multiple=True, metavar="FILE", type=InputPath(dir_okay=False),
+    "--ghost",
+    "ghosts",
+    multiple=True,
+    metavar="FILE",
+    type=InputPath(dir_okay=False),
     help="Show the runs of this file on the same level as ghosts; may be given several times.",
-)  # fmt: skip
+)
 @click.option(
-    "--beside", multiple=True, metavar="FILE", type=InputPath(dir_okay=False),
+    "--beside",
+    multiple=True,
+    metavar="FILE",
+    type=InputPath(dir_okay=False),
     help="Show the runs of this file, three at most, in pictures of their own beside the first.",
-)  # fmt: skip
+)
 @click.option("--keys", is_flag=True, help="Show the keys that are down.")
 @click.option("--splits", is_flag=True, help="Show time and last splits, and how far others are behind (+).")
 @click.option("--gold", is_flag=True, help="With --splits: a split for each piece of gold, too.")

@@ -112,8 +112,10 @@ def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
     if not run:
         return facts
     return facts | {
-        "recording_ticks": run.ticks, "made": str(run.replay.made), "co_authors": list(run.replay.co_authors)
-    }  # fmt: skip
+        "recording_ticks": run.ticks,
+        "made": str(run.replay.made),
+        "co_authors": list(run.replay.co_authors),
+    }
 
 
 def _show(console: Console, level: NamedLevel, run: Recording | None, picture: bool) -> None:

@@ -60,9 +60,12 @@ class SearchLog:
 @options.shortening_options
 @options.body_option
 @click.option(
-    "-o", "--output", metavar="REPLAY", type=options.NEW_FILE,
+    "-o",
+    "--output",
+    metavar="REPLAY",
+    type=options.NEW_FILE,
     help="Where to keep the best run so far. [default: LEVEL's name and .replay.txt, in the current folder]",
-)  # fmt: skip
+)
 def solve(level: Path, record: int | None, output: Path | None, smooth: int | None, **task_options: Any) -> int:
     """Find a run to the exit, then shorten it.
 
@@ -192,9 +195,12 @@ def improve(
 @click.option("--minimise", default="", metavar="FORMULA", help="Formula to minimise at the goal.")
 @click.option("--rest", is_flag=True, help="Continue with the rest of RUN, which must reach the exit sooner.")
 @click.option(
-    "--method", type=click.Choice(["auto", "local", "beam", "exhaustive"]), default="auto", show_default=True,
+    "--method",
+    type=click.Choice(["auto", "local", "beam", "exhaustive"]),
+    default="auto",
+    show_default=True,
     help="local: small changes; beam: promising states; exhaustive: all keys; auto: local and beam in turn.",
-)  # fmt: skip
+)
 @click.option(
     "--every", type=click.IntRange(min=1), default=1, show_default=True, help="For exhaustive: ticks that keys last."
 )
@@ -243,9 +249,16 @@ def search(
     )
     save = saver_of_better(output, recording, "search") if output else None
     task = SpanTask(
-        recording.level, recording.inputs, first, last, goal=goal, measure=maximise or minimise,
-        least=bool(minimise), rest=rest, body=recording.body,
-    )  # fmt: skip
+        recording.level,
+        recording.inputs,
+        first,
+        last,
+        goal=goal,
+        measure=maximise or minimise,
+        least=bool(minimise),
+        rest=rest,
+        body=recording.body,
+    )
     start = 0.0
     with progress_line() as shown:
         saved: list[SpanResult] = []

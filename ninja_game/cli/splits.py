@@ -47,9 +47,14 @@ picture_option = click.option(
 @picture_option
 @options.budget_option
 def splits(
-    files: Sequence[Path], against: Path | None, gold: bool, level_path: Path | None, form: str,
-    picture: Path | None, budget: int,
-) -> int:  # fmt: skip
+    files: Sequence[Path],
+    against: Path | None,
+    gold: bool,
+    level_path: Path | None,
+    form: str,
+    picture: Path | None,
+    budget: int,
+) -> int:
     """Show when runs take gold, open doors and the exit, and end.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Each level has a
@@ -127,9 +132,15 @@ COMPARED = ("at", "x", "y", "tick", "other", "ahead")
 @picture_option
 @options.budget_option
 def compare(
-    first: Path, second: Path, record: int | None, against_record: int | None, level_path: Path | None, form: str,
-    picture: Path | None, budget: int,
-) -> None:  # fmt: skip
+    first: Path,
+    second: Path,
+    record: int | None,
+    against_record: int | None,
+    level_path: Path | None,
+    form: str,
+    picture: Path | None,
+    budget: int,
+) -> None:
     """Compare two runs of a level: where they part, and how far one is ahead.
 
     The lead is reported at each split that both reach, and at the end of each second of A at the place where it is

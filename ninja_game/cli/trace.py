@@ -70,9 +70,12 @@ def trace(
     if digests + bool(against) + bool(output) > 1:
         raise click.UsageError("--digests, --against and --output cannot be used together")
     how = workers | {
-        "level": options.load_level_option(level_path), "ticks": ticks, "after": after or 0,
-        "objects": objects or digests or against is not None, "events": not digests and not against,
-    }  # fmt: skip
+        "level": options.load_level_option(level_path),
+        "ticks": ticks,
+        "after": after or 0,
+        "objects": objects or digests or against is not None,
+        "events": not digests and not against,
+    }
     traces = _traces(files, record=record, **how)
     different = 0
     if digests:

@@ -27,9 +27,12 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=InputPath())
 @click.option(
-    "--memory", type=click.Choice(["auto", "plain", "compiled", "both"]), default="auto", show_default=True,
+    "--memory",
+    type=click.Choice(["auto", "plain", "compiled", "both"]),
+    default="auto",
+    show_default=True,
     help="Plain Python, or compiled by Numba; both: compare them in every tick.",
-)  # fmt: skip
+)
 @click.option(
     "--level",
     metavar="LEVELS",

@@ -146,9 +146,12 @@ class _Board(click.Group):
     "--site", metavar="OUT", type=NEW_FOLDER, help="Write the pages into OUT/board and the runs into OUT/replays."
 )
 @click.option(
-    "--json", "data", metavar="FILE", type=NEW_FILE,
+    "--json",
+    "data",
+    metavar="FILE",
+    type=NEW_FILE,
     help="Write the board as data, for --check. It is the board's ledger: runs that FILE has already keep their dates.",
-)  # fmt: skip
+)
 @click.option(
     "--check",
     metavar="FILE",
@@ -156,22 +159,31 @@ class _Board(click.Group):
     help="Report what differs from this file written by --json; exit code 1 if anything is refused, changed or gone.",
 )
 @click.option(
-    "--confirm", metavar="RUN", multiple=True,
+    "--confirm",
+    metavar="RUN",
+    multiple=True,
     help="The runs of this file in FOLDER are no copies, although they are nearly somebody else's. Needs --json.",
-)  # fmt: skip
+)
 @click.option(
-    "--reject", metavar="RUN", multiple=True,
+    "--reject",
+    metavar="RUN",
+    multiple=True,
     help="The runs of this file in FOLDER do not count. Needs --json and --reason.",
-)  # fmt: skip
+)
 @click.option(
-    "--ladder", metavar="RUN LADDER", multiple=True, type=(str, click.Choice(["played", "assisted"])),
+    "--ladder",
+    metavar="RUN LADDER",
+    multiple=True,
+    type=(str, click.Choice(["played", "assisted"])),
     help="Rank the runs of this file in FOLDER as played or as assisted, whatever they say. Needs --json.",
-)  # fmt: skip
+)
 @click.option("--reason", metavar="TEXT", default="", help="Why, for --reject and --ladder: it stands on the pages.")
 @click.option(
-    "--dates", metavar="FILE.csv", type=OLD_FILE,
+    "--dates",
+    metavar="FILE.csv",
+    type=OLD_FILE,
     help="Rows FILE,DATE: since when runs are known, as of an older board. Needs --json, which keeps them.",
-)  # fmt: skip
+)
 @rules_option
 @click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
@@ -237,10 +249,16 @@ def board(
 
 
 def _ranking(
-    folder: Path, levels: Path | None, rules: Path | None, ledger: Path | None, *,
-    jobs: int | None, again: bool = False, decide: Callable[[Ledger, datetime], None] | None = None,
+    folder: Path,
+    levels: Path | None,
+    rules: Path | None,
+    ledger: Path | None,
+    *,
+    jobs: int | None,
+    again: bool = False,
+    decide: Callable[[Ledger, datetime], None] | None = None,
     dates: Path | None = None,
-) -> tuple[Ranking, Ledger]:  # fmt: skip
+) -> tuple[Ranking, Ledger]:
     """The ranking of a folder's runs by the board's rules, and the ledger before, with what is decided now.
 
     ``levels``, ``ledger``, ``rules``: where nothing is decided, without them those of the folder's last board.
@@ -375,8 +393,9 @@ def _answer(
     names = [ranked.run.player + f", {ranked.run.ladder}" * (len(ladders) > 1) for ranked in ranked_runs]
     runs = [
         Recording(ranked.run.entry.named.level, replace(ranked.run.replay, name=name))
-        for ranked, name in zip(ranked_runs, names, strict=True) if what not in ("rank", "best")
-    ]  # fmt: skip
+        for ranked, name in zip(ranked_runs, names, strict=True)
+        if what not in ("rank", "best")
+    ]
     if what == "inputs":
         form, rows = TYPED, [row | _inputs(run.inputs) for row, run in zip(rows, runs, strict=True)]
     elif what == "splits":

@@ -62,9 +62,15 @@ def play(
 
     replay_path = str(replay) if replay is not None else None
     return main(
-        path, body=body, replay_path=replay_path, practice=practice, record=record, tas_editor=open_tas_editor,
-        window=opened, **window,
-    )  # fmt: skip
+        path,
+        body=body,
+        replay_path=replay_path,
+        practice=practice,
+        record=record,
+        tas_editor=open_tas_editor,
+        window=opened,
+        **window,
+    )
 
 
 @click.command()

@@ -412,9 +412,13 @@ def find_reach(ask: Ask) -> Reach:
             shown.append(before[-1])
     ends = places[-1][worlds.records["outcome"] == OUTCOME_DEAD]
     return Reach(
-        ask, _spans(places.reshape(-1, 2)), _spans(ends), tuple(_route(places[:, n]) for n in shown), tuple(latest),
+        ask,
+        _spans(places.reshape(-1, 2)),
+        _spans(ends),
+        tuple(_route(places[:, n]) for n in shown),
+        tuple(latest),
         tuple(_route(clock[:, n]) for n in range(len(dangers))),
-    )  # fmt: skip
+    )
 
 
 def _route(places: Any) -> Route:

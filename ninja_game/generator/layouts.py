@@ -86,8 +86,11 @@ def cathedral(board: RockBoard, rng: Random) -> None:
     board.rock(poly((12, 17), (11, 15), (11, 13), (13, 11), (15, 13), (15, 15), (14, 17)))
     board.air(poly((11, 23), (13, 19), (20, 19), (22, 23)))
     board.vault(11, 21, 22, gate=21)
-    board.rock(disc(MID, 7, 2.6, 2.6) & ~disc(MID, 7, 1.5, 1.5) & ~box(15, 8, 18, 11) if rng.random() < 0.5 else
-               poly((MID, 5), (14.6, 7.5), (MID, 10), (18.4, 7.5)))  # fmt: skip
+    board.rock(
+        disc(MID, 7, 2.6, 2.6) & ~disc(MID, 7, 1.5, 1.5) & ~box(15, 8, 18, 11)
+        if rng.random() < 0.5
+        else poly((MID, 5), (14.6, 7.5), (MID, 10), (18.4, 7.5))
+    )
 
 
 def pyramid(board: RockBoard, rng: Random) -> None:

@@ -305,8 +305,11 @@ def one_ways(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
 
 def blocks(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     """Bounce blocks in open air, in pairs or like steps, some the same on both sides."""
-    air = [(c, r) for c, r in sorted(scene.steps) if all((c + i, r + j) in scene.steps for i in (-2, 0, 2) for j in
-           (-2, -1, 0, 1, 2))]  # fmt: skip
+    air = [
+        (c, r)
+        for c, r in sorted(scene.steps)
+        if all((c + i, r + j) in scene.steps for i in (-2, 0, 2) for j in (-2, -1, 0, 1, 2))
+    ]
     x, y = rng.choice(((1, 0), (0, 1), (2, 1), (2, -1), (3, 0)))
     for c, r in rng.sample(air, min(len(air), 3)):
         steps = [(c + x * k, r + y * k) for k in range(2 + (x > 1))]

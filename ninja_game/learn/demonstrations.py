@@ -181,12 +181,16 @@ def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: An
     levels = dict(zip(digests, (write_level_string(episode.level, exact=True) for episode in episodes), strict=True))
     buffers = [
         EpisodeBuffer(
-            id=number, observations=episode.observations, actions=episode.actions, rewards=episode.rewards.tolist(),
-            terminations=episode.terminations.tolist(), truncations=episode.truncations.tolist(),
+            id=number,
+            observations=episode.observations,
+            actions=episode.actions,
+            rewards=episode.rewards.tolist(),
+            terminations=episode.terminations.tolist(),
+            truncations=episode.truncations.tolist(),
             options={"level": list(levels).index(digests[number])},
         )
         for number, episode in enumerate(episodes)
-    ]  # fmt: skip
+    ]
     longest = max(LIFETIME, *(len(episode.rewards) for episode in episodes))
     own = {"level": list(levels.values()), "body": bodies.pop(), "frame_skip": 1, "time_limit": longest}
     env = gymnasium.make("ninja_game:Ninja-v0", **{**own, **settings})
@@ -195,9 +199,14 @@ def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: An
             # Minari misses an author's address, a link and scores, which recordings have not.
             warnings.simplefilter("ignore", UserWarning)
             written = minari.create_dataset_from_buffers(
-                dataset, buffers, env=env, jpeg_encoding=False, data_format="hdf5", algorithm_name="recordings",
+                dataset,
+                buffers,
+                env=env,
+                jpeg_encoding=False,
+                data_format="hdf5",
+                algorithm_name="recordings",
                 description="Recordings of ninja-game, one step a tick",
-            )  # fmt: skip
+            )
             written.storage.update_episode_metadata(
                 [
                     {"level_digest": digest, "frame_skip": 1, "name": episode.name}

@@ -164,7 +164,12 @@ def play_episodes(worlds: EnvWorlds, actions: ActionStream) -> EpisodeEnds:
 def _result(name: str, ends: EpisodeEnds) -> LevelResult:
     count, passed, dead = len(ends.ticks), ends.outcomes == OUTCOME_EXIT, ends.outcomes == OUTCOME_DEAD
     return LevelResult(
-        name, count, int(passed.sum()), int(dead.sum()), int((~passed & ~dead).sum()),
+        name,
+        count,
+        int(passed.sum()),
+        int(dead.sum()),
+        int((~passed & ~dead).sum()),
         float(np.median(ends.ticks[passed])) if passed.any() else float("nan"),
-        float(ends.gold.mean()), float(ends.rewards.mean()),
-    )  # fmt: skip
+        float(ends.gold.mean()),
+        float(ends.rewards.mean()),
+    )

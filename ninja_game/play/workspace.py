@@ -84,9 +84,14 @@ class CommandMenu(Menu):
     """A menu of a document; the keys of the commands ``names`` do the same as without it."""
 
     def __init__(
-        self, app: App, title: str, rows: Sequence[Row], table: CommandTable, names: Collection[str],
+        self,
+        app: App,
+        title: str,
+        rows: Sequence[Row],
+        table: CommandTable,
+        names: Collection[str],
         run: Callable[[str], object],
-    ) -> None:  # fmt: skip
+    ) -> None:
         super().__init__(app, title, rows)
         self._table, self._names, self._run = table, names, run
 

@@ -181,9 +181,14 @@ class LevelRun(LevelContext):
     """
 
     def __init__(
-        self, data: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False,
+        self,
+        data: PlayerData,
+        entry: Entry,
+        *,
+        body: Body = "circle",
+        practice_mode: bool = False,
         following: Sequence[Entry] = (),
-    ) -> None:  # fmt: skip
+    ) -> None:
         super().__init__(data, entry, body=body, practice_mode=practice_mode)
         self._following = following
         self._levels: Sequence[NamedLevel] = [entry.named]
@@ -387,9 +392,14 @@ class EpisodeRun(LevelContext):
 
 
 def note_progress(
-    data: PlayerData, episode: Episode, position: int, replays: Sequence[Replay] = (), *,
-    legitimate: bool = True, kept: bool = True,
-) -> None:  # fmt: skip
+    data: PlayerData,
+    episode: Episode,
+    position: int,
+    replays: Sequence[Replay] = (),
+    *,
+    legitimate: bool = True,
+    kept: bool = True,
+) -> None:
     """A level of an episode was passed or left out: open what follows, and keep that play goes on there.
 
     ``replays``: those of the episode up to it, where no level was left out. Raises sqlite3.Error.

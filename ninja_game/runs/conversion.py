@@ -49,9 +49,13 @@ def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
     markers = tuple(marker for marker in old.markers if marker.tick <= len(new.inputs))
     claimed, now = ((run.outcome, run.final_tick, run.gold, run.digest or new.digest) for run in (old, new))
     return replace(
-        new, level_name=old.level_name, level_author=recording.level_author, markers=markers, co_authors=old.co_authors,
+        new,
+        level_name=old.level_name,
+        level_author=recording.level_author,
+        markers=markers,
+        co_authors=old.co_authors,
         made=old.made if old.unclaimed or claimed == now else old.made.edited(1),
-    )  # fmt: skip
+    )
 
 
 def episode_text(recordings: Sequence[Recording], budget: int = RUN_BUDGET) -> str:
@@ -99,9 +103,15 @@ def on_level(recording: Recording, level: Level | None = None) -> Recording:
 def _without_claims(recording: Recording) -> Replay:
     """The replay of a recording with its level inside and without its claims."""
     claimless = replace(
-        recording.replay, author=recording.player, level_author=recording.level_author, outcome="", gold=0, digest="",
-        waypoints=(), rules=RULES_VERSION,
-    )  # fmt: skip
+        recording.replay,
+        author=recording.player,
+        level_author=recording.level_author,
+        outcome="",
+        gold=0,
+        digest="",
+        waypoints=(),
+        rules=RULES_VERSION,
+    )
     return replace(claimless, level=recording.level, level_digest="", level_path="", level_record=0)
 
 

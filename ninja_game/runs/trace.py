@@ -90,15 +90,28 @@ def trace_recording(
         inputs = recording.replay.playback(min(recording.ticks + after, MAX_TICKS) if ticks is None else ticks)
         more = after if ticks is None else None
         return trace_level(
-            recording.level, inputs, body=recording.body, memory=memory,
-            with_objects=objects, events=events, after=more, budget=budget,
-        )  # fmt: skip
+            recording.level,
+            inputs,
+            body=recording.body,
+            memory=memory,
+            with_objects=objects,
+            events=events,
+            after=more,
+            budget=budget,
+        )
 
 
 def trace_level(
-    level: Level, inputs: Iterable[SupportsIndex], *, body: Body = "circle", memory: str = "auto",
-    with_objects: bool = True, events: bool = False, after: int | None = None, budget: int = NO_LIMIT,
-) -> RunTrace:  # fmt: skip
+    level: Level,
+    inputs: Iterable[SupportsIndex],
+    *,
+    body: Body = "circle",
+    memory: str = "auto",
+    with_objects: bool = True,
+    events: bool = False,
+    after: int | None = None,
+    budget: int = NO_LIMIT,
+) -> RunTrace:
     """Run all of ``inputs``, whatever happens, and record the ninja after each tick (canonical numbers).
 
     ``with_objects``: record objects too. ``events``: record the names of what happens. ``after``: end so many ticks

@@ -82,9 +82,13 @@ def read_csv(text: Iterable[str], *, file: str = "") -> Iterator[FiledTrace]:
         header = ("no table",)
     if header != COLUMNS:
         raise FormatError(
-            "this is not a trace", file=file, line=1, found=repr(",".join(header)[:80]),
-            expected=f"the header {','.join(COLUMNS)}", hint="`ninja-game trace -o` writes it",
-        )  # fmt: skip
+            "this is not a trace",
+            file=file,
+            line=1,
+            found=repr(",".join(header)[:80]),
+            expected=f"the header {','.join(COLUMNS)}",
+            hint="`ninja-game trace -o` writes it",
+        )
     try:
         for (source, record), group in groupby(table, key=lambda row: (row["file"], int(row["record"]))):
             yield _read_run(group, record, source)

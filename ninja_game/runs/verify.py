@@ -165,11 +165,17 @@ def verify_in_slices(
         problems.append(run_problem("out-of-time", lifetime=recording.lifetime, gold=run.gold))
     sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.replay.inputs))
     return replace(
-        verdict, outcome=run.outcome, end_tick=run.end_tick, gold=run.gold,
-        score_ticks=run.score_ticks if run.outcome == "exit" else None, ticks=run.ticks, xy_sha256=run.xy_sha256,
-        possible_by_keyboard=with_press_bits(inputs[:sampled]) == inputs[:sampled], in_time=run.in_time,
+        verdict,
+        outcome=run.outcome,
+        end_tick=run.end_tick,
+        gold=run.gold,
+        score_ticks=run.score_ticks if run.outcome == "exit" else None,
+        ticks=run.ticks,
+        xy_sha256=run.xy_sha256,
+        possible_by_keyboard=with_press_bits(inputs[:sampled]) == inputs[:sampled],
+        in_time=run.in_time,
         problems=tuple(problems),
-    )  # fmt: skip
+    )
 
 
 def with_demands(

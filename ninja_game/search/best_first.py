@@ -91,9 +91,14 @@ def load_node(start: Start, arrays: SearchArrays, index: int) -> None:
 
 @entry_point
 def expand(
-    start: Start, arrays: SearchArrays, goal: Goal, known: KnownRun | None, backed_up: BackedUpHeuristic,
-    resolution: Resolution, budget: int,
-) -> int:  # fmt: skip
+    start: Start,
+    arrays: SearchArrays,
+    goal: Goal,
+    known: KnownRun | None,
+    backed_up: BackedUpHeuristic,
+    resolution: Resolution,
+    budget: int,
+) -> int:
     """Expand nodes until ``budget`` ticks were run, a switch state wants its field, or enough ends of a leg are found.
 
     ``known``: the run along which to search; None: a search for the exit or of a leg, compiled without what runs along
@@ -226,9 +231,15 @@ def keep_along(
 
 @fast
 def keep_child(
-    parent: int, action: int, played: int, start: Start, arrays: SearchArrays, goal: Goal,
-    backed_up: BackedUpHeuristic, resolution: Resolution,
-) -> None:  # fmt: skip
+    parent: int,
+    action: int,
+    played: int,
+    start: Start,
+    arrays: SearchArrays,
+    goal: Goal,
+    backed_up: BackedUpHeuristic,
+    resolution: Resolution,
+) -> None:
     """Make a node of the scratch world, on the way to the exit or to the end of a leg.
 
     Its ticks to go are those of the switch state's distance field, or of the backed-up heuristic of an earlier search.

@@ -107,11 +107,15 @@ def improved_replay(run: Replay, recording: Recording, command: str) -> Replay:
     """A run that a command made of a recording: names and authors stay, and it says what was done and to whose run."""
     old = recording.replay
     return replace(
-        run, name=recording.name, author=recording.player, co_authors=old.co_authors,
-        level_name=old.level_name or recording.name, level_author=recording.level_author,
+        run,
+        name=recording.name,
+        author=recording.player,
+        co_authors=old.co_authors,
+        level_name=old.level_name or recording.name,
+        level_author=recording.level_author,
         made=old.made.searched(command, begun_by=recording.begun_by),
         markers=moved_markers(recording, run.inputs),
-    )  # fmt: skip
+    )
 
 
 def moved_markers(recording: Recording, inputs: bytes) -> tuple[Marker, ...]:

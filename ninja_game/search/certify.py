@@ -99,9 +99,15 @@ def _certify(
 
 
 def _certify_goal(
-    level: NamedLevel, path: Path | None, task: Task, kept: tuple[Replay, bool] | None,
-    others: Mapping[str, Certified], report: Callable[[Progress], None], stop: Event, improve: bool,
-) -> Certified:  # fmt: skip
+    level: NamedLevel,
+    path: Path | None,
+    task: Task,
+    kept: tuple[Replay, bool] | None,
+    others: Mapping[str, Certified],
+    report: Callable[[Progress], None],
+    stop: Event,
+    improve: bool,
+) -> Certified:
     """The best run for a goal: the kept one, one found for another goal, or one that is searched now."""
     run, of_this_level = kept or (None, False)
     if run and of_this_level and not improve:

@@ -207,11 +207,16 @@ def new_table(nodes: int) -> Any:
 def new_arrays(nodes: int) -> SearchArrays:
     """The arrays of a search of at most so many nodes, with as many chunks. To be cleared before each search."""
     return SearchArrays(
-        nodes=zeroed(Node, nodes), table=new_table(nodes), links=zeroed(Link, 6 * nodes),
-        chunk_next=np.empty(nodes, np.int32), chunk_index=np.empty(nodes * CHUNK, np.int32),
-        chunk_value=np.empty(nodes * CHUNK, np.int64), buckets=np.empty(BUCKETS, np.int32),
-        ends=np.zeros(MAX_ENDS, np.int32), counters=zeroed(Counters, 1),
-    )  # fmt: skip
+        nodes=zeroed(Node, nodes),
+        table=new_table(nodes),
+        links=zeroed(Link, 6 * nodes),
+        chunk_next=np.empty(nodes, np.int32),
+        chunk_index=np.empty(nodes * CHUNK, np.int32),
+        chunk_value=np.empty(nodes * CHUNK, np.int64),
+        buckets=np.empty(BUCKETS, np.int32),
+        ends=np.zeros(MAX_ENDS, np.int32),
+        counters=zeroed(Counters, 1),
+    )
 
 
 def clear(arrays: Any) -> None:

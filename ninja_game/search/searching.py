@@ -73,9 +73,14 @@ class Search:
         """Begin a new search from other moments to another goal; ``bound`` as for ``begin``."""
         self.backed_up = NO_BACKED_UP
         self.goal = self.goal._replace(
-            gold=leg.gold, leg=leg.until, mask=leg.mask, target=leg.target, wanted=leg.wanted, ends=leg.ends,
+            gold=leg.gold,
+            leg=leg.until,
+            mask=leg.mask,
+            target=leg.target,
+            wanted=leg.wanted,
+            ends=leg.ends,
             rollouts=leg.rollouts,
-        )  # fmt: skip
+        )
         self.goal.fields[:, 0] = NOT_MADE
         self._field = leg.field
         self._roots = leg.roots

@@ -50,9 +50,12 @@ class SpanSettings(NamedTuple):
 
 def draw_settings(random: np.random.Generator) -> SpanSettings:
     resolution = Resolution(
-        cell=float(random.choice(CELLS)), speed=float(random.choice(SPEEDS)), macro=int(random.choice(MACROS)),
-        jitter=int(random.choice(JITTERS)), enemy_cell=float(random.choice(ENEMY_CELLS)),
-    )  # fmt: skip
+        cell=float(random.choice(CELLS)),
+        speed=float(random.choice(SPEEDS)),
+        macro=int(random.choice(MACROS)),
+        jitter=int(random.choice(JITTERS)),
+        enemy_cell=float(random.choice(ENEMY_CELLS)),
+    )
     drawn = (float(random.choice(part)) for part in (DELAYS, DISTANCES, PLACE_PRICES, SPEED_PRICES))
     return SpanSettings(resolution, *drawn)
 
@@ -101,9 +104,12 @@ class SpanSearches:
         search = self._search
         _, max_delay, max_distance, place_price, speed_price = settings
         run = self.run._replace(
-            span=(first, last), max_delay=max_delay, max_distance=max_distance, place_price=place_price,
+            span=(first, last),
+            max_delay=max_delay,
+            max_distance=max_distance,
+            place_price=place_price,
             speed_price=speed_price,
-        )  # fmt: skip
+        )
         search.begin_along(run, self._inputs, settings.resolution, seed=seed, gold=self.gold)
         ended = MORE
         while ended == MORE and search.ticks < ticks:
@@ -126,9 +132,15 @@ class RunShortener:
     """
 
     def __init__(
-        self, start: Start, heuristics: Heuristics, *, gold: int, seed: int, submit: Callable[[bytes], None],
+        self,
+        start: Start,
+        heuristics: Heuristics,
+        *,
+        gold: int,
+        seed: int,
+        submit: Callable[[bytes], None],
         spend: Callable[[int, float], bool],
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.start = start
         self.heuristics = heuristics
         self.gold = gold

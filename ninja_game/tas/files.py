@@ -223,9 +223,13 @@ def replay_of_track(about: Recording, track: InputTrack) -> Replay:
     if has_tail(track, run.ticks):
         return unclaimed
     return replace(
-        run, markers=track.markers, made=unclaimed.made, co_authors=unclaimed.co_authors,
-        level_name=unclaimed.level_name, level_author=unclaimed.level_author,
-    )  # fmt: skip
+        run,
+        markers=track.markers,
+        made=unclaimed.made,
+        co_authors=unclaimed.co_authors,
+        level_name=unclaimed.level_name,
+        level_author=unclaimed.level_author,
+    )
 
 
 def has_tail(track: InputTrack, ticks: int) -> bool:
@@ -258,9 +262,14 @@ def _with_old_path(replay: Replay, about: Recording) -> Replay:
     if old.level is not None or not old.level_path:
         return replay
     return replace(
-        replay, level=None, level_name="", level_author="", level_digest=level_digest(about.level),
-        level_path=old.level_path, level_record=old.level_record,
-    )  # fmt: skip
+        replay,
+        level=None,
+        level_name="",
+        level_author="",
+        level_digest=level_digest(about.level),
+        level_path=old.level_path,
+        level_record=old.level_record,
+    )
 
 
 def branches_path(path: Path) -> Path:

@@ -336,11 +336,13 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
         return lambda number: _object_column(timeline, id_of(number), name)
 
     return ninja_view(of) | {
-        "object_x": of_object("x"), "object_y": of_object("y"), "status": of_object("s"),
+        "object_x": of_object("x"),
+        "object_y": of_object("y"),
+        "status": of_object("s"),
         "taken": lambda number: _flag(timeline, id_of(number), "taken"),
         "opened": lambda number: _flag(timeline, id_of(number), "opened"),
         "exit_distance": lambda: exit_distance(timeline),
-    }  # fmt: skip
+    }
 
 
 def _object_column(timeline: Timeline, id_: float, name: str) -> Values:

@@ -75,9 +75,16 @@ class Canvas:
         return rect
 
     def frame_rect(
-        self, surface: pygame.Surface, colour: Colour, x: float, y: float, w: float, h: float,
-        width: float = 1, radius: float = 0,
-    ) -> pygame.Rect:  # fmt: skip
+        self,
+        surface: pygame.Surface,
+        colour: Colour,
+        x: float,
+        y: float,
+        w: float,
+        h: float,
+        width: float = 1,
+        radius: float = 0,
+    ) -> pygame.Rect:
         """The outline of a rectangle, inside of it."""
         rect = self.rect(x, y, w, h)
         pygame.draw.rect(surface, colour, rect, width=self.px(width), border_radius=round(radius * self.scale))

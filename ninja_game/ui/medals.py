@@ -16,9 +16,16 @@ MEDALS = tuple(reversed(pars.MEDALS))
 
 
 def draw_medal(
-    surface: pygame.Surface, theme: Theme, medal: str, x: float, y: float, size: float = 14, *,
-    reached: bool = True, shine: float = 1.0,
-) -> None:  # fmt: skip
+    surface: pygame.Surface,
+    theme: Theme,
+    medal: str,
+    x: float,
+    y: float,
+    size: float = 14,
+    *,
+    reached: bool = True,
+    shine: float = 1.0,
+) -> None:
     """A disc with the medal's first letter, its middle at x, y; only its rim where it is not reached.
 
     A large one has relief and hangs from a ribbon, all within ``size``; ``shine``: how far light has swept over it.

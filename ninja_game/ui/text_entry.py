@@ -29,9 +29,16 @@ class TextEntry(Widget):
     """
 
     def __init__(
-        self, area: Area, prompt: str, text: str, put: Callable[[str], object], *,
-        longest: int = MAX_ENTRY, hint: str = "", proposed: bool = False,
-    ) -> None:  # fmt: skip
+        self,
+        area: Area,
+        prompt: str,
+        text: str,
+        put: Callable[[str], object],
+        *,
+        longest: int = MAX_ENTRY,
+        hint: str = "",
+        proposed: bool = False,
+    ) -> None:
         super().__init__(area, hint=hint)
         self.prompt = prompt
         self.put = put

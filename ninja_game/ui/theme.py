@@ -92,9 +92,16 @@ class Theme:
         return self.lettering.width(text, size * self.scales[0], bold=bold)
 
     def paragraph(
-        self, surface: pygame.Surface, texts: Sequence[str], area: Area, size: float, spacing: float, *,
-        colour: Colour | None = None, align: str = "left",
-    ) -> None:  # fmt: skip
+        self,
+        surface: pygame.Surface,
+        texts: Sequence[str],
+        area: Area,
+        size: float,
+        spacing: float,
+        *,
+        colour: Colour | None = None,
+        align: str = "left",
+    ) -> None:
         """Texts in lines as wide as an area, from its top on, as large as it has room for them; more is left out."""
         x, y, w, h = area
         scale, lines = self.scales[-1], [""]
@@ -134,9 +141,15 @@ class Theme:
         return self.canvas.frame_rect(surface, self.palette.panel_edge, x, y, w, h, 1.5, 6)
 
     def row(
-        self, surface: pygame.Surface, area: Area, *,
-        chosen: bool, focused: bool, radius: float = 4, filled: bool = True,
-    ) -> None:  # fmt: skip
+        self,
+        surface: pygame.Surface,
+        area: Area,
+        *,
+        chosen: bool,
+        focused: bool,
+        radius: float = 4,
+        filled: bool = True,
+    ) -> None:
         """The frame of a widget or of a row: accented if it is chosen, thick where it has the focus too."""
         if filled:
             self.canvas.fill_rect(surface, self.palette.panel, *area, radius)

@@ -103,9 +103,15 @@ class Button(Widget):
     """A text that does something; without an action it is off. ``detail``: a smaller line below it."""
 
     def __init__(
-        self, area: Area, text: str, action: Callable[[], object] | None, *, hint: str = "", size: float = TEXT,
+        self,
+        area: Area,
+        text: str,
+        action: Callable[[], object] | None,
+        *,
+        hint: str = "",
+        size: float = TEXT,
         detail: str = "",
-    ) -> None:  # fmt: skip
+    ) -> None:
         super().__init__(area, hint=hint)
         self.enabled = action is not None
         self.text = text
@@ -126,9 +132,16 @@ class Button(Widget):
         if self.detail:
             y, height = y - 9, height / 2
             theme.text(
-                surface, self.detail, x, y + 14, size=10.5, colour=theme.palette.faint, align="centre", width=width,
+                surface,
+                self.detail,
+                x,
+                y + 14,
+                size=10.5,
+                colour=theme.palette.faint,
+                align="centre",
+                width=width,
                 height=height,
-            )  # fmt: skip
+            )
         theme.text(
             surface, self.text, x, y - self.size / 2, size=self.size, colour=colour, align="centre", bold=focused,
             width=width, height=height,
@@ -142,9 +155,15 @@ class Choice(Widget, Generic[T]):
     """
 
     def __init__(
-        self, area: Area, text: str, options: Sequence[tuple[str, T]], get: Callable[[], T],
-        put: Callable[[T], object], *, hint: str = "",
-    ) -> None:  # fmt: skip
+        self,
+        area: Area,
+        text: str,
+        options: Sequence[tuple[str, T]],
+        get: Callable[[], T],
+        put: Callable[[T], object],
+        *,
+        hint: str = "",
+    ) -> None:
         super().__init__(area, hint=hint)
         self.text = text
         self.options = options
@@ -198,9 +217,16 @@ class Slider(Widget):
     """A number between two others."""
 
     def __init__(
-        self, area: Area, text: str, span: tuple[float, float, float], get: Callable[[], float],
-        put: Callable[[float], object], *, show: Callable[[float], str] = "{:.0f}".format, hint: str = "",
-    ) -> None:  # fmt: skip
+        self,
+        area: Area,
+        text: str,
+        span: tuple[float, float, float],
+        get: Callable[[], float],
+        put: Callable[[float], object],
+        *,
+        show: Callable[[float], str] = "{:.0f}".format,
+        hint: str = "",
+    ) -> None:
         super().__init__(area, hint=hint)
         self.text = text
         self.low, self.high, self.step = span

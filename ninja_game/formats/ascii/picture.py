@@ -165,14 +165,26 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
         more = COLUMNS - len(cells)
         column = start + min(len(cells), COLUMNS)
         hint = f"{abs(more)} too {'few' if more > 0 else 'many'}"
-        problems.add(f"row {number} of the picture has the wrong width", line, column,
-                     found=f"{len(cells)} characters", expected=f"{COLUMNS}", hint=hint)  # fmt: skip
+        problems.add(
+            f"row {number} of the picture has the wrong width",
+            line,
+            column,
+            found=f"{len(cells)} characters",
+            expected=f"{COLUMNS}",
+            hint=hint,
+        )
     for offset, char in enumerate(cells[:COLUMNS]):
         if char not in TILE_OF_CHAR and char not in SYMBOL_OF_CHAR and char != ODD_TILE:
             meant = _similar(char)
             hint = f"did you mean {meant}?" if meant else "'ninja-game convert --legend' writes the legend"
-            problems.add("a character that is not in the legend", line, start + offset, found=repr(char), hint=hint,
-                         expected="a tile or an object")  # fmt: skip
+            problems.add(
+                "a character that is not in the legend",
+                line,
+                start + offset,
+                found=repr(char),
+                hint=hint,
+                expected="a tile or an object",
+            )
     return cells, start
 
 
@@ -210,12 +222,19 @@ def merge_picture_and_list(
             continue
         if cell in conflicts:
             placed, wanted = conflicts[cell]
-            problems.add(f"picture and list disagree at {cell[0]},{cell[1]}", *picture.where(cell),
-                         found=_named(symbol), expected=f"{_named(wanted)}, as line {placed.line} says")  # fmt: skip
+            problems.add(
+                f"picture and list disagree at {cell[0]},{cell[1]}",
+                *picture.where(cell),
+                found=_named(symbol),
+                expected=f"{_named(wanted)}, as line {placed.line} says",
+            )
         elif symbol.values is None:
             example = _NEEDED_LINES[symbol.char].format(cell=f"{cell[0]},{cell[1]}")
-            problems.add(f"{_named(symbol)} without its line", *picture.where(cell),
-                         hint=f"add a line below the picture, such as: {example}")  # fmt: skip
+            problems.add(
+                f"{_named(symbol)} without its line",
+                *picture.where(cell),
+                hint=f"add a line below the picture, such as: {example}",
+            )
         else:
             drawn.append((cell, symbol))
     specs = _drawn_specs(picture, drawn, problems) + [placed.spec for placed in objects]

@@ -102,9 +102,14 @@ def parse_index(text: str, *, file: str = "") -> PackIndex:
             raise PackError(f"accept without its {missing}", file, entry.start, expected=f'{missing} = "…"')
         accepted.append(Accepted(**values, line=entry.start))
     return PackIndex(
-        name, whole.text("author"), whole.text("comment"), columns, _episodes(whole), whole.text("version"),
+        name,
+        whole.text("author"),
+        whole.text("comment"),
+        columns,
+        _episodes(whole),
+        whole.text("version"),
         tuple(accepted),
-    )  # fmt: skip
+    )
 
 
 def _episodes(whole: _Table) -> tuple[EpisodeIndex, ...]:

@@ -201,9 +201,16 @@ class Hud:
             draw_medal(surface, self.theme, medal, _BAR_LEFT + bar_length(ticks), _BAR_MIDDLE, _MARK_SIZE)
         x = _BAR_LEFT + _BAR_LONGEST
         text = self.theme.text(
-            surface, f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS), _RIGHT, 7.4, size=9,
-            colour=palette.on_tile, align="right", bold=True, width=_RIGHT - x - 10,
-        )  # fmt: skip
+            surface,
+            f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS),
+            _RIGHT,
+            7.4,
+            size=9,
+            colour=palette.on_tile,
+            align="right",
+            bold=True,
+            width=_RIGHT - x - 10,
+        )
         return [frame.union(canvas.rect(x, 2, 8, 20)) if pars else frame, text.inflate(canvas.px(8), 4)]
 
     def label(self, surface: pygame.Surface, text: str, size: float = 10.0) -> pygame.Rect:

@@ -56,9 +56,15 @@ def hidden_by(things: Things, x: float, y: float, w: float, h: float) -> Iterato
 
 @lru_cache(maxsize=4)
 def solid_place(
-    tiles: tuple[int, ...], w: float, h: float, things: Things = (), about: Point | None = None, *,
-    rows: int = 0, beside: Point | None = None,
-) -> tuple[float, float, int, int]:  # fmt: skip
+    tiles: tuple[int, ...],
+    w: float,
+    h: float,
+    things: Things = (),
+    about: Point | None = None,
+    *,
+    rows: int = 0,
+    beside: Point | None = None,
+) -> tuple[float, float, int, int]:
     """Upper left corner of a panel of that size, px, where it covers no thing, little gold and the least of any way.
 
     The third is how much it covers, the last how much of that are things, gold and the author's way. What is full is no
@@ -100,8 +106,10 @@ def solid_place(
 def _ways(tiles: tuple[int, ...]) -> tuple[list[int], list[int]]:
     """A number for each column of a level, a bit for each row: what is not full, and of that what lies along rock."""
     all_rows = (1 << ROWS) - 1
-    full = [sum(1 << row for row in range(ROWS) if SHAPE[tiles[first + row]] == FULL)
-            for first in range(0, len(tiles), ROWS)]  # fmt: skip
+    full = [
+        sum(1 << row for row in range(ROWS) if SHAPE[tiles[first + row]] == FULL)
+        for first in range(0, len(tiles), ROWS)
+    ]
     along = [all_rows, *(a | b | c for a, b, c in zip(full, full[1:], full[2:], strict=False)), all_rows]
     edges = 1 | 1 << ROWS - 1
     return [~solid & all_rows for solid in full], [

@@ -269,9 +269,14 @@ _VIDEO: dict[str, tuple[str, dict[str, object]]] = {
 
 
 def write_gif(
-    pictures: Iterator[pygame.Surface], length: int, path: Path, size: tuple[int, int], speed: float, palette: Palette,
+    pictures: Iterator[pygame.Surface],
+    length: int,
+    path: Path,
+    size: tuple[int, int],
+    speed: float,
+    palette: Palette,
     ghosts: int = 0,
-) -> None:  # fmt: skip
+) -> None:
     """Write ``length`` pictures of ``size`` px, one a tick, as a GIF in the colours of a palette, and of some ghosts.
 
     Raises OSError, and NinjaGameError in a page, which has no library for GIFs.

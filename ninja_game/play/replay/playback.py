@@ -26,9 +26,13 @@ class Playback:
     """
 
     def __init__(
-        self, simulation: Simulation, inputs: bytes | bytearray, *,
-        spacing: int = SPACING, states: SaveStates[SaveState] | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        simulation: Simulation,
+        inputs: bytes | bytearray,
+        *,
+        spacing: int = SPACING,
+        states: SaveStates[SaveState] | None = None,
+    ) -> None:
         self.simulation = simulation
         self.inputs = inputs
         # A save-state holds the inputs that led to it too, a byte each.
@@ -96,9 +100,15 @@ class Ghost:
     """
 
     def __init__(
-        self, inputs: bytes, level: Level, body: Body, *, alone: bool = True, pace: float = 1.0,
+        self,
+        inputs: bytes,
+        level: Level,
+        body: Body,
+        *,
+        alone: bool = True,
+        pace: float = 1.0,
         shade: pygame.Color | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.inputs = inputs
         self.shade = shade
         self.pace = pace

@@ -39,9 +39,15 @@ class SpanSearch:
     """
 
     def __init__(
-        self, task: SpanTask, method: str = "auto", jobs: int | None = None, *, seconds: float = 0.0, every: int = 1,
+        self,
+        task: SpanTask,
+        method: str = "auto",
+        jobs: int | None = None,
+        *,
+        seconds: float = 0.0,
+        every: int = 1,
         memory: str = "auto",
-    ) -> None:  # fmt: skip
+    ) -> None:
         require_desktop()
         if method not in ("auto", *METHODS):
             raise ArgumentError(f"method is {method!r}; expected 'auto', {', '.join(map(repr, METHODS))}")
@@ -146,9 +152,14 @@ class RunSearch(SpanSearch):
 
         super().__init__(task)
         self._wanted = Task(
-            task.level, task.body, gold, LONGEST_SECONDS, jobs=min(jobs or cores(), MOST_JOBS),
-            first=fit_inputs(task.inputs, task.length), others=others,
-        )  # fmt: skip
+            task.level,
+            task.body,
+            gold,
+            LONGEST_SECONDS,
+            jobs=min(jobs or cores(), MOST_JOBS),
+            first=fit_inputs(task.inputs, task.length),
+            others=others,
+        )
         self._reaches = False
         self._lock = Lock()
         self._ticks = {True: 0, False: 0}
@@ -196,9 +207,11 @@ class RunSearch(SpanSearch):
         from ninja_game.search.solve import solve
 
         solve(
-            task, report=lambda progress: self._note_ticks(progress.ticks, own_route=own_route),
-            on_better=partial(self._note_run, own_route=own_route), stop=self._cancelled,
-        )  # fmt: skip
+            task,
+            report=lambda progress: self._note_ticks(progress.ticks, own_route=own_route),
+            on_better=partial(self._note_run, own_route=own_route),
+            stop=self._cancelled,
+        )
 
     def _fail_beside(self, why: str) -> None:
         self.problem = why

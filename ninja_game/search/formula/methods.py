@@ -103,9 +103,16 @@ class Results:
 
 
 def search_span(
-    task: SpanTask, report: ReportResults, *, method: str = "auto", every: int = 1, seed: int = 1, memory: str = "auto",
-    threads: int | None = None, report_miss: ReportMiss = lambda _: None,
-) -> tuple[SpanResult, ...]:  # fmt: skip
+    task: SpanTask,
+    report: ReportResults,
+    *,
+    method: str = "auto",
+    every: int = 1,
+    seed: int = 1,
+    memory: str = "auto",
+    threads: int | None = None,
+    report_miss: ReportMiss = lambda _: None,
+) -> tuple[SpanResult, ...]:
     """The best keys of each way that was found, best first, at most KEPT; none where nothing reached the goal.
 
     ``method``: one of METHODS, or "auto": a beam, then small changes of what it found, again and again; between them,
@@ -144,9 +151,15 @@ AHEAD = 600  # ticks after the cut in which the exit is looked for
 
 
 def to_exit(
-    level: Level, inputs: bytes, seconds: float, *, body: Body = "circle", seed: int = 1, threads: int | None = None,
+    level: Level,
+    inputs: bytes,
+    seconds: float,
+    *,
+    body: Body = "circle",
+    seed: int = 1,
+    threads: int | None = None,
     goes_on: Callable[[int], bool] = lambda _: True,
-) -> bytes | None:  # fmt: skip
+) -> bytes | None:
     """A run to the exit that begins as one that ends before it: its last ticks are searched, then ever more of them.
 
     None where none is found in the time. ``goes_on``: told the ticks that were run; False ends it.

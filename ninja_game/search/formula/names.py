@@ -71,9 +71,11 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
         "in_air": lambda: ninja["in_air"], "near_wall": lambda: ninja["near_wall"],
     }  # fmt: skip
     return ninja_view(of) | {
-        "object_x": lambda number: _place(batch, number, "x"), "object_y": lambda number: _place(batch, number, "y"),
-        "taken": flag("taken"), "opened": flag("opened"),
-    }  # fmt: skip
+        "object_x": lambda number: _place(batch, number, "x"),
+        "object_y": lambda number: _place(batch, number, "y"),
+        "taken": flag("taken"),
+        "opened": flag("opened"),
+    }
 
 
 def distance_views(level: Level, batch: Batch) -> dict[str, Callable[..., Any]]:

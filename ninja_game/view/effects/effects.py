@@ -92,9 +92,13 @@ class Effects:
         for _ in range(count):
             share = self.rng.uniform(3, 6)
             self.add(
-                kind, x, y, dx * share + self.rng.uniform(-22, 22), dy * share + self.rng.uniform(-26, 16),
+                kind,
+                x,
+                y,
+                dx * share + self.rng.uniform(-22, 22),
+                dy * share + self.rng.uniform(-26, 16),
                 life=self.rng.uniform(22, 36),
-            )  # fmt: skip
+            )
 
     # --- what goes on while a state lasts ---
 

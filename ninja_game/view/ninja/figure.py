@@ -48,9 +48,14 @@ class Pose(NamedTuple):
 
 
 def pose(
-    shoulder: Point, pelvis: Point, near_hand: Point, far_hand: Point, near_foot: Point, far_foot: Point,
+    shoulder: Point,
+    pelvis: Point,
+    near_hand: Point,
+    far_hand: Point,
+    near_foot: Point,
+    far_foot: Point,
     head: Point | None = None,
-) -> Pose:  # fmt: skip
+) -> Pose:
     """A pose; without a place for it the head goes on where the trunk ends."""
     if head is None:
         dx, dy = shoulder[0] - pelvis[0], shoulder[1] - pelvis[1]

@@ -130,24 +130,40 @@ class NinjaAnimation:
         # The feet follow a slope; all above them stays nearly upright.
         upright = pose.placed(self.facing, turn - _BALANCE * floor)
         return placed._replace(
-            head=upright.head, shoulder=upright.shoulder, pelvis=upright.pelvis,
-            near_hand=upright.near_hand, far_hand=upright.far_hand,
-        )  # fmt: skip
+            head=upright.head,
+            shoulder=upright.shoulder,
+            pelvis=upright.pelvis,
+            near_hand=upright.near_hand,
+            far_hand=upright.far_hand,
+        )
 
 
 def draw_ninja(
-    target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color,
-    alpha: float = 1.0, *, ghost: bool = False,
-) -> None:  # fmt: skip
+    target: DrawTarget,
+    animation: NinjaAnimation,
+    at: Point,
+    fraction: float,
+    colour: pygame.Color,
+    alpha: float = 1.0,
+    *,
+    ghost: bool = False,
+) -> None:
     """The living ninja about a point; one can look through a ``ghost``, which has no headband."""
     if not is_near(*at):
         return
     px, py = target.canvas.exact(*at)
     offset = (0.0, 0.0) if ghost else (px - round(px), py - round(py))
     sprite = ninja_sprite(
-        target.canvas.scale, target.palette, animation.pose(fraction), animation.facing, animation.velocity,
-        colour=colour, offset=offset, alpha=0.45 if ghost else alpha, banded=not ghost,
-    )  # fmt: skip
+        target.canvas.scale,
+        target.palette,
+        animation.pose(fraction),
+        animation.facing,
+        animation.velocity,
+        colour=colour,
+        offset=offset,
+        alpha=0.45 if ghost else alpha,
+        banded=not ghost,
+    )
     target.picture(sprite, *at)
 
 
@@ -166,9 +182,14 @@ def draw_ragdoll(target: DrawTarget, doll: Ragdoll, fraction: float, colour: pyg
 
 
 def _draw_parts(
-    target: DrawTarget, doll: Ragdoll, joints: list[Point], head: Point, sticks: range | tuple[int, ...],
-    at: Point, colour: pygame.Color,
-) -> None:  # fmt: skip
+    target: DrawTarget,
+    doll: Ragdoll,
+    joints: list[Point],
+    head: Point,
+    sticks: range | tuple[int, ...],
+    at: Point,
+    colour: pygame.Color,
+) -> None:
     """Some sticks of the corpse in one small drawing about a point."""
     if not is_near(*at):
         return

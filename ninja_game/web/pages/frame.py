@@ -163,9 +163,15 @@ DESCRIPTION = "A platform game in the style of N, in a page: play it, see how it
 
 
 def page(
-    title: str, *contents: Content, up: str = "", links: Iterable[tuple[str, str]] = (), current: str = "",
-    figures: str = "", picture: str = "", about: str = "",
-) -> str:  # fmt: skip
+    title: str,
+    *contents: Content,
+    up: str = "",
+    links: Iterable[tuple[str, str]] = (),
+    current: str = "",
+    figures: str = "",
+    picture: str = "",
+    about: str = "",
+) -> str:
     """A whole page. ``up``: the way to the folder of the pages; ``links``: addresses and names that stand above.
 
     ``current``: the address of the link that leads to the page itself; ``figures``: that of the script for figures;
@@ -213,8 +219,15 @@ def heading(text: str) -> Markup:
             points = [f"{x + left:.2f} {top + 3:.2f}" for left, top in line]
             moves.append("M" + "L".join(points if len(points) > 1 else points * 2))
         x += (letter.width if letter else 0.0) + SPACING + WEIGHTS[1]
-    strokes = tag("path", d="".join(moves), fill="none", stroke="currentColor", stroke_width=str(WEIGHTS[1]),
-                  stroke_linecap="round", stroke_linejoin="round")  # fmt: skip
+    strokes = tag(
+        "path",
+        d="".join(moves),
+        fill="none",
+        stroke="currentColor",
+        stroke_width=str(WEIGHTS[1]),
+        stroke_linecap="round",
+        stroke_linejoin="round",
+    )
     box = f"0 0 {x:.1f} {CAP + 7:.1f}"
     picture = tag("svg", strokes, viewBox=box, aria_hidden="true", height=str(round(30 * (CAP + 7) / CAP)))
     return tag("h1", picture, tag("span", shown, class_="hidden"))

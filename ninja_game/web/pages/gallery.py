@@ -137,19 +137,29 @@ KINDS = {"exit": "To the exit", "gold": "With all gold"}
 
 
 def level_page(
-    entry: Entry, certificates: Mapping[str, tuple[str, int]], game: str, links: Links, more: Content = None,
-    *, site: str = "", top: Content = None, drawn: Content = None,
-) -> str:  # fmt: skip
+    entry: Entry,
+    certificates: Mapping[str, tuple[str, int]],
+    game: str,
+    links: Links,
+    more: Content = None,
+    *,
+    site: str = "",
+    top: Content = None,
+    drawn: Content = None,
+) -> str:
     """The page of a level. ``certificates``: stems of the replays that it leads to and their ticks, by what they are.
 
     ``game``: address of the page with the game, as seen from this one; ``more``: what stands below; ``site``: the
     address of the folder of pages, where it is known; ``top``: what stands above; ``drawn``: instead of its picture.
     """
     runs = [
-        (tag("a", kind, href=f"../../{frame.REPLAYS}/{stem}.html"), seconds_text(tick),
-         tag("a", "Watch", href=watch_address(game, stem)))
+        (
+            tag("a", kind, href=f"../../{frame.REPLAYS}/{stem}.html"),
+            seconds_text(tick),
+            tag("a", "Watch", href=watch_address(game, stem)),
+        )
         for kind, (stem, tick) in certificates.items()
-    ]  # fmt: skip
+    ]
     named = entry.named
     about = [("Author", named.author or "unknown")]
     if entry.episode:
@@ -220,9 +230,13 @@ def path_data(positions: NDArray[np.float64]) -> str:
 
 def level_image(entry: Entry, up: str = "", *, lazy: bool = False) -> Markup:
     return tag(
-        "img", src=up + picture_name(entry.digest), alt=f"Picture of the level {entry.title}",
-        width=PICTURE_WIDTH, height=PICTURE_HEIGHT, loading="lazy" if lazy else None,
-    )  # fmt: skip
+        "img",
+        src=up + picture_name(entry.digest),
+        alt=f"Picture of the level {entry.title}",
+        width=PICTURE_WIDTH,
+        height=PICTURE_HEIGHT,
+        loading="lazy" if lazy else None,
+    )
 
 
 def _play(entry: Entry, game: str) -> Content:
@@ -337,8 +351,15 @@ def _card(entry: Entry, place: int) -> Markup:
     number = tag("span", entry.episode, class_="number") if entry.episode else None
     words = f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode}".casefold()
     return tag(
-        "li", level_image(entry, lazy=True), tag("h2", number, joined(" ") if number else None, name),
-        tag("p", *facts, class_="facts"), class_="card",
-        data_words=words, data_episode=entry.episode[:2], data_place=place, data_name=entry.title.casefold(),
-        data_difficulty=difficulty or None, data_par=pars.exit if pars else None,
-    )  # fmt: skip
+        "li",
+        level_image(entry, lazy=True),
+        tag("h2", number, joined(" ") if number else None, name),
+        tag("p", *facts, class_="facts"),
+        class_="card",
+        data_words=words,
+        data_episode=entry.episode[:2],
+        data_place=place,
+        data_name=entry.title.casefold(),
+        data_difficulty=difficulty or None,
+        data_par=pars.exit if pars else None,
+    )
