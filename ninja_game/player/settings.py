@@ -107,9 +107,12 @@ class Settings:
 
     # Which palettes there are is known where they are drawn.
     palette: str = _text(
-        BY_COLUMN, "look", "[a-z-]{1,24}", "the name of a palette, such as 'classic'",
+        BY_COLUMN,
+        "look",
+        "[a-z-]{1,24}",
+        "the name of a palette, such as 'classic'",
         "colours; by-column: each column has its own",
-    )  # fmt: skip
+    )
     ninja_colour: str = _text(
         "", "look", "|#[0-9a-fA-F]{6}", "'' or a colour such as '#186285'", "of the ninja; empty: as the palette has it"
     )
@@ -155,9 +158,12 @@ class Settings:
     sound_cues: bool = _flag(False, "accessibility", "marks where a sound warns: rocket, laser, chase, turret")
     name: str = _setting("", "play", _is_name, "at most 40 printable characters", "of the player, in replays")
     site: str = _text(
-        "", "play", "|(?!.{201})https?://[!-~]+", "'' or an address such as 'https://example.org/game/'",
+        "",
+        "play",
+        "|(?!.{201})https?://[!-~]+",
+        "'' or an address such as 'https://example.org/game/'",
         "address of the page with the game to which links lead",
-    )  # fmt: skip
+    )
     dead_zone: float = _number(0.35, "pad", 0.05, 0.95, "share of a stick's way that counts as rest", 0.05)
     keys: InputNames = field(default_factory=dict, metadata=_bindings("keys", "['z', 'lshift']"))
     pad: InputNames = field(default_factory=dict, metadata=_bindings("buttons", "['a']"))

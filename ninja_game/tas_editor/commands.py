@@ -52,9 +52,13 @@ class RunCommands(DocumentCommands):
     """
 
     def __init__(
-        self, app: App, editor: TasEditor, run: Callable[[str], object], recover: Callable[[RecoveredRun], object],
+        self,
+        app: App,
+        editor: TasEditor,
+        run: Callable[[str], object],
+        recover: Callable[[RecoveredRun], object],
         begin_new: Action,
-    ) -> None:  # fmt: skip
+    ) -> None:
         super().__init__(app, editor.session)
         self.editor = editor
         self.session = editor.session

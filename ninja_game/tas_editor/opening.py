@@ -126,9 +126,16 @@ class OpeningScreen(Screen):
         for number, (line, size) in enumerate(zip(shown.split("\n"), (18, 11), strict=True)):
             y = HEIGHT / 2 - 30 + 34 * number
             self.theme.text(
-                surface, line, WIDTH / 2, y, size=size, bold=not number, colour=palette.on_tile, align="centre",
+                surface,
+                line,
+                WIDTH / 2,
+                y,
+                size=size,
+                bold=not number,
+                colour=palette.on_tile,
+                align="centre",
                 width=WIDTH - 80,
-            )  # fmt: skip
+            )
         return None
 
 

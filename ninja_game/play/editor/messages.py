@@ -161,9 +161,16 @@ class MessagesScreen(MenuScreen):
     offers_back = says_full = False
 
     def __init__(
-        self, app: App, draft: Draft, here: Cell, put: Callable[[str], object],
-        test: Callable[[Point | None, str], object], mood: Mood, way: bytes, at: Cell | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        app: App,
+        draft: Draft,
+        here: Cell,
+        put: Callable[[str], object],
+        test: Callable[[Point | None, str], object],
+        mood: Mood,
+        way: bytes,
+        at: Cell | None = None,
+    ) -> None:
         super().__init__(app)
         self.messages = messages_of(draft.says)
         self._draft = draft

@@ -364,9 +364,13 @@ class Findings(EditorPart):
         self._shown: list[Finding] = []
         self._lines: list[tuple[int, str]] = []
         self.list = ListView(
-            self.area, 19, self._draw_row, lambda row: go_to(self._lines[row][0]), empty="No problems found",
+            self.area,
+            19,
+            self._draw_row,
+            lambda row: go_to(self._lines[row][0]),
+            empty="No problems found",
             hint="A click goes there and selects it",
-        )  # fmt: skip
+        )
         self.widgets = [self.list]
 
     def render_key(self) -> tuple[object, ...]:

@@ -392,11 +392,17 @@ class EditorView(Pane):
         routes: list[tuple[Route, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(
-            self.sheet.canvas, palette, session.draft, self.sheet.marks, lines=self.lines, signs=self._signs(),
+            self.sheet.canvas,
+            palette,
+            session.draft,
+            self.sheet.marks,
+            lines=self.lines,
+            signs=self._signs(),
             said=said_places(session.draft.says),
-            routes=routes if self.paths else (), tests=(self.tests and session.test_map) or NO_TESTS,
+            routes=routes if self.paths else (),
+            tests=(self.tests and session.test_map) or NO_TESTS,
             axes=_AXES.get(session.tools.symmetry, ()),
-        )  # fmt: skip
+        )
         self.sheet.show_marks(marks)
 
     def _signs(self) -> list[Point]:

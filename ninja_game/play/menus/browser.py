@@ -68,9 +68,15 @@ class Browser(ThumbnailScreen):
         self.marks: dict[str, Mark] = {}
         self._count = ""
         self.list = ListView(
-            (44, 112, 376, 8 * ROW), ROW, self._draw_row, self.play, empty="No level matches",
-            hint="Enter to play, Right for more, Up to search", selected=self._select, opens=True,
-        )  # fmt: skip
+            (44, 112, 376, 8 * ROW),
+            ROW,
+            self._draw_row,
+            self.play,
+            empty="No level matches",
+            hint="Enter to play, Right for more, Up to search",
+            selected=self._select,
+            opens=True,
+        )
         self.play_it = Button((SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
         self.practice = Button(
             (SIDE + 166, 470, 154, 32), "Practice", lambda: self.play(self.list.index, practice=True)

@@ -197,18 +197,25 @@ class EpisodeGrid(ThumbnailScreen):
         self.passed = self.marks.keys() | self.player.marks.all(WITH_HELP).keys()
         self._selected(self.grid.index)
         self.practice = Choice(
-            (LEFT, self._below, WIDE, 30), "Practice mode", [("off", False), ("on", True)],
-            lambda: self.player.settings.practice, self._set_practice,
+            (LEFT, self._below, WIDE, 30),
+            "Practice mode",
+            [("off", False), ("on", True)],
+            lambda: self.player.settings.practice,
+            self._set_practice,
             hint=PRACTICE_HINT,
-        )  # fmt: skip
+        )
         problems = problems_button(self.app, (LEFT, 546, WIDE, 18), lambda: self.problems)
         if len(self.packs) < 2:
             return [self.grid, self.play, *[self.practice] * (not self.previews), self.rows, *problems]
         names = [("This game's levels" if not pack.key else pack.name, pack.key) for pack in self.packs]
         choice = Choice(
-            (LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack,
+            (LEFT, 62, WIDE, 26),
+            "",
+            names,
+            lambda: self.pack.key,
+            self._set_pack,
             hint="Level pack. Levels > Packs > Paste link takes in more, as does the folder in Settings > Play",
-        )  # fmt: skip
+        )
         return [self.grid, self.play, choice, self.practice, self.rows, *problems]
 
     def _set_practice(self, value: object) -> None:
@@ -274,8 +281,14 @@ class EpisodeGrid(ThumbnailScreen):
         clock = f"Your best: {seconds_text(best.score)} s left on the clock" if best else ""
         count = len(episode.levels)
         text = clock or _how_far(sum(level.digest in self.passed for level in episode.levels), count)
-        theme.text(surface, self._hint() if self._state(episode.number) == LOCKED else text, SIDE, 96, size=11,
-                   colour=palette.good if best else palette.faint)  # fmt: skip
+        theme.text(
+            surface,
+            self._hint() if self._state(episode.number) == LOCKED else text,
+            SIDE,
+            96,
+            size=11,
+            colour=palette.good if best else palette.faint,
+        )
 
     def _draw_total(self, surface: pygame.Surface, theme: Theme, y: float) -> None:
         levels = self.pack.levels

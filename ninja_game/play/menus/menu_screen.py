@@ -407,9 +407,13 @@ class FormPanel(Menu):
     """
 
     def __init__(
-        self, app: App, title: str, fields: Sequence[tuple[str, str, int]], yes: str,
+        self,
+        app: App,
+        title: str,
+        fields: Sequence[tuple[str, str, int]],
+        yes: str,
         action: Callable[[list[str]], object],
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.texts = [text for _, text, _ in fields]
         self._fields = fields
         super().__init__(app, title, [(yes, lambda: action(self.texts), ""), CANCEL])

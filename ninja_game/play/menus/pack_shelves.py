@@ -38,9 +38,15 @@ class Rack(ListView):
     """
 
     def __init__(
-        self, area: Area, columns: int, *, status: PackStatus, thumbnails: Thumbnails,
-        pull: Callable[[Cell, tuple[float, float]], object], choose: Callable[[Cell], object],
-    ) -> None:  # fmt: skip
+        self,
+        area: Area,
+        columns: int,
+        *,
+        status: PackStatus,
+        thumbnails: Thumbnails,
+        pull: Callable[[Cell, tuple[float, float]], object],
+        choose: Callable[[Cell], object],
+    ) -> None:
         super().__init__(area, HIGH, self._draw_cell, lambda index: choose(self.cells[index]), opens=True)
         self.columns, self.status, self.thumbnails, self.pull = columns, status, thumbnails, pull
         self.cells: Sequence[Cell] = ()

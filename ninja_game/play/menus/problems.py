@@ -46,9 +46,14 @@ class ProblemsScreen(MenuScreen):
         self._find = find
         self.problems: Sequence[Problem] = ()
         self.list = ListView(
-            (44, 66, 704, 10 * ROW), ROW, self._draw_row, lambda _: self._go(), empty="There are no problems",
-            selected=lambda _: self._offer(), opens=True,
-        )  # fmt: skip
+            (44, 66, 704, 10 * ROW),
+            ROW,
+            self._draw_row,
+            lambda _: self._go(),
+            empty="There are no problems",
+            selected=lambda _: self._offer(),
+            opens=True,
+        )
         self.search = Button((316, 530, 136, 28), SEARCH, self._search, size=10)
         self.search.hint = "For the run that is missing: the solver had less time before"
         self.go = Button((464, 530, 136, 28), "Go there", self._go)

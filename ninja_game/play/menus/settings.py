@@ -91,11 +91,14 @@ def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
     if device == "pad":
         pads = screen.app.controls.pads.count
         zone = Slider(
-            (216, 514, 540, 30), "Dead zone of sticks", RULES["dead_zone"].span,
-            lambda: screen.player.settings.dead_zone, lambda value: screen.change(dead_zone=round(value, 2)),
+            (216, 514, 540, 30),
+            "Dead zone of sticks",
+            RULES["dead_zone"].span,
+            lambda: screen.player.settings.dead_zone,
+            lambda value: screen.change(dead_zone=round(value, 2)),
             show="{:.0%}".format,
             hint=f"{pads or 'No'} gamepads are plugged in" if pads != 1 else "One gamepad is plugged in",
-        )  # fmt: skip
+        )
         widgets.append(zone)
     return widgets
 
@@ -224,8 +227,9 @@ class SettingsScreen(ThumbnailScreen):
         self.titles = list(self.pages)
         self.page = self.titles[0]
         self.tables: dict[str, BindingTable] = {}
-        self.tabs = ListView((40, TOP - 4, 158, 40 * len(self.titles)), 40, self._draw_tab, self._go_in,
-                             selected=self._show)  # fmt: skip
+        self.tabs = ListView(
+            (40, TOP - 4, 158, 40 * len(self.titles)), 40, self._draw_tab, self._go_in, selected=self._show
+        )
         self.tabs.hint = "Up and down to choose a page, Right to open it"
         self.tabs.fill(self.titles)
 
@@ -260,9 +264,13 @@ class SettingsScreen(ThumbnailScreen):
         self, text: str, name: str, options: Sequence[tuple[str, object]] = SWITCH, hint: str = ""
     ) -> Choice[object]:
         return Choice(
-            self._area(), text, options, lambda: getattr(self.player.settings, name),
-            lambda value: self.change(**{name: value}), hint=hint,
-        )  # fmt: skip
+            self._area(),
+            text,
+            options,
+            lambda: getattr(self.player.settings, name),
+            lambda value: self.change(**{name: value}),
+            hint=hint,
+        )
 
     def _slider(self, text: str, name: str, hint: str = "") -> Slider:
         """One for a number; volumes, stored as 0 to 99, are heard at once."""
@@ -276,9 +284,14 @@ class SettingsScreen(ThumbnailScreen):
         span = RULES[name].span
         share = 100 / span[1]
         return Slider(
-            self._area(), text, span, lambda: getattr(self.player.settings, name), put,
-            show=lambda value: f"{share * value:.0f}%", hint=hint,
-        )  # fmt: skip
+            self._area(),
+            text,
+            span,
+            lambda: getattr(self.player.settings, name),
+            put,
+            show=lambda value: f"{share * value:.0f}%",
+            hint=hint,
+        )
 
     def _picture(self) -> list[Widget]:
         columns, present = self.player.columns_complete, self.player.columns_present
@@ -316,10 +329,15 @@ class SettingsScreen(ThumbnailScreen):
         ]
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
             widgets.append(
-                Slider(self._area(), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
-                       lambda value: setattr(self.app, "overclock", round(value)),
-                       hint="Speeds the game up until you quit")
-            )  # fmt: skip
+                Slider(
+                    self._area(),
+                    "Overclock, ms",
+                    (0, FASTEST_TICK_GAIN, 1),
+                    lambda: self.app.overclock,
+                    lambda value: setattr(self.app, "overclock", round(value)),
+                    hint="Speeds the game up until you quit",
+                )
+            )
         folder = short_path(self.player.folder / LEVELS)
         texts = ("Put level files into this folder, and they appear under Levels:", folder)
         below = TOP + STEP * 9

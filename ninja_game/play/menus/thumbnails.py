@@ -98,9 +98,14 @@ def tries_text(played: Played) -> str:
 
 
 def draw_pars(
-    surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: int | None, x: float, y: float,
+    surface: pygame.Surface,
+    theme: Theme,
+    pars: Pars | None,
+    tick: int | None,
+    x: float,
+    y: float,
     medals: Sequence[str] = MEDALS,
-) -> None:  # fmt: skip
+) -> None:
     """Pars in a row, those reached in a tick filled."""
     if pars is None:
         return

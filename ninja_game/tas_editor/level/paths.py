@@ -101,11 +101,14 @@ class LevelPaths:
             self._under.fill((0, 0, 0, 0), self._covered)
             drawn = [
                 draw_path(
-                    self._under, self.canvas, path.trajectory.positions[path.first : path.last],
-                    shaded(path.colour, path.alpha), self._px(_THIN),
+                    self._under,
+                    self.canvas,
+                    path.trajectory.positions[path.first : path.last],
+                    shaded(path.colour, path.alpha),
+                    self._px(_THIN),
                 )
                 for path in paths
-            ]  # fmt: skip
+            ]
             self._covered = union_of(drawn)
         self._put(surface, self._under, self._covered)
 

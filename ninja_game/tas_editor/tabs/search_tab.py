@@ -319,8 +319,12 @@ class SearchTab(Tab):
             EntryField(prompt, self.start, longest=LONGEST, hint=_NAMES, put=self._typed) for prompt in fields
         )
         self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
-        self.list = Rows(self._draw_row, self._put, keeps=False,
-                         hint="Under the mouse: its path in the level; a click puts it into the run")  # fmt: skip
+        self.list = Rows(
+            self._draw_row,
+            self._put,
+            keeps=False,
+            hint="Under the mouse: its path in the level; a click puts it into the run",
+        )
         self.widgets = [
             Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL),
             Button(UNPLACED, "Presets", self.propose, size=SMALL, hint="Common goals, to begin with"),

@@ -110,9 +110,14 @@ class Rows(ListView):
     """
 
     def __init__(
-        self, draw_row: Callable[[pygame.Surface, Theme, int, Area, bool], None], choose: Callable[[int], object],
-        *, empty: str = "", hint: str = "", keeps: bool = True,
-    ) -> None:  # fmt: skip
+        self,
+        draw_row: Callable[[pygame.Surface, Theme, int, Area, bool], None],
+        choose: Callable[[int], object],
+        *,
+        empty: str = "",
+        hint: str = "",
+        keeps: bool = True,
+    ) -> None:
         super().__init__(UNPLACED, ROW, self._draw_row, choose, empty=empty, hint=hint)
         self.over = -1
         self._keeps = keeps
@@ -145,9 +150,15 @@ class EntryField(TextEntry):
     """A field in a tab; ``enter`` at Enter, ``step`` with -1 or 1 at Up and Down."""
 
     def __init__(
-        self, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = "",
-        put: Callable[[str], object] = lambda _: None, step: Callable[[int], object] | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        prompt: str,
+        enter: Callable[[], object],
+        *,
+        longest: int,
+        hint: str = "",
+        put: Callable[[str], object] = lambda _: None,
+        step: Callable[[int], object] | None = None,
+    ) -> None:
         super().__init__(UNPLACED, prompt, "", put, longest=longest, hint=hint)
         self._enter, self._step = enter, step
 

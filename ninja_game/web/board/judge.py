@@ -50,9 +50,14 @@ class JudgedFile(NamedTuple):
 
 
 def judge(
-    folder: Path, shown: PublishedLevels, *, dates: Dates | None = None, jobs: int | None = None,
-    memo: Memo | None = None, ledger: Ledger = NO_LEDGER,
-) -> ValidatedRuns:  # fmt: skip
+    folder: Path,
+    shown: PublishedLevels,
+    *,
+    dates: Dates | None = None,
+    jobs: int | None = None,
+    memo: Memo | None = None,
+    ledger: Ledger = NO_LEDGER,
+) -> ValidatedRuns:
     """Simulate every run below a folder again, on the levels that are shown. Raises OSError.
 
     ``dates``: those of the board's ``ledger``; without it runs go by the names of their files. ``memo``: what was found
@@ -127,9 +132,14 @@ class _Judging:
         """All files, in order, simulated where the memo does not know them."""
         levels, results = [entry.named for entry in self._shown.entries.values()], list[Result]()
         for result in verify_all(
-            (), chunks=self._chunks(), levels=levels, episodes=self._episodes, strict=True, jobs=jobs,
+            (),
+            chunks=self._chunks(),
+            levels=levels,
+            episodes=self._episodes,
+            strict=True,
+            jobs=jobs,
             budget=self._budget,
-        ):  # fmt: skip
+        ):
             while not self._waiting[0].sent:
                 yield self._waiting.popleft()
             file = self._waiting[0]

@@ -116,9 +116,15 @@ class LevelPages:
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
 
     def write_table(
-        self, name: str, title: str, caption: str, heads: Sequence[str], rows: Sequence[Any], *before: Content,
+        self,
+        name: str,
+        title: str,
+        caption: str,
+        heads: Sequence[str],
+        rows: Sequence[Any],
+        *before: Content,
         cells: Callable[[Any], tuple[Content, ...]] = tuple,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """A table on as many pages as it takes. ``rows``: plain values, of which ``cells`` makes what is shown."""
         up, links = (UP, self.deeper) if "/" in name else ("", self.links)
         parts = [rows[first : first + PER_PAGE] for first in range(0, len(rows), PER_PAGE)] or [()]

@@ -134,11 +134,15 @@ class BoardPages(LevelPages):
         if len(records) <= MOST_OF_A_MOMENT:
             return [
                 (
-                    level_link(run.entry), self.watch_link([run], ""), self.player_link(run.player),
-                    tag("div", *(tag("div", text) for text in self._achieved(record)), class_="text"), moment,
+                    level_link(run.entry),
+                    self.watch_link([run], ""),
+                    self.player_link(run.player),
+                    tag("div", *(tag("div", text) for text in self._achieved(record)), class_="text"),
+                    moment,
                 )
-                for record in records for run in [record.run]
-            ]  # fmt: skip
+                for record in records
+                for run in [record.run]
+            ]
         levels, players = ({getattr(record.run, name) for record in records} for name in ("level", "player"))
         where = tag("a", counted(len(levels), "level"), href="levels.html")
         return [(where, "", counted(len(players), "player"), _together(records), moment)]
@@ -366,11 +370,17 @@ class BoardPages(LevelPages):
         counts = Counter(item.kind for item in rejected)
         said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title, _) in KINDS.items() if counts[kind])
         rows: list[tuple[Content, ...]] = [
-            (KINDS[item.kind][2], item.file + f", record {item.record}" * (item.record > 0),
-             self.shown_name(item.player), item.level, item.why, self._first_run(item.first),
-             item.added.partition("T")[0])
+            (
+                KINDS[item.kind][2],
+                item.file + f", record {item.record}" * (item.record > 0),
+                self.shown_name(item.player),
+                item.level,
+                item.why,
+                self._first_run(item.first),
+                item.added.partition("T")[0],
+            )
             for item in sorted(rejected, key=lambda item: order.index(item.kind))
-        ]  # fmt: skip
+        ]
         lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."
         near = [
             (level_link(run.entry), self.player_link(run.player), self.run_link(run, "", seconds_text(run.tick)),

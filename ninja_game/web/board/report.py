@@ -229,8 +229,9 @@ def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
             leaders = [
                 f"{ranking.leaderboard_name(board)} {plain(ranked.run.player)}, {board[1].text(ranked.values[0])}"
                 for board, table in ranking.tables.get(row["level"], {}).items()
-                for ranked in table if ranked.place == 1
-            ]  # fmt: skip
+                for ranked in table
+                if ranked.place == 1
+            ]
             first = f"first now: {'; '.join(leaders) or 'nobody'}"
             yield f"gone: {_place(key)}: {plain(row['player'])} on {plain(row['level_name'])}; {first}"
 
