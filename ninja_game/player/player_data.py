@@ -26,11 +26,17 @@ class PlayerData:
     """The player's data in one folder. Nothing that is wrong with the folder or its files keeps the game from starting.
 
     ``store``, ``catalogue``: others than those of the folder, whose records are opened when they are first needed.
+    ``settings``: instead of those of the folder's file, which is then neither made nor read.
     ``messages``: problems of settings and, once they are open, records, for the player.
     """
 
     def __init__(
-        self, folder: Path | None = None, *, store: Store | None = None, catalogue: Catalogue | None = None
+        self,
+        folder: Path | None = None,
+        *,
+        store: Store | None = None,
+        catalogue: Catalogue | None = None,
+        settings: Settings | None = None,
     ) -> None:
         self.folder = user_folder() if folder is None else folder
         self._store = store
@@ -39,14 +45,15 @@ class PlayerData:
         self._progress: dict[str, Progress] = {}
         self._is_maker = True
         self._certified: dict[str, tuple[object, Replay | None]] = {}
-        try:
-            make_user_folder(self.folder)
-            remove_leftovers(self.folder)
-        except OSError as error:
-            self._messages.append(f"{self.folder} cannot be made ({error.strerror}).")
-        self.settings, messages = read_settings(self.folder / SETTINGS)
-        self._saved_settings = self.settings
-        self._messages += messages
+        if settings is None:
+            try:
+                make_user_folder(self.folder)
+                remove_leftovers(self.folder)
+            except OSError as error:
+                self._messages.append(f"{self.folder} cannot be made ({error.strerror}).")
+            settings, messages = read_settings(self.folder / SETTINGS)
+            self._messages += messages
+        self.settings = self._saved_settings = settings
         self.catalogue = catalogue or Catalogue(self.folder / LEVELS)
 
     @property
@@ -57,8 +64,9 @@ class PlayerData:
 
     def newcomer(self) -> PlayerData:
         """The same levels, for somebody without a name who has played nothing; what is played so is forgotten."""
-        other = PlayerData(self.folder, store=Store(None, "this is a preview"), catalogue=self.catalogue)
-        other.settings, other._is_maker = self.settings.changed(name=""), False
+        store, settings = Store(None, "this is a preview"), self.settings.changed(name="")
+        other = PlayerData(self.folder, store=store, catalogue=self.catalogue, settings=settings)
+        other._is_maker = False
         return other
 
     @property

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.files.user_folder import RECORDS
+from ninja_game.files.user_folder import RECORDS, SETTINGS
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.player import schema
@@ -312,8 +312,10 @@ def test_replay_that_a_best_needs_is_not_forgotten(tmp_path: Path) -> None:
 
 def test_what_a_newcomer_plays_is_forgotten_and_touches_no_records(tmp_path: Path) -> None:
     data = PlayerData(tmp_path)
+    (tmp_path / SETTINGS).write_text("damaged")
     newcomer = data.newcomer()
     assert newcomer.catalogue is data.catalogue
+    assert not newcomer.messages, "the settings are those that are in use: the file is not read again"
     assert save_work(newcomer, lambda: ["Played: saved"]) == ["Played", "Not saved yet: this is a preview"]
     newcomer.close()
     assert not (tmp_path / RECORDS).exists()

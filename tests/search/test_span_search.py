@@ -159,8 +159,8 @@ def test_what_a_run_gains_by_its_own_route_stays_beside_faster_runs(monkeypatch:
 def test_results_that_are_no_longer_shown_are_forgotten() -> None:
     search = SpanSearch(task())
     one, two = (SpanResult(1.0, 60, np.full(60, keys, np.uint8), bytes([keys]) * 60) for keys in (2, 3))
-    assert search._without_junk((one, two), 60.0) != ()
-    search._without_junk((two,), 60.0)
+    assert search._without_idle_keys((one, two), 60.0) != ()
+    search._without_idle_keys((two,), 60.0)
     assert list(search._tidy) == [two.inputs]
 
 

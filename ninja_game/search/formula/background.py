@@ -96,7 +96,7 @@ class SpanSearch:
     def _work(self) -> None:
         report_miss = partial(setattr, self, "miss")
         results = search_span(self.task, self._report, report_miss=report_miss, **self._options)  # type: ignore[arg-type]
-        self.found = self._without_junk(results, np.inf)
+        self.found = self._without_idle_keys(results, np.inf)
         self._ended = monotonic()
 
     def _fail(self, why: str) -> None:
@@ -112,11 +112,11 @@ class SpanSearch:
                 from ninja_game.search.solve import compile_solver  # few searches are of a whole run
 
                 run_in_background(compile_solver, lambda _: None)
-        self.ticks_run, self.found = ticks, self._without_junk(results, TIDYING_SECONDS)
+        self.ticks_run, self.found = ticks, self._without_idle_keys(results, TIDYING_SECONDS)
         late = self._limit and self.seconds >= self._limit
         return not (late or self._cancelled.is_set())
 
-    def _without_junk(self, results: tuple[SpanResult, ...], seconds: float) -> tuple[SpanResult, ...]:
+    def _without_idle_keys(self, results: tuple[SpanResult, ...], seconds: float) -> tuple[SpanResult, ...]:
         """Results without keys that do nothing, as far as there is time for it: the others follow."""
         late, known = monotonic() + seconds, self._tidy
         self._tidy = {way.inputs: known[way.inputs] for way in results if way.inputs in known}
