@@ -94,11 +94,11 @@ def check(
 
     chosen = [level for path in levels for level in load_levels(path)]
     kept = list(_files(chosen, goals, replays))
-    wanted = CertifyOptions(goals, task_options, improve)
+    certify_options = CertifyOptions(goals, task_options, improve)
     broken = 0
     without: dict[str, list[str]] = {goal: [] for goal in goals}
     with progress_line() as report:
-        results = certify_all(chosen, kept, wanted, jobs=jobs, report=report.of_level)
+        results = certify_all(chosen, kept, certify_options, jobs=jobs, report=report.of_level)
         for level, files, by_goal in zip(chosen, kept, results, strict=True):
             if isinstance(by_goal, NinjaGameError):
                 broken += 1
@@ -129,14 +129,14 @@ def _summary(levels: int, broken: int, without: Mapping[str, Sequence[str]]) -> 
 
 def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | None) -> Iterator[dict[str, Path]]:
     """Where each level's runs are kept, by goal: ``file.goal.replay.txt``; numbered where that name is given."""
-    given: set[str] = set()
+    taken: set[str] = set()
     for level in levels:
         stem = name = Path(level.file).stem + (f"-{level.record}" if level.record else "")
         number = 1
-        while name_key(name) in given:
+        while name_key(name) in taken:
             number += 1
             name = f"{stem}-{number}"
-        given.add(name_key(name))
+        taken.add(name_key(name))
         files = {goal: folder / f"{name}.{goal}{REPLAY_SUFFIX}" for goal in goals} if folder else {}
         for file in files.values():
             if file.parent.is_dir():  # else it is made

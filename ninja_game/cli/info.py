@@ -53,9 +53,9 @@ def info(
 
     # A pipe has no width; a table truncated to 80 columns is of no use to whoever reads it.
     console = Console(highlight=False, emoji=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
-    given = load_level_option(level_path)
-    runs = [run for run in recordings_in(files, given) if not isinstance(run, Unreadable)]
-    levels = list(map(_level_of, runs)) if given else [level for file in files for level in load_levels(file)]
+    play_level = load_level_option(level_path)
+    runs = [run for run in recordings_in(files, play_level) if not isinstance(run, Unreadable)]
+    levels = list(map(_level_of, runs)) if play_level else [level for file in files for level in load_levels(file)]
     if record is not None:
         levels = [level for level in levels if level.record == record]
         if not levels:

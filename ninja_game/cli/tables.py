@@ -24,11 +24,11 @@ WIDTH = 160  # width of a table in a pipe, characters
 Table = tuple["list[RunSplits]", "list[SplitRow]"]  # the runs of a level, the best first, and the rows of their splits
 
 
-def table_of(group: Sequence[RunSplits], given: Sequence[RunSplits]) -> Table:
+def table_of(group: Sequence[RunSplits], against: Sequence[RunSplits]) -> Table:
     """The table of runs of a level, against the given one of it or else the fastest."""
     from ninja_game.runs.compare import best_run, split_table
 
-    best = next((run for run in given if run.level_digest == group[0].level_digest), None) or best_run(group)
+    best = next((run for run in against if run.level_digest == group[0].level_digest), None) or best_run(group)
     runs = [best, *(run for run in group if run is not best)]
     return runs, split_table(runs, best)
 

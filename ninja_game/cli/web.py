@@ -288,12 +288,12 @@ def _ranking(
     elif not ledger:
         click.echo(NO_DATES, err=True)
     shown = published_levels(levels or data_folder("levels"))
-    given = read_dates(dates, now) if dates else {}
-    known = dates_of(before, now, given) if ledger else None
+    dates_by_file = read_dates(dates, now) if dates else {}
+    known = dates_of(before, now, dates_by_file) if ledger else None
     judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
     here = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
     memo.save()
-    if unknown := given.keys() - here:
+    if unknown := dates_by_file.keys() - here:
         raise FileError("a file that is not among the runs", str(dates), found=shown_text(min(unknown)))
     return Ranking(judged, shown, categories), before
 

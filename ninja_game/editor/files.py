@@ -127,11 +127,11 @@ class Autosave(RecoveryFile):
 
     def poll(self, draft: Draft, source: Source) -> None:
         """Keep the draft if it has changed and it is time; nothing is kept of one that is as its file has it."""
-        wanted = None if draft == source.draft else draft
-        if wanted is not self._kept and time.monotonic() - self._asked_at >= SPACING and self._job.idle:
+        draft_now = None if draft == source.draft else draft
+        if draft_now is not self._kept and time.monotonic() - self._asked_at >= SPACING and self._job.idle:
             self._asked_at = time.monotonic()
-            self._kept = wanted
-            self._job.ask((draft, source) if wanted else None)
+            self._kept = draft_now
+            self._job.ask((draft, source) if draft_now else None)
 
     def flush(self, draft: Draft, source: Source) -> None:
         """Keep the draft now, if it has changed, and wait until it is kept."""
@@ -217,10 +217,10 @@ def reads_as(text: str, draft: Draft, *, named: bool = True) -> bool:
         read = parse_ascii_level(text)
     except LevelError:
         return False
-    given = writer.headers_of(read) | ({} if named else {"name": draft.name})
+    headers = writer.headers_of(read) | ({} if named else {"name": draft.name})
     objects = read.level.objects
     return (
-        given == writer.headers_of(draft)
+        headers == writer.headers_of(draft)
         and read.level.tiles == draft.level.tiles
         and len(objects) == len(draft.objects)
         and all(map(writer.same_spec, objects, draft.objects))
@@ -231,9 +231,9 @@ class _Lines:
     def __init__(self, text: str, opened: Draft, draft: Draft) -> None:
         self.lines = text.split("\n")
         self.opened, self.draft = opened, draft
-        given = list(numbered_lines(text, UNCOMMENTED))
-        self.first = given[0][0]
-        self.header, self.rows, self.listed = sections(given[1:], Problems(""))
+        lines = list(numbered_lines(text, UNCOMMENTED))
+        self.first = lines[0][0]
+        self.header, self.rows, self.listed = sections(lines[1:], Problems(""))
         self.replaced: dict[int, list[str]] = {}
         self.after: dict[int, list[str]] = defaultdict(list)
 
@@ -280,14 +280,14 @@ class _Lines:
             for entry in entries
             if isinstance(entry, ListedObject)
         ]
-        wanted = self.draft.objects[self._count_drawn(len(owners)) :]
+        specs = self.draft.objects[self._count_drawn(len(owners)) :]
         keys = [repr(spec) for _, spec in owners]
-        matcher = SequenceMatcher(None, keys, [repr(spec) for spec in wanted], autojunk=False)
+        matcher = SequenceMatcher(None, keys, [repr(spec) for spec in specs], autojunk=False)
         content: dict[int, list[ObjectSpec]] = {number: [] for number, _ in owners}
         touched: set[int] = set()
         for _, i1, i2, j1, j2 in (code for code in matcher.get_opcodes() if code[0] == "equal"):
             for i, j in zip(range(i1, i2), range(j1, j2), strict=True):
-                content[owners[i][0]].append(wanted[j])
+                content[owners[i][0]].append(specs[j])
         for tag, i1, i2, j1, j2 in matcher.get_opcodes():
             if tag == "equal":
                 continue
@@ -296,10 +296,10 @@ class _Lines:
             if within and j2 > j1:
                 # New objects between two of one line: this and all behind it are written again.
                 self.replaced |= {number: [] for number in content}
-                self.replaced[owners[0][0]] = writer.write_object_lines(wanted)
+                self.replaced[owners[0][0]] = writer.write_object_lines(specs)
                 return
             if j2 > j1:
-                self.after[owners[i1 - 1][0] if i1 else end] += writer.write_object_lines(wanted[j1:j2])
+                self.after[owners[i1 - 1][0] if i1 else end] += writer.write_object_lines(specs[j1:j2])
         for number in touched:
             self.replaced[number] = self._rewritten(number, content[number])
 

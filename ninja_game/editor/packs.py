@@ -454,7 +454,7 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
 
     in_order = [Path(level.named.file).name for level in episode_set(pack, "").levels]
     levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in KINDS)}
-    wanted = CertifyOptions({"exit": 0, "gold": -1}, {"seconds": seconds})
+    options = CertifyOptions({"exit": 0, "gold": -1}, {"seconds": seconds})
     files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
     goals = {file: " and ".join(f"a {_SOUGHT[kind]}" for kind in KINDS if is_open(file, kind)) for file in levels}
     names = {Path(file).stem: f"{goals[file]} of {shown_text(named.name)}" for file, named in levels.items()}
@@ -472,7 +472,7 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
         compile_solver()
         say("Starting the search", None)
     began = monotonic()
-    all_found = certify_all(list(levels.values()), files, wanted, jobs=jobs, report=report)
+    all_found = certify_all(list(levels.values()), files, options, jobs=jobs, report=report)
     for named, by_goal in zip(levels.values(), all_found, strict=True):
         for kind, certified in by_goal.items() if isinstance(by_goal, dict) else ():
             if not certified.run and certified.progress:

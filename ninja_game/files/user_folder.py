@@ -183,7 +183,7 @@ def install_hint(extra: str) -> str:
         needed = [requirement.partition(";") for requirement in requires("ninja-game") or ()]
     except PackageNotFoundError:
         return "this copy of the program cannot be added to; use one that is installed in a Python"
-    wanted = [
+    packages = [
         package.strip() for package, _, marker in needed if marker.replace('"', "'").strip() == f"extra == '{extra}'"
     ]
-    return f"install it: {sys.executable} -m pip install {shlex.join(wanted)}"
+    return f"install it: {sys.executable} -m pip install {shlex.join(packages)}"

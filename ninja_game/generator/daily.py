@@ -75,8 +75,8 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
     # Imports NumPy, which a packed level does not need.
     from ninja_game.generator.generate import generate
 
-    for again in range(_OTHER_SEEDS + 1):
-        seed = daily_seed(day) + again * _NEXT_SEED
+    for turn in range(_OTHER_SEEDS + 1):
+        seed = daily_seed(day) + turn * _NEXT_SEED
         generated = generate(seed, daily_difficulty(day), report=report, stop=stop)
         if stop.is_set():
             return False

@@ -112,9 +112,9 @@ def plan_of(seed: int | str, rng: Random) -> str:
     return layouts[seed % len(layouts)] if isinstance(seed, int) else rng.choice(layouts)
 
 
-def _near(measured: float, wanted: int, times: int = 1) -> bool:
+def _near(measured: float, difficulty: int, times: int = 1) -> bool:
     """Whether a measured difficulty is what was asked for, or so many times as far from it as that allows."""
-    return abs(measured - wanted) <= times * max(0.5, 0.15 * wanted)
+    return abs(measured - difficulty) <= times * max(0.5, 0.15 * difficulty)
 
 
 def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Event) -> tuple[Replay, float] | None:

@@ -145,8 +145,8 @@ def along(line: list[Point], step: float) -> list[Point]:
 
 def lay_gold(scene: Scene, rng: Random) -> bool:
     """Put a few groups of gold into a scene: in the vault, round dangers, then of other sorts; whether it is enough."""
-    wanted = rng.randint(LEAST + 2, MOST)
-    _lay(scene, hoard(scene, rng), wanted)
+    count = rng.randint(LEAST + 2, MOST)
+    _lay(scene, hoard(scene, rng), count)
     first = (dangers, min(rng.choice((0, 1, 1, 2)), len(scene.board.spots) or 1)), (bows, 1)
     for pattern, most in (*first, *((other, 3) for other in rng.sample(PATTERNS, len(PATTERNS)))):
         done = 0
@@ -154,7 +154,7 @@ def lay_gold(scene: Scene, rng: Random) -> bool:
             if done >= most or (len(scene.baits) > 6 and len(scene.gold) > LEAST):
                 break
             both = [group, scene.twin(group)][: 1 + (rng.random() < 0.6)]
-            laid = sum([_lay(scene, points, wanted) for points in both])
+            laid = sum([_lay(scene, points, count) for points in both])
             done += laid > 0
             if laid and pattern is dangers:
                 scene.rings += scene.baits[-laid:]
@@ -164,9 +164,9 @@ def lay_gold(scene: Scene, rng: Random) -> bool:
 PATTERNS: tuple[Pattern, ...] = (round_stones, along_walls, bows, falls, rows)
 
 
-def _lay(scene: Scene, points: list[Point], wanted: int) -> bool:
+def _lay(scene: Scene, points: list[Point], count: int) -> bool:
     """Put a group where all of it has room, away from other groups; whether it could be."""
-    if len(scene.gold) >= wanted or len(points) < 2 or not all(_fits(scene, point) for point in points):
+    if len(scene.gold) >= count or len(points) < 2 or not all(_fits(scene, point) for point in points):
         return False
     centre = sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
     if any(dist(centre, other) < BETWEEN for other in scene.baits):

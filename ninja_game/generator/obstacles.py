@@ -101,7 +101,7 @@ SOURCES: dict[Source, tuple[int, float]] = {
 """Where enemies come from: the least difficulty for them, and how often they are taken."""
 
 
-def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bool:
+def place_enemies(scene: Scene, rng: Random, count: int, difficulty: int) -> bool:
     """Put about so many enemies of two or three sources into a scene; whether there are at least three."""
     for x, y in scene.rings:
         turret = difficulty >= SOURCES[turrets][0] and _enemy(scene, object_of(f"gauss turret {x:g},{y:g}px"), 4 * CELL)
@@ -113,7 +113,7 @@ def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bo
         source = chosen[number % len(chosen)]
         if number == FEW_SOURCES:
             chosen = able
-        if scene.count(*ENEMIES) >= wanted:
+        if scene.count(*ENEMIES) >= count:
             break
         offered = list(source(scene, rng))
         rng.shuffle(offered)
@@ -126,7 +126,7 @@ def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bo
             scene.hazards.append([enemy])
             x, y, *_ = enemy.values
             twins = [spec for spec in offered if [spec.values[:2]] == scene.twin([(x, y)])]
-            if twins and rng.random() < 0.75 and scene.count(*ENEMIES) < wanted and _enemy(scene, twins[0], apart):
+            if twins and rng.random() < 0.75 and scene.count(*ENEMIES) < count and _enemy(scene, twins[0], apart):
                 scene.hazards.append([twins[0]])
     return scene.count(*ENEMIES) >= 3
 
@@ -178,7 +178,7 @@ def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
 # --- mines ---
 
 
-def place_mines(scene: Scene, rng: Random, wanted: int) -> None:
+def place_mines(scene: Scene, rng: Random, count: int) -> None:
     """Mines line the rock near what is wanted: under ceilings, up walls, over edges, on the floor of a pit."""
     rock = [face.off(ON_ROCK) for chain in scene.surfaces for face in chain]
     wanted_places = scene.wanted()
@@ -194,7 +194,7 @@ def place_mines(scene: Scene, rng: Random, wanted: int) -> None:
                 for spec in scene.objects
                 if spec.kind == kinds.MINE
             )
-            if len(group) >= 3 and not near and scene.count(kinds.MINE) + len(group) <= min(wanted, MOST_MINES):
+            if len(group) >= 3 and not near and scene.count(kinds.MINE) + len(group) <= min(count, MOST_MINES):
                 scene.hazards.append(group)
 
 

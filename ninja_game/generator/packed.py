@@ -28,9 +28,9 @@ MOST_BYTES = 8 * 2**20  # the largest size of the file, and of its text when unp
 MOST_MEMORY = 64 * 2**20  # bytes that unpacking may take
 
 
-def named_level(name: str, level: Level, seed: int | str, wanted: int, measured: float) -> NamedLevel:
+def named_level(name: str, level: Level, seed: int | str, difficulty: int, measured: float) -> NamedLevel:
     """A generated level as its file is to have it."""
-    return NamedLevel(name, AUTHOR, f"seed {seed}, difficulty {wanted}: measured {measured:.1f}", level, "")
+    return NamedLevel(name, AUTHOR, f"seed {seed}, difficulty {difficulty}: measured {measured:.1f}", level, "")
 
 
 class PackedLevel(NamedTuple):

@@ -53,16 +53,16 @@ class Actions:
     def keys(self, actions: Any, count: int) -> Keys:
         """The keys down in each of ``count`` worlds, uint8 (count,). Raises InvalidAction for what is not an action."""
         try:
-            given = np.asarray(actions)
+            actions_array = np.asarray(actions)
         except ValueError:
-            given = np.asarray(actions, object)
-        if given.shape != (count, *self._shape) or given.dtype.kind not in self._kinds:
-            found = f"{given.dtype} of shape {given.shape}"
+            actions_array = np.asarray(actions, object)
+        if actions_array.shape != (count, *self._shape) or actions_array.dtype.kind not in self._kinds:
+            found = f"{actions_array.dtype} of shape {actions_array.shape}"
             raise InvalidAction(f"actions are {found}; expected whole numbers of shape {(count, *self._shape)}")
-        if not 0 <= given.min() <= given.max() < self._choices:
-            raise InvalidAction(f"found the actions {given.tolist()!s:.60}; expected 0 to {self._choices - 1}")
+        if not 0 <= actions_array.min() <= actions_array.max() < self._choices:
+            raise InvalidAction(f"found the actions {actions_array.tolist()!s:.60}; expected 0 to {self._choices - 1}")
         if self.kind == "discrete":
-            keys: Keys = DISCRETE_KEYS[given]
+            keys: Keys = DISCRETE_KEYS[actions_array]
         else:
-            keys = given.astype(np.uint8) @ BUTTON_KEYS
+            keys = actions_array.astype(np.uint8) @ BUTTON_KEYS
         return keys

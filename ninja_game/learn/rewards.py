@@ -78,9 +78,9 @@ def reward_terms(reward: RewardLike | Sequence[RewardLike] | None) -> list[Rewar
     Raises ArgumentError for anything else.
     """
     several = isinstance(reward, Sequence) and not isinstance(reward, str)
-    given: Any = ["exit"] if reward is None else reward if several else [reward]
+    choices: Any = ["exit"] if reward is None else reward if several else [reward]
     terms = [
-        REWARD_TERMS[choice]() if isinstance(choice, str) and choice in REWARD_TERMS else choice for choice in given
+        REWARD_TERMS[choice]() if isinstance(choice, str) and choice in REWARD_TERMS else choice for choice in choices
     ]
     wrong = [term for term in terms if type(term) not in REWARD_TERMS.values()]
     if wrong:

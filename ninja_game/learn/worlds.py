@@ -231,10 +231,10 @@ class EnvWorlds:
         self.terms = terms = reward_terms(reward)
         shaping = [term for term in terms if isinstance(term, DistanceShaping)]
         self._guided = any(part.needs_goal for part in self.observation.parts)
-        wanted = goal_distance or self._guided or shaping
-        if wanted and self._unbounded:
+        needs_goal = goal_distance or self._guided or shaping
+        if needs_goal and self._unbounded:
             raise ArgumentError("the solver's field is not made for levels without end; take others, such as 'packed'")
-        self.goal = GoalDistance(self.levels, context) if wanted else None
+        self.goal = GoalDistance(self.levels, context) if needs_goal else None
         self._shaping = Shaping(shaping, self.goal) if self.goal and shaping else None
         self.observations = self.observation.memory(count)
         self._context = replace(context, goal=self.goal)

@@ -204,9 +204,9 @@ def level_findings(level: Level, says: str = "") -> list[Finding]:
     first: dict[ObjectSpec, int] = {}
     covering = _mines_over_gold(objects)
     for id_, spec in enumerate(objects):
-        again = [level_finding("duplicate")] if first.setdefault(spec, id_) != id_ else []
+        duplicate = [level_finding("duplicate")] if first.setdefault(spec, id_) != id_ else []
         over = [level_finding("mine-over-gold")] if spec in covering else []
-        for finding in (*oddities(spec, ground), *again, *over):
+        for finding in (*oddities(spec, ground), *duplicate, *over):
             odd.setdefault(finding, []).append(id_)
     of_objects = []
     for finding, ids in odd.items():

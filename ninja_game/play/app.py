@@ -321,8 +321,8 @@ class App:
 
     def wipe_from(self, screen: Screen) -> None:
         """Let what is seen now give way to another screen, or another level, within a moment."""
-        wanted = self.wipes and screen.wipes and not screen.see_through and not self.settings.reduced_motion
-        if wanted and self.stack:
+        wipes = self.wipes and screen.wipes and not screen.see_through and not self.settings.reduced_motion
+        if wipes and self.stack:
             self.wipe.begin(self.surface)
 
     def pop(self) -> None:

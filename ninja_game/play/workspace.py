@@ -324,8 +324,8 @@ class WorkspaceScreen(MenuScreen):
             surface.fill(theme.palette.tile)
         changed = []
         for part in self.parts:
-            again = whole or (self._widgets_changed and bool(part.widgets))
-            changed += part.draw(surface, theme, self.focus, whole=again)
+            redraws = whole or (self._widgets_changed and bool(part.widgets))
+            changed += part.draw(surface, theme, self.focus, whole=redraws)
         self._widgets_changed = False
         return None if whole else changed
 

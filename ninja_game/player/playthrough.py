@@ -107,8 +107,8 @@ class LevelContext:
         """What to race against; read again only when it is another run, since every retry asks."""
         best = self.data.records.level_best(self.entry.digest, self.body)
         medal = self._raced_medal()
-        wanted = self.entry.digest, best.id if best else -1, medal
-        if wanted != self._ghosts[0]:
+        state = self.entry.digest, best.id if best else -1, medal
+        if state != self._ghosts[0]:
             author = self.data.catalogue.author_run(self.entry) if medal else None
             if author and self.pars:
                 # The certificate, slowed down so that it just earns the medal.
@@ -116,16 +116,16 @@ class LevelContext:
             else:
                 replay = self.data.records.replay(best.id) if best else None
                 runs = [PacedRun(replay.inputs)] if replay else []
-            self._ghosts = wanted, runs
+            self._ghosts = state, runs
         return self._ghosts[1]
 
     def _raced_medal(self) -> str:
         """The medal at whose pace a ghost is wanted; "" for the player's best."""
-        wanted, pars = self.data.settings.ghost, self.pars
-        if wanted == "best" or pars is None:
+        medal_ghost, pars = self.data.settings.ghost, self.pars
+        if medal_ghost == "best" or pars is None:
             return ""
-        if wanted != "next":
-            return wanted
+        if medal_ghost != "next":
+            return medal_ghost
         mark = self.data.marks.of(self.entry.digest)
         return pars.next_medal(mark.fastest) if mark else "silver"
 
@@ -432,22 +432,22 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
     return run
 
 
-def unfinished_run(data: PlayerData, asked: Episode | None = None) -> EpisodeRun | None:
+def unfinished_run(data: PlayerData, chosen: Episode | None = None) -> EpisodeRun | None:
     """The run of an episode, or of that played last, where it was left; None where it has not been begun or is over."""
     key, replays = load_unfinished(data.store)
-    if asked is None:
+    if chosen is None:
         episodes = (episode for pack in data.catalogue.packs() for episode in pack.episodes.values())
-        asked = next((episode for episode in episodes if key and episode.key == key), None)
-    elif asked.key != key:
+        chosen = next((episode for episode in episodes if key and episode.key == key), None)
+    elif chosen.key != key:
         replays = []
-    if asked is None or len(replays) >= len(asked.levels):
+    if chosen is None or len(replays) >= len(chosen.levels):
         return None
-    run = EpisodeRun(data, asked)
+    run = EpisodeRun(data, chosen)
     if replays:
         run.resume(replays)
     else:
         run.skip_to_furthest()
-    return run if run.position or not data.progress_in(asked.pack).is_beaten(asked.number) else None
+    return run if run.position or not data.progress_in(chosen.pack).is_beaten(chosen.number) else None
 
 
 _PLACE = "episode left half-way"

@@ -57,8 +57,8 @@ class Split(NamedTuple):
         >>> Split(90, "door-opened", 3, 1, 60.0, 540.0).name, Split(120, "won", None, 0, 60.0, 540.0).name
         ('door 3, time 2', 'exit')
         """
-        again = f", time {self.number + 1}" if self.number else ""
-        return self.kind if self.object_id is None else f"{self.kind} {self.object_id}{again}"
+        suffix = f", time {self.number + 1}" if self.number else ""
+        return self.kind if self.object_id is None else f"{self.kind} {self.object_id}{suffix}"
 
     @property
     def kind(self) -> str:

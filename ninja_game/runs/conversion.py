@@ -127,8 +127,8 @@ def level_file_text(texts: Iterable[tuple[str, str]], level: Level | None = None
 
 def _records(text: str, file: str, level: Level | None) -> Iterator[LevelRecord]:
     if format_of(text) == "file":
-        given = write_level_string(level, exact=True) if level else ""
-        return (replace(record, level=record.level or given) for record in read_level_file(text, file=file))
+        level_text = write_level_string(level, exact=True) if level else ""
+        return (replace(record, level=record.level or level_text) for record in read_level_file(text, file=file))
     if holds_recordings(text):
         return map(record_of, parse_replays(text, file=file, level=level))
     return (

@@ -121,13 +121,13 @@ def run_level(
     )
 
 
-def inputs_of(given: Iterable[SupportsIndex]) -> bytes:
+def inputs_of(keys: Iterable[SupportsIndex]) -> bytes:
     """Inputs as bytes, one a tick. Raises ArgumentError for anything else."""
     try:
-        return given if isinstance(given, bytes) else bytes(list(given))
+        return keys if isinstance(keys, bytes) else bytes(list(keys))
     except (TypeError, ValueError):
         expected = f"bytes, a list or an array of whole numbers, one a tick, 0 to {ALL_KEYS}"
-        raise ArgumentError(f"inputs are {given!r:.60}; expected {expected}") from None
+        raise ArgumentError(f"inputs are {keys!r:.60}; expected {expected}") from None
 
 
 def run_in_slices(

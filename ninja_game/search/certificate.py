@@ -185,9 +185,9 @@ def without_idle_keys(
         same = (batch.positions == batch.positions[own]).all(1) & (batch.previous == batch.previous[own]).all(1)
         for index in np.flatnonzero(same).tolist():
             same[index] = index == own or state_of(index) == state_of(own)
-        wanted = original[tick] if tick < len(original) else -1
-        aligned = aligned and wanted in _CHOICES and bool(same[_CHOICES.index(wanted)])
-        other = (np.arange(8) != (wanted & KEYS_DOWN)) * (100 if aligned else 1) * (wanted >= 0)
+        original_keys = original[tick] if tick < len(original) else -1
+        aligned = aligned and original_keys in _CHOICES and bool(same[_CHOICES.index(original_keys)])
+        other = (np.arange(8) != (original_keys & KEYS_DOWN)) * (100 if aligned else 1) * (original_keys >= 0)
         steps = costs[:, np.newaxis] + 4 * (1 - np.eye(8)) + other + np.where(same[needed], 0, np.inf)
         came_from.append(steps.argmin(0))
         costs = steps.min(0)

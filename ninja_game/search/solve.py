@@ -69,8 +69,8 @@ class _Job:
                 self._search_other_route()
             else:
                 # The best run most of the time; now and then another one that may have more in it.
-                given = state.task.first and not state.task.others
-                rank = (0, 1, 0, 2, 0)[self._turn % 5] if not given else 0
+                follows_run = state.task.first and not state.task.others
+                rank = (0, 1, 0, 2, 0)[self._turn % 5] if not follows_run else 0
                 with state.lock:
                     inputs = state.runs[min(rank, len(state.runs) - 1)]
                 if state.task.first and not self.work:
@@ -166,8 +166,8 @@ class _Job:
         with self.state.lock:
             shortest = len(self.state.runs[0])
         resolution = resolution._replace(slack=resolution.slack * shortest)
-        given, early = bool(self.state.task.first), self._early
-        bound = shortest + max(4, int(shortest * (GIVEN_BOUND if given else FOUND_BOUND)))
+        follows_run, early = bool(self.state.task.first), self._early
+        bound = shortest + max(4, int(shortest * (GIVEN_BOUND if follows_run else FOUND_BOUND)))
         way = self._search_once(
             resolution, OTHER_ROUTE_TICKS, seed=100 + turn, bound=bound, backed_up=resolution.slack > 0.0
         )

@@ -125,10 +125,10 @@ class Timeline:
         """
         for id_ in ids:
             self.at_start(id_)
-        wanted = tuple(sorted(set(ids)))
-        if wanted != self.watched:
-            self.watched = wanted
-            self._objects = np.zeros((len(self._objects), len(wanted)), _WATCHED_RECORD)
+        tracked = tuple(sorted(set(ids)))
+        if tracked != self.watched:
+            self.watched = tracked
+            self._objects = np.zeros((len(self._objects), len(tracked)), _WATCHED_RECORD)
             self._forget(0)
 
     def _forget(self, tick: int) -> None:

@@ -111,10 +111,10 @@ class ListView(Widget):
             return self.drag(x, y)
         index = self._index_at(x, y)
         if index is not None:
-            again = index == self._clicked or not self.opens
+            chosen_before = index == self._clicked or not self.opens
             self._select(index)
             self._clicked = index
-            if again:
+            if chosen_before:
                 self.choose(index)
         return index is not None
 

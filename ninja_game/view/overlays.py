@@ -88,9 +88,9 @@ class Overlays:
 
     def _draw_sheet(self, target: DrawTarget, world: World) -> None:
         """Grid and edges change seldom: they are drawn once and laid over."""
-        wanted = (target.canvas, target.palette.name, GRID in self.on, EDGES in self.on, bytes(world.edges))
-        if self._sheet is None or wanted != self._sheet_of:
-            self._sheet_of = wanted
+        state = (target.canvas, target.palette.name, GRID in self.on, EDGES in self.on, bytes(world.edges))
+        if self._sheet is None or state != self._sheet_of:
+            self._sheet_of = state
             self._sheet = pygame.Surface(target.canvas.window, pygame.SRCALPHA)
             if GRID in self.on:
                 _paint_grid(self._sheet, target.canvas, target.palette)

@@ -97,36 +97,36 @@ def door_middle(values: Sequence[float]) -> tuple[float, float]:
     return (x, y + HALF) if values[2] else (x + HALF, y)
 
 
-def object_values(keyword: str, place: Token, given: Mapping[str, Token]) -> tuple[float, ...]:
-    """The values of the record that a line stands for; ``given``: property or keyword to its word.
+def object_values(keyword: str, place: Token, words: Mapping[str, Token]) -> tuple[float, ...]:
+    """The values of the record that a line stands for; ``named_words``: property or keyword to its word.
 
     Raises LevelError with the column of the word that cannot be read.
     """
     kind = FORMS[keyword].kind
     if kind == DOOR:
-        return _door_values(keyword, place, given)
-    direction = given["direction"].text if "direction" in given else ""
+        return _door_values(keyword, place, words)
+    direction = words["direction"].text if "direction" in words else ""
     x, y = at_token(place, read_place, *natural_offset(keyword, direction))
     if kind in (ONE_WAY, THWUMP):
         return x, y, DIRECTION_WORDS[direction]
     if kind == DRONE:
-        move, seeker = MOVEMENTS[given["movement"].text], float("seeker" in given)
+        move, seeker = MOVEMENTS[words["movement"].text], float("seeker" in words)
         return x, y, move, seeker, WEAPONS[keyword], DIRECTION_WORDS[direction]
     if kind == LAUNCH_PAD:
-        return x, y, *(PAD_NORMALS[direction] if direction else at_token(given["normal"], _read_pair))
+        return x, y, *(PAD_NORMALS[direction] if direction else at_token(words["normal"], _read_pair))
     if kind == FLOOR_GUARD:
-        return x, y, at_token(given["facing"], read_number) if "facing" in given else 1.0
+        return x, y, at_token(words["facing"], read_number) if "facing" in words else 1.0
     if kind == EXIT:
-        return x, y, *at_token(given["switch"], read_place)
+        return x, y, *at_token(words["switch"], read_place)
     return x, y
 
 
-def _door_values(keyword: str, place: Token, given: Mapping[str, Token]) -> tuple[float, ...]:
+def _door_values(keyword: str, place: Token, words: Mapping[str, Token]) -> tuple[float, ...]:
     column, row = at_token(place, read_cell)
     trap, locked = DOORS[keyword]
-    vertical, i, j = SIDES[given["side"].text]
+    vertical, i, j = SIDES[words["side"].text]
     values = (0.0, 0.0, vertical, trap, float(column), float(row), locked, i, j)
-    middle = at_token(given["switch"], read_place) if "switch" in given else door_middle(values)
+    middle = at_token(words["switch"], read_place) if "switch" in words else door_middle(values)
     return (*middle, *values[2:])
 
 
@@ -207,12 +207,12 @@ def read_object_line(text: str) -> list[ListedObject] | list[OddTile]:
     if tokens[0].text == "tile":
         return _read_tiles(tokens)
     keyword, rest = _split_keyword(tokens)
-    places, given = _sort_words(keyword, FORMS[keyword], rest)
+    places, words = _sort_words(keyword, FORMS[keyword], rest)
     if not places:
         column = tokens[-1].column + len(tokens[-1].text)
         raise LevelError(f"'{keyword}' without a place", column=column, expected=f"{keyword} 5,7 (column,row)")
     return [
-        ListedObject(ObjectSpec(FORMS[keyword].kind, object_values(keyword, place, given)), place.column)
+        ListedObject(ObjectSpec(FORMS[keyword].kind, object_values(keyword, place, words)), place.column)
         for place in places
     ]
 
@@ -231,7 +231,7 @@ def _split_keyword(tokens: Sequence[Token]) -> tuple[str, Sequence[Token]]:
 def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list[Token], dict[str, Token]]:
     """Which words are places, and which word tells which property."""
     places: list[Token] = []
-    given: dict[str, Token] = {}
+    named_words: dict[str, Token] = {}
     words = iter(tokens)
     for token in words:
         names = [name for name, vocabulary in form.words.items() if token.text in vocabulary]
@@ -253,11 +253,13 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
             continue
         else:
             raise _unknown_word(keyword, form, token, next(words, None))
-        if name in given:
-            raise LevelError(f"the {name} of '{keyword}' is given twice", column=token.column, found=shown(token.text))
-        given[name] = value
-    _check_complete(keyword, form, given, tokens)
-    return places, given
+        if name in named_words:
+            raise LevelError(
+                f"the {name} of '{keyword}' is named_words twice", column=token.column, found=shown(token.text)
+            )
+        named_words[name] = value
+    _check_complete(keyword, form, named_words, tokens)
+    return places, named_words
 
 
 def _unknown_word(keyword: str, form: Form, token: Token, following: Token | None) -> LevelError:
@@ -277,10 +279,10 @@ _EXAMPLES = {"switch": "switch 3,4 (column,row)", "normal": "normal 0.6,-0.8", "
 """Of properties that take a value."""
 
 
-def _check_complete(keyword: str, form: Form, given: dict[str, Token], tokens: Sequence[Token]) -> None:
+def _check_complete(keyword: str, form: Form, named_words: dict[str, Token], tokens: Sequence[Token]) -> None:
     column = tokens[-1].column + len(tokens[-1].text) if tokens else len(keyword) + 1
     for group in form.needs:
-        present = [given[name] for name in group if name in given]
+        present = [named_words[name] for name in group if name in named_words]
         if len(present) > 1:
             raise LevelError(f"'{keyword}' with both {' and '.join(group)}", column=present[1].column, hint="keep one")
         if not present:

@@ -249,17 +249,17 @@ def _mentioned(
     conflicts: dict[Cell, tuple[ListedObject, Symbol]] = {}
     for placed in objects:
         for part in visible_glyphs(placed.spec):
-            cell, wanted = (part.column, part.row), SYMBOL_OF_CHAR[part.char]
+            cell, symbol = (part.column, part.row), SYMBOL_OF_CHAR[part.char]
             char = picture.char(cell)
             if char == part.char:
                 mentioned.add(cell)
             elif char in ". ":
                 line, column = picture.where(cell)
-                what = f"{_named(wanted)} at {part.column},{part.row} is not in the picture"
+                what = f"{_named(symbol)} at {part.column},{part.row} is not in the picture"
                 hint = f"draw {part.char} in line {line}, column {column}, or correct the place"
                 problems.add(what, placed.line, placed.column, hint=hint)
-            elif char in SYMBOL_OF_CHAR and SYMBOL_OF_CHAR[char].kind == wanted.kind:
-                conflicts[cell] = placed, wanted
+            elif char in SYMBOL_OF_CHAR and SYMBOL_OF_CHAR[char].kind == symbol.kind:
+                conflicts[cell] = placed, symbol
     return mentioned, conflicts
 
 
@@ -303,24 +303,24 @@ def _drawn_specs(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], problem
 def _tiles(picture: Picture, listed: Iterable[OddTile], problems: Problems) -> list[int]:
     """The 713 tile ids, odd ones from their lines."""
     tiles = picture.tiles()
-    given: set[Cell] = set()
+    seen: set[Cell] = set()
     for tile in listed:
         (column, row), mistake = tile.cell, ""
         if not (1 <= column <= COLUMNS and 1 <= row <= ROWS):
             mistake, hint = "a tile line for a border cell", "only 1,1 to 31,23 have tiles of the level"
-        elif tile.cell in given:
+        elif tile.cell in seen:
             mistake, hint = "a second tile line for one cell", "keep one"
         elif 0 <= tile.id < len(TILE_CHARS):
             mistake, hint = f"tile {tile.id} has a character", f"draw {TILE_CHARS[tile.id]} in the picture instead"
         elif picture.char(tile.cell) != ODD_TILE:
             mistake, hint = "a tile line for a cell that is not marked", f"draw {ODD_TILE} in the picture there"
-        given.add(tile.cell)
+        seen.add(tile.cell)
         if mistake:
             problems.add(mistake, tile.line, tile.column, found=f"{column},{row}", hint=hint)
             continue
         tiles[(column - 1) * ROWS + row - 1] = tile.id
     for cell in picture.cells():
-        if picture.char(cell) == ODD_TILE and cell not in given:
+        if picture.char(cell) == ODD_TILE and cell not in seen:
             hint = f"add a line below the picture: tile {cell[0]},{cell[1]} id 70, or draw another character"
             problems.add("an odd tile without its line", *picture.where(cell), found=repr(ODD_TILE), hint=hint)
     return tiles

@@ -118,15 +118,15 @@ def _episodes(whole: _Table) -> tuple[EpisodeIndex, ...]:
         table.check(_EPISODE_KEYS)
         number, file = table.table.get("number"), whole.file
         if type(number) is not int or not 0 <= number < MOST_EPISODES:
-            place, given = table.line("number") or table.start, repr(number)[:40]
-            raise PackError("an episode's number", file, place, found=given, expected="a number from 0 to 99")
+            place, shown_value = table.line("number") or table.start, repr(number)[:40]
+            raise PackError("an episode's number", file, place, found=shown_value, expected="a number from 0 to 99")
         if number in indexes:
             other = f"line {indexes[number].line} too"
             raise PackError(f"episode {number} is there twice", file, table.start, found=other)
         levels = table.texts("levels")
         if levels and len(levels) > LEVELS_PER_EPISODE:
-            what, given = f"the levels of episode {number}", str(len(levels))
-            raise PackError(what, file, table.line("levels"), 0, given, "at most five files")
+            what, shown_value = f"the levels of episode {number}", str(len(levels))
+            raise PackError(what, file, table.line("levels"), 0, shown_value, "at most five files")
         indexes[number] = EpisodeIndex(number, table.text("name"), levels, table.start)
     return tuple(indexes[number] for number in sorted(indexes))
 

@@ -164,10 +164,10 @@ def _end_block(text: str, stack: list[_Block], place: tuple[str, int, int]) -> N
     if len(stack) == 1:
         raise ReplayError("the end of a block that has not begun", *place, repr(text[:30]), hint="open it with '('")
     block, count = stack.pop(), int(match[1] or 1)
-    again = [item for item in block.items if not isinstance(item, str)]
+    nested = [item for item in block.items if not isinstance(item, str)]
     ticks = block.ticks * count
     if stack[-1].ticks + ticks <= MAX_TICKS:
-        block.items += again * (count - 1)
+        block.items += nested * (count - 1)
     stack[-1].add(block.items, ticks, place)
 
 

@@ -190,7 +190,11 @@ def write_libtas(inputs: bytes) -> str:
 def _check_keyboard(inputs: bytes) -> None:
     expected = with_press_bits(inputs)
     if inputs != expected:
-        tick = next(tick for tick, (keys, wanted) in enumerate(zip(inputs, expected, strict=True)) if keys != wanted)
+        tick = next(
+            tick
+            for tick, (keys, expected_keys) in enumerate(zip(inputs, expected, strict=True))
+            if keys != expected_keys
+        )
         what = "held" if inputs[tick] & JUMP_HELD else "not held"
         hint = "only replays of ours and demos of N can say it"
         raise ReplayError("a jump that no keyboard can make", found=f"tick {tick}, jump {what}", hint=hint)

@@ -113,22 +113,22 @@ def _generated(text: str) -> LevelSource:
     """Generated levels: "DIFFICULTY:SEED" or "DIFFICULTY:FIRST-LAST"."""
     from ninja_game.generator.generate import EASIEST, HARDEST
 
-    wanted, _, seeds = text.partition(":")
+    difficulty, _, seeds = text.partition(":")
     first, _, last = seeds.partition("-")
-    numbers = [wanted, first, last or first]
-    if not all(number.isdecimal() for number in numbers) or not EASIEST <= int(wanted) <= HARDEST:
+    numbers = [difficulty, first, last or first]
+    if not all(number.isdecimal() for number in numbers) or not EASIEST <= int(difficulty) <= HARDEST:
         expected = f"'generated:DIFFICULTY:FIRST-LAST', {EASIEST} to {HARDEST} and seeds, as 'generated:3:1-8'"
         raise ArgumentError(f"found 'generated:{text:.60}'; expected {expected}")
-    return generated_levels(range(int(first), int(last or first) + 1), int(wanted))
+    return generated_levels(range(int(first), int(last or first) + 1), int(difficulty))
 
 
-def _packed(wanted: str) -> LevelSource:
+def _packed(difficulty: str) -> LevelSource:
     """The generated levels that come with the game: all, or those of a difficulty."""
     from ninja_game.generator import packed
 
-    if wanted and wanted not in map(str, range(1, 11)):
-        raise ArgumentError(f"found 'packed:{wanted:.60}'; expected 'packed', or 'packed:1' to 'packed:10'")
-    made = packed.generated_levels(int(wanted) if wanted else None)
+    if difficulty and difficulty not in map(str, range(1, 11)):
+        raise ArgumentError(f"found 'packed:{difficulty:.60}'; expected 'packed', or 'packed:1' to 'packed:10'")
+    made = packed.generated_levels(int(difficulty) if difficulty else None)
     return LevelSource([f"generated-{level.wanted}-{level.seed}" for level in made], [level.level for level in made])
 
 

@@ -38,9 +38,9 @@ def parts_of(observation: PartLike | Sequence[PartLike]) -> list[Part]:
     Raises ArgumentError for anything else, and for two of the same name.
     """
     several = isinstance(observation, Sequence) and not isinstance(observation, str)
-    given: Any = observation if several else [observation]
+    choices: Any = observation if several else [observation]
     parts = []
-    for choice in given:
+    for choice in choices:
         part = PARTS[choice]() if isinstance(choice, str) and choice in PARTS else choice
         if not isinstance(part, Part):
             raise ArgumentError(f"a part of the observation is {choice!r:.60}; expected a Part or one of {list(PARTS)}")

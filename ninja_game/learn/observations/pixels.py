@@ -325,15 +325,15 @@ def observe_pixels(
                 copy_values(layer, tiles[corner : corner + width * height], width * height)
                 draw_objects(w, layer, frame, things, start, end, EVERYWHERE, False)
             copy_values(picture[: width * height], layer, width * height)
-            for again in range(2):
+            for turn in range(2):
                 for place in range(layers.bounds[2 * level], layers.bounds[2 * level + 1]):
                     number = start + int(layers.movers[place])
                     o = w.objects[int(things.slots[number])]
                     size = things.sizes[number]
                     area = area_of(o, size, 0.0)
-                    if is_covered(number - start, level, layers.later, area) != (again == 1):
+                    if is_covered(number - start, level, layers.later, area) != (turn == 1):
                         continue
-                    if not again:
+                    if not turn:
                         draw_object(o, picture, frame, size, things.boxes[number] == 1.0, things.shades[number])
                         continue
                     near = area_of(o, size, max(pixel_x, pixel_y) + 2.0 * ROUNDING)

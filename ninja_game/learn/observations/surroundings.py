@@ -92,8 +92,8 @@ def surface_distances(context: PartContext, number: int, reach: float) -> NDArra
     squares = ((np.arange(2 * margin) - margin + 0.5) * spacing) ** 2
     shares = sliding_window_view(solid, 2 * margin, axis=1)[:, FINE // 2 :: FINE][:, :GRID_COLUMNS]
     surfaces = []
-    for wanted in (1, 0):
-        along = np.where(shares == wanted, squares, np.inf).min(axis=2)
+    for side in (1, 0):
+        along = np.where(shares == side, squares, np.inf).min(axis=2)
         rows = sliding_window_view(along, 2 * margin, axis=0)[FINE // 2 :: FINE][:GRID_ROWS]
         surfaces.append(np.sqrt((rows + squares).min(axis=2)))
     outside, inside = np.minimum(surfaces, reach)

@@ -99,9 +99,9 @@ class ObjectPictures:
         models = {spec: _model(spec) for spec in specs}
         if len(self._kept) > _KEPT:
             self._kept.clear()
-        asked = [model for model in dict.fromkeys(models.values()) if model not in self._kept]
-        self._kept |= {model: [(BODY, _standing(), 0.0, 0.0)] if model.kind == kinds.NINJA else [] for model in asked}
-        drawn = [model for model in asked if well_formed(model) and model.kind != kinds.NINJA]
+        unknown = [model for model in dict.fromkeys(models.values()) if model not in self._kept]
+        self._kept |= {model: [(BODY, _standing(), 0.0, 0.0)] if model.kind == kinds.NINJA else [] for model in unknown}
+        drawn = [model for model in unknown if well_formed(model) and model.kind != kinds.NINJA]
         for start in range(0, len(drawn), _TOGETHER):
             self._learn(drawn[start : start + _TOGETHER])
         return {spec: self._look(spec, model) for spec, model in models.items()}

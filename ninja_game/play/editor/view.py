@@ -382,13 +382,13 @@ class EditorView(Pane):
         session, palette = self.session, self.app.theme.palette
         certifier = session.certifier
         stale = certifier.is_stale(session.draft.level)
-        wanted = (
+        state = (
             session.draft.objects, self.lines, self.paths, session.last_try, certifier.search.route, stale,
             session.findings, session.tools.symmetry, session.draft.says, self.tests and session.test_map,
         )  # fmt: skip
-        if len(wanted) == len(self._marked) and all(a is b for a, b in zip(wanted, self._marked, strict=True)):
+        if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
             return
-        self._marked = wanted
+        self._marked = state
         routes: list[tuple[Route, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(

@@ -118,11 +118,11 @@ class NineCells(Figure):
         return [int(call.arguments["o"]) for call in calls if call.name == "touch"], events
 
     def numbers(self) -> list[tuple[str, str]]:
-        asked, events = self.objects_asked()
-        names = [KIND_NAMES[self.world.objects[slot].kind] for slot in asked]
+        slots, events = self.objects_asked()
+        names = [KIND_NAMES[self.world.objects[slot].kind] for slot in slots]
         return [
             ("objects in the level", str(self.world.id_count)),
-            ("objects asked", f"{len(asked)}: {', '.join(names)}" if asked else "0"),
+            ("objects asked", f"{len(slots)}: {', '.join(names)}" if slots else "0"),
             ("events", ", ".join(events) or "none"),
         ]
 
@@ -135,11 +135,11 @@ class NineCells(Figure):
             sheet.shade(cell, p.switch if offset else p.good, 60)
             sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 7, size=9, colour=p.faint)
         sheet.grid()
-        asked, _ = self.objects_asked()
+        slots, _ = self.objects_asked()
         for shape in hit_shapes(self.world):
             if not shape.ninja:
                 sheet.body(p.bad if shape.lethal else p.gold, shape.x, shape.y, shape.half, box=not shape.round)
-        for number, slot in enumerate(asked, 1):
+        for number, slot in enumerate(slots, 1):
             o = self.world.objects[slot]
             sheet.circle(p.good, o.x, o.y, 8.5, 2)
             sheet.text(str(number), o.x, o.y, size=10)
@@ -215,12 +215,12 @@ class RayCast(Figure):
         return pairs
 
     def numbers(self) -> list[tuple[str, str]]:
-        asked, stopped, (x, y) = self.asked()
+        visited_slots, stopped, (x, y) = self.asked()
         ray = self.from_x, self.from_y, self.x, self.y
         inside, missed = self.met()
         return [
             ("cells visited", str(len(self.visited))),
-            ("shapes asked", str(len(asked))),
+            ("shapes asked", str(len(visited_slots))),
             ("stopped at", f"{x:.1f}, {y:.1f} px" if stopped else "nothing: it leaves the grid"),
             ("sees the ninja", "yes" if sees(self.tiles, self.world, *ray)[0] else "no"),
             ("gold met in those cells", str(len(inside))),
@@ -229,9 +229,9 @@ class RayCast(Figure):
 
     def draw(self, sheet: Sheet) -> None:
         p = sheet.palette
-        asked, stopped, end = self.asked()
+        visited_slots, stopped, end = self.asked()
         for number, cell in enumerate(self.visited, 1):
-            sheet.shade(cell, p.accent if cell in asked else p.good, 80)
+            sheet.shade(cell, p.accent if cell in visited_slots else p.good, 80)
             sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 8, size=8, colour=p.faint)
         sheet.tiles(self.tiles)
         sheet.grid()

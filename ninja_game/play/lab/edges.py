@@ -64,8 +64,8 @@ class EdgeStates(Figure):
         self.drag(x, y)
         row, column = tiles.ROW[self.cell] - 1, tiles.COLUMN[self.cell] - 1
         if 0 <= row < len(self.rows) and 0 <= column < len(self.rows[0]) and self.rows[row][column] != "&":
-            wanted = TILE_CHARS[int(self.tile)]
-            self.rows[row][column] = "." if self.rows[row][column] == wanted else wanted
+            char = TILE_CHARS[int(self.tile)]
+            self.rows[row][column] = "." if self.rows[row][column] == char else char
             self._rebuild()
 
     def nudge(self, dx: int, dy: int) -> None:

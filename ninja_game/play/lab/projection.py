@@ -241,11 +241,11 @@ class Bodies(Figure):
 
 def candidates(call: Call) -> list[Point]:
     """The ways out that a test of a shape was given, px: along an axis of the grid."""
-    given = call.arguments
+    arguments = call.arguments
     if call.name == "collide_vertical":
-        return [(0.0, given["oy"] * given["hy"])]
+        return [(0.0, arguments["oy"] * arguments["hy"])]
     if call.name == "collide_horizontal":
-        return [(given["ox"] * given["hx"], 0.0)]
+        return [(arguments["ox"] * arguments["hx"], 0.0)]
     if call.name == "collide_tile":
-        return [(given["a"], given["b"])]
+        return [(arguments["a"], arguments["b"])]
     return []

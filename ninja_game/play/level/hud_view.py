@@ -147,8 +147,8 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
 
 
 def _after_death(play: LevelPlay, key: KeyName) -> str:
-    again = f"{key('confirm')} or {key('jump')}: try again"
-    return f"{again}    {key('replay')}: watch it" + f"    {key('skip')}: get help" * play.is_stuck
+    try_again = f"{key('confirm')} or {key('jump')}: try again"
+    return f"{try_again}    {key('replay')}: watch it" + f"    {key('skip')}: get help" * play.is_stuck
 
 
 def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> str:

@@ -67,8 +67,8 @@ class MenuScreen(Screen):
         place = self.widgets.index(self.focus) if self.focus in self.widgets else 0
         self.widgets = list(self.build())
         able = [widget for widget in self.widgets if widget.focusable]
-        wanted = self.widgets[place] if place < len(self.widgets) else None
-        self.focus = wanted if wanted in able else next(iter(able), None)
+        focus = self.widgets[place] if place < len(self.widgets) else None
+        self.focus = focus if focus in able else next(iter(able), None)
         self._direction.end()
         self.await_text()
         self.app.report_problems()

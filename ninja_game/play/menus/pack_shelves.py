@@ -74,8 +74,8 @@ class Rack(ListView):
 
     def release(self) -> None:
         """The button goes up where nothing was taken along."""
-        again, self._again = self._again, False
-        if again:
+        was_clicked, self._again = self._again, False
+        if was_clicked:
             self.choose(self.index)
 
     def at(self, x: float, y: float) -> int | None:

@@ -157,11 +157,11 @@ class PackStatus:
         """A pack as it is now. What was searched in vain changes nothing on the disk, but what is odd."""
         self.pack = pack
         self._states.clear()
-        asked = pack and pack.pack, len(self.packer.obstacles)
-        if asked[0] and asked != self._asked:
-            self.checked = self.checked if asked[1] == self._asked[1] else None
-            self._asked = asked
-            self._checks.ask(asked[0])
+        question = pack and pack.pack, len(self.packer.obstacles)
+        if question[0] and question != self._asked:
+            self.checked = self.checked if question[1] == self._asked[1] else None
+            self._asked = question
+            self._checks.ask(question[0])
 
     def update(self) -> bool:
         """Whether there is news."""

@@ -539,10 +539,10 @@ class PackScreen(ThumbnailScreen):
             packs.accept(self.path, file, finding.code, why)
 
         may = bool(file) and finding.code not in NEVER_ACCEPTED
-        asked = partial(self.ask, "Accept this warning: why?", "", accept) if may else None
+        accept_it = partial(self.ask, "Accept this warning: why?", "", accept) if may else None
         missing = missing_run(pack, finding) if why and not self.packer.busy else None
         longer = partial(self.packer.search_longer, self.path, missing) if missing else None
-        return Problem(text, why.hint if why else finding.hint, go, asked, search=longer)
+        return Problem(text, why.hint if why else finding.hint, go, accept_it, search=longer)
 
     def _edit_at(self, entry: Entry, known: Finding | None, sentence: str) -> None:
         """Edit a level at what is odd about it, ``known`` or what is said of it so."""

@@ -88,15 +88,15 @@ class Film:
         if self.known is not None:
             return self.known
         runs = self.run, *self.beside
-        wanted = self.first + MOST_PICTURES // len(runs) if self.last is None else self.last
+        end_tick = self.first + MOST_PICTURES // len(runs) if self.last is None else self.last
         # What comes after the last picture is not run.
         ends = [
-            Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0).find_end(wanted + 1) for run in runs
+            Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0).find_end(end_tick + 1) for run in runs
         ]
-        end = max(wanted + 1 if tick is None else tick + _TAIL for tick in ends)
-        if self.last is None and end > wanted:
+        end = max(end_tick + 1 if tick is None else tick + _TAIL for tick in ends)
+        if self.last is None and end > end_tick:
             raise ArgumentError(f"the film has more than {MOST_PICTURES:,} pictures; name its last tick: --to")
-        last = min(wanted, end)
+        last = min(end_tick, end)
         if self.first > last:
             raise ArgumentError(f"a film from tick {self.first} to {last} has no pictures; the run's last is {end}")
         return range(self.first, last + 1)
@@ -162,10 +162,10 @@ class _Panel:
         words, room = [self.title] * bool(run.episode), 670 if self.film.keys else 744
         if self.film.splits:
             words.append(f"{seconds_text(self.time)} s")
-            told = [text for tick, text in self.splits if tick < world.tick][-SHOWN_SPLITS:]
-            while len(told) > 1 and hud.theme.width("; ".join([*words, *told]), self.letters) > room:
-                told.pop(0)
-            words += told
+            texts = [text for tick, text in self.splits if tick < world.tick][-SHOWN_SPLITS:]
+            while len(texts) > 1 and hud.theme.width("; ".join([*words, *texts]), self.letters) > room:
+                texts.pop(0)
+            words += texts
         size = 0.8 * self.letters
         for name, ghost in self.ghosts if self.view.context.settings.show_ghost else ():
             x, y = ghost.place(1.0)

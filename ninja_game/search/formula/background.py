@@ -167,11 +167,11 @@ class RunSearch(SpanSearch):
 
     def _work(self) -> None:
         """Shorten the run by its own route, and beside that by those of all runs."""
-        wanted, beside = self._wanted, None
-        played = run_level(wanted.level, wanted.first, body=wanted.body)
+        task, beside = self._wanted, None
+        played = run_level(task.level, task.first, body=task.body)
         self._reaches = played.outcome == "exit"
-        others = tuple(filter(self._counts, wanted.others))
-        own = replace(wanted, others=(), jobs=max(1, wanted.jobs // 2) if others else wanted.jobs)
+        others = tuple(filter(self._counts, task.others))
+        own = replace(task, others=(), jobs=max(1, task.jobs // 2) if others else task.jobs)
         if others:
             known = (own.first, *others) if self._reaches else others
             mixed = partial(self._shorten, replace(own, first=known[0], others=known[1:]), own_route=False)
@@ -223,10 +223,10 @@ class RunSearch(SpanSearch):
         self.ticks_run = sum(self._ticks.values())
 
     def _note_run(self, run: Replay, *, own_route: bool) -> None:
-        wanted = self._wanted
+        task = self._wanted
         inputs = run.inputs
-        if not any(with_press_bits(keys).startswith(inputs) for keys in wanted.others):
-            inputs = without_idle_keys(wanted.level, inputs, with_press_bits(wanted.first), body=wanted.body)
+        if not any(with_press_bits(keys).startswith(inputs) for keys in task.others):
+            inputs = without_idle_keys(task.level, inputs, with_press_bits(task.first), body=task.body)
         path = run_level(self.task.level, inputs, body=self.task.body).positions
         keys = np.frombuffer(inputs.ljust(self.task.length, b"\0"), np.uint8) & np.uint8(KEYS_DOWN)
         end = tuple(np.concatenate([path[-1], path[-1] - path[-2]]).tolist())

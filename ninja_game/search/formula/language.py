@@ -183,8 +183,8 @@ class _Reader:
         if count is None:
             raise self.error(node, "an unknown name", ", ".join([*self.names, *FUNCTIONS]))
         if len(parts) != count:
-            wanted = f"{name}({', '.join(['number'] * count)})" if count else name
-            raise self.error(node, f"'{name}' with {len(parts)} numbers", wanted)
+            usage = f"{name}({', '.join(['number'] * count)})" if count else name
+            raise self.error(node, f"'{name}' with {len(parts)} numbers", usage)
         numbers = [self.number(part) for part in parts]
 
         def value(view: View) -> Any:

@@ -64,8 +64,8 @@ class SpanTask:
 
     @property
     def base(self) -> Keys:
-        given = np.frombuffer(self.inputs[self.first : self.last], np.uint8) & KEYS_DOWN
-        return np.pad(given, (0, self.length - len(given)))
+        keys = np.frombuffer(self.inputs[self.first : self.last], np.uint8) & KEYS_DOWN
+        return np.pad(keys, (0, self.length - len(keys)))
 
     def check(self) -> None:
         """Raises FormulaError for a broken formula, ArgumentError for an object that is not there or does not fit."""

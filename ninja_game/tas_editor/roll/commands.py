@@ -152,8 +152,8 @@ class RollCommands:
             return
         first = _first_change(before, editor.track)
         cursor, anchor = editor.places.get(editor.track, place)
-        asked = cursor if anchor is None else min(cursor, anchor)
-        editor.app.notify(f"{done}: {_change_text(before, editor.track, first, asked)}")
+        tick = cursor if anchor is None else min(cursor, anchor)
+        editor.app.notify(f"{done}: {_change_text(before, editor.track, first, tick)}")
         if editor.track in editor.places:
             editor.places[before] = place
         else:
@@ -231,12 +231,12 @@ def _first_change(before: InputTrack, after: InputTrack) -> int:
     return min((tick for tick, _ in set(before.markers) ^ set(after.markers)), default=0)
 
 
-def _change_text(before: InputTrack, after: InputTrack, first: int, asked: int) -> str:
+def _change_text(before: InputTrack, after: InputTrack, first: int, edit_tick: int) -> str:
     """What was changed, ``first`` tick; ``asked``: that of the edit, which is named where ticks came or went there."""
     if before.inputs == after.inputs:
         return f"a marker in tick {first}"
     more = len(after) - len(before)
     short, long = sorted((before.inputs, after.inputs), key=len)
-    tick = asked if more and short == long[:asked] + long[asked + abs(more) :] else first
+    tick = edit_tick if more and short == long[:edit_tick] + long[edit_tick + abs(more) :] else first
     length = f", {counted(abs(more), 'tick', 'ticks')} {'more' if more > 0 else 'fewer'}" if more else ""
     return f"keys from tick {tick} on{length}"

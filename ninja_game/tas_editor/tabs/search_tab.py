@@ -391,18 +391,18 @@ class SearchTab(Tab):
 
     def _fill(self, make: Callable[[SearchedSpan], SpanGoal], *, start: bool = False) -> None:
         try:
-            wanted = make(SearchedSpan(self.editor.session, *self.span))
+            goal = make(SearchedSpan(self.editor.session, *self.span))
         except NinjaGameError as error:
             self.editor.app.notify(str(error))
             return
-        self._preset = make, wanted
-        self.goal.show(wanted.goal)
-        self.measure.show(wanted.measure)
-        self.order = EARLIEST if not wanted.measure else SMALLEST if wanted.least else GREATEST
-        self.rest = wanted.rest
-        self.method = wanted.method or ("auto" if self.method in IMPROVES else self.method)
+        self._preset = make, goal
+        self.goal.show(goal.goal)
+        self.measure.show(goal.measure)
+        self.order = EARLIEST if not goal.measure else SMALLEST if goal.least else GREATEST
+        self.rest = goal.rest
+        self.method = goal.method or ("auto" if self.method in IMPROVES else self.method)
         first, self._behind = self.span
-        self.span, self._why = (0 if wanted.method else first, wanted.last or self._behind), wanted.why
+        self.span, self._why = (0 if goal.method else first, goal.last or self._behind), goal.why
         if start:
             self.start()
 
@@ -440,8 +440,8 @@ class SearchTab(Tab):
         """The whole run, to be shortened. Raises ArgumentError for one that is too long, or empty."""
         session = self.editor.session
         session.timeline.simulate(len(session.timeline))
-        wanted = whole_run(SearchedSpan(session, *self.span))
-        self.span, self._why = (0, wanted.last), wanted.why
+        goal = whole_run(SearchedSpan(session, *self.span))
+        self.span, self._why = (0, goal.last), goal.why
         return SpanTask(session.about.level, session.track.inputs, *self.span, "won", body=session.about.body)
 
     # --- the search ---

@@ -182,6 +182,6 @@ def put_in_a_row(x: float, y: float, buttons: Sequence[Button], widths: Sequence
 def what_is_wrong(error: NinjaGameError) -> str:
     """An error as a line; of one in a formula with the column."""
     if isinstance(error, FormulaError) and error.column:
-        told = f"Column {error.column}: {error.what}, {error.found}"
-        return f"{told}; expected {error.expected}" if len(error.expected) < _SHORT else told
+        message = f"Column {error.column}: {error.what}, {error.found}"
+        return f"{message}; expected {error.expected}" if len(error.expected) < _SHORT else message
     return str(error)

@@ -49,9 +49,9 @@ class Bindings:
         self.unknown = sorted({name for names in keys.values() for name in names if not scancode_named(name)})
         self.keys = {}
         for action, default in ACTIONS.items():
-            wanted = tuple(keys.get(action, default.keys))
-            known = tuple(name for name in wanted if scancode_named(name) and bindable(action, name, MENU_KEYS))
-            self.keys[action] = known if known or not wanted else tuple(default.keys)
+            inputs = tuple(keys.get(action, default.keys))
+            known = tuple(name for name in inputs if scancode_named(name) and bindable(action, name, MENU_KEYS))
+            self.keys[action] = known if known or not inputs else tuple(default.keys)
         self.pad = {
             action: tuple(name for name in pad.get(action, default.pad) if bindable(action, name, MENU_PAD))
             for action, default in ACTIONS.items()

@@ -151,9 +151,9 @@ class Ragdoll:
         a, b = self.particles[stick.first], self.particles[stick.second]
         dx, dy = b.x - a.x, b.y - a.y
         length = (dx * dx + dy * dy) ** 0.5
-        wanted = min(stick.longest, max(stick.shortest, length))
-        if length > 1e-6 and wanted != length:
-            pull = (length - wanted) / length
+        target = min(stick.longest, max(stick.shortest, length))
+        if length > 1e-6 and target != length:
+            pull = (length - target) / length
             a.x += dx * pull * stick.share
             a.y += dy * pull * stick.share
             b.x -= dx * pull * (1 - stick.share)

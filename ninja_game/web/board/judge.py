@@ -93,8 +93,8 @@ def judge(
     counted = [_with_row(run, owners.get((run.level, run.way), {}), ledger.runs.get(run.key, {})) for run in counted]
     named = [run if run.kind == "unreadable" else replace(run, player=players.meet(run.player)[0]) for run in rejected]
     others = sorted([*named, *moderated, *copies], key=lambda run: (run.file, run.record))
-    refused, again = (tuple(run for run in others if (run.kind == OWN) is own) for own in (False, True))
-    return ValidatedRuns(tuple(counted), refused, again, players.alike, _episodes(credited, counted, shown))
+    refused, repeated = (tuple(run for run in others if (run.kind == OWN) is own) for own in (False, True))
+    return ValidatedRuns(tuple(counted), refused, repeated, players.alike, _episodes(credited, counted, shown))
 
 
 def _episodes(runs: list[Run], counted: list[Run], shown: PublishedLevels) -> dict[str, list[list[Run]]]:

@@ -182,18 +182,18 @@ def read_dates(path: Path, now: datetime) -> dict[str, str]:
     return dates
 
 
-def dates_of(before: Ledger, now: datetime, given: Mapping[str, str]) -> Dates:
+def dates_of(before: Ledger, now: datetime, dates_by_file: Mapping[str, str]) -> Dates:
     """The dates of a ledger. A run that it does not have, or not with this path, is added now.
 
     ``given``: dates by file that take the place of the ledger's.
     """
     for row in before.runs.values():
-        row["added"] = given.get(row["file"], row["added"])
+        row["added"] = dates_by_file.get(row["file"], row["added"])
     rows, today = before.rejected | before.runs, now.strftime(DATE)
 
     def date(key: Key, way: str) -> str:
-        if key[0] in given:
-            return given[key[0]]
+        if key[0] in dates_by_file:
+            return dates_by_file[key[0]]
         row = rows.get(key)
         return str(row["added"]) if row and row["way"] == way else today
 

@@ -100,8 +100,8 @@ def _page() -> dict[str, bytes]:
 def _icons() -> dict[str, bytes]:
     from ninja_game.play.window import icon, png_of
 
-    wanted = ICONS | {MASKABLE: (512, 0.0)}
-    return {name: png_of(icon(size, corner=corner)) for name, (size, corner) in wanted.items()}
+    sizes = ICONS | {MASKABLE: (512, 0.0)}
+    return {name: png_of(icon(size, corner=corner)) for name, (size, corner) in sizes.items()}
 
 
 def _licences() -> dict[str, bytes]:

@@ -73,8 +73,8 @@ def _name(code: int) -> str:
     return chr(code) if 32 < code < 127 or 127 < code < 1 << 21 else ""
 
 
-def _type(wanted: bool) -> None:
-    LINK.page.input.typing = wanted
+def _type(on: bool) -> None:
+    LINK.page.input.typing = on
 
 
 class _Pad:
