@@ -421,8 +421,8 @@ def _answer(
 def _line(form: str, row: Mapping[str, Any]) -> str:
     waits = "" if row["confirmed"] else "waits for confirmation, "
     note = f"; note: {waits}{row['remark']}" if row["remark"] else ""
-    said, *keys = form.format(**{**row, "place": row["place"] or "-"}).rstrip().split("\n")
-    return "\n".join([shown_text(said + note, LONGEST), *keys])
+    text, *keys = form.format(**{**row, "place": row["place"] or "-"}).rstrip().split("\n")
+    return "\n".join([shown_text(text + note, LONGEST), *keys])
 
 
 def _film(runs: Sequence[Recording], output: Path) -> None:
@@ -430,8 +430,8 @@ def _film(runs: Sequence[Recording], output: Path) -> None:
     from ninja_game.play.replay.film import Film, write_film
 
     write_film([Film(runs[0], ghosts=tuple(runs[1:]), keys=True)], output)
-    if said := size_note(output):
-        click.echo(f"{shown_text(str(output))}{said}", err=True)
+    if note := size_note(output):
+        click.echo(f"{shown_text(str(output))}{note}", err=True)
 
 
 def _level(text: str, entries: Sequence[Entry]) -> Entry:

@@ -411,14 +411,14 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
     """What is odd about a pack; where a run was searched in vain, why: to the exit alone where there is none."""
     findings, no_exit = dict[PackFinding, None](), set[Level]()
     for finding in lint(pack, with_gold=True):
-        said, missing = finding, missing_run(pack, finding)
+        named_finding, missing = finding, missing_run(pack, finding)
         if missing and (why := obstacles.get(missing)):
             level, kind = missing
             if kind == "gold" and level in no_exit:
                 continue
             no_exit |= {level} if kind == "exit" else set()
-            said = finding._replace(text=f"the search found no {_SOUGHT[kind]}: {why.sentence}")
-        findings[said] = None
+            named_finding = finding._replace(text=f"the search found no {_SOUGHT[kind]}: {why.sentence}")
+        findings[named_finding] = None
     return list(findings)
 
 

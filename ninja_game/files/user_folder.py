@@ -81,9 +81,9 @@ def quarantine(path: Path, why: str) -> Path:
         number += 1
     path.replace(target)
     for tail in ("-wal", "-shm", "-journal"):
-        beside = path.with_name(path.name + tail)
-        if beside.exists():
-            beside.replace(target.with_name(target.name + tail))
+        aside = path.with_name(path.name + tail)
+        if aside.exists():
+            aside.replace(target.with_name(target.name + tail))
     return target
 
 

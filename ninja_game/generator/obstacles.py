@@ -53,8 +53,8 @@ def guards(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
 def zaps(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     """Around stones and along walls."""
     way = rng.choice(("surface-cw", "surface-ccw"))
-    beside = [(c, r) for c, r in sorted(scene.steps) if scene.full((c, r + 1)) != scene.full((c, r - 1))]
-    for column, row in beside:
+    edges = [(c, r) for c, r in sorted(scene.steps) if scene.full((c, r + 1)) != scene.full((c, r - 1))]
+    for column, row in edges:
         direction = "right" if scene.full((column, row + 1)) == (way == "surface-ccw") else "left"
         yield object_of(f"zap drone {column},{row} {way} {direction}")
 

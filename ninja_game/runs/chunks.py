@@ -94,11 +94,11 @@ def chunks_in(paths: Iterable[Path], record: int | None = None) -> Iterator[Chun
 
 def self_contained(chunk: Chunk, level: Level | None = None) -> Chunk:
     """The chunk with all files inside that its text takes in; where something is wrong, as it is."""
-    beside: dict[str, IncludedFile] = {}
+    included: dict[str, IncludedFile] = {}
     if not chunk.records and not chunk.problem:
-        with known_files(beside, no_more=False):
+        with known_files(included, no_more=False):
             list(recording_of_text(chunk.text, chunk.file, level, named=chunk.named))
-    return replace(chunk, beside=beside)
+    return replace(chunk, beside=included)
 
 
 def verify_chunk(

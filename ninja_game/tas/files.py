@@ -245,15 +245,15 @@ def save_run(
     Raises OccupiedError where that would replace another file, or one that was changed since it was read, unless
     ``replacing``; FileError, OSError for what cannot be written.
     """
-    own, beside = path == file.path, branches_path(path)
-    for file_path, known in ((path, file.digest), (beside, file.branches_digest)):
+    own, branches_file = path == file.path, branches_path(path)
+    for file_path, known in ((path, file.digest), (branches_file, file.branches_digest)):
         check_free(file_path, digest_of_file(file_path), known if own else None, replacing=replacing)
     if not own or track != file.track or digest_of_file(path) != file.digest:
         replay = replay_of_track(about, track)
         write_atomically(path, write_replay(_with_old_path(replay, about) if own else replay))
-    if len(branches) or branches.watched or beside.exists():
-        Tree(path.parent).write(beside.name, json.dumps(branches.as_json(), indent=1))
-    return RunFile(path, digest_of_file(path), digest_of_file(beside), track)
+    if len(branches) or branches.watched or branches_file.exists():
+        Tree(path.parent).write(branches_file.name, json.dumps(branches.as_json(), indent=1))
+    return RunFile(path, digest_of_file(path), digest_of_file(branches_file), track)
 
 
 def _with_old_path(replay: Replay, about: Recording) -> Replay:
@@ -281,11 +281,11 @@ def read_branches(path: Path) -> Branches:
 
     Raises ReplayError for a file that holds something else: saving would replace it.
     """
-    beside = branches_path(path)
-    if not beside.is_file():
+    branches_file = branches_path(path)
+    if not branches_file.is_file():
         return Branches()
     try:
-        return branches_of_json(json.loads(read_utf8(beside)))
+        return branches_of_json(json.loads(read_utf8(branches_file)))
     except DAMAGED as error:
         hint = "move it away, and the run opens without branches"
-        raise ReplayError("not the branches of a run", str(beside), found=str(error)[:60], hint=hint) from None
+        raise ReplayError("not the branches of a run", str(branches_file), found=str(error)[:60], hint=hint) from None

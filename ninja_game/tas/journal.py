@@ -128,14 +128,14 @@ def read_journal(file: Path) -> RecoveredRun:
     Raises one of DAMAGED for one whose first line is damaged, OSError.
     """
     with open_regular(file) as lines:
-        said = json.loads(lines.readline())
-        (recording,) = parse_replays(said["replay"])
-        recording = replace(recording, file=str(said.get("source", "")))
+        header = json.loads(lines.readline())
+        (recording,) = parse_replays(header["replay"])
+        recording = replace(recording, file=str(header.get("source", "")))
         object_table(recording.level)
-        path, digest, branches_digest = (str(said[key]) for key in ("path", "digest", "branches_digest"))
+        path, digest, branches_digest = (str(header[key]) for key in ("path", "digest", "branches_digest"))
         run_file = run_file_of(Path(path), digest, branches_digest) if path else RunFile()
-        tracks = [track_of_json(said["track"])]
-        branches = branches_of_json(said["branches"])
+        tracks = [track_of_json(header["track"])]
+        branches = branches_of_json(header["branches"])
         for line in lines:
             with suppress(*DAMAGED):
                 change = json.loads(line)
@@ -145,5 +145,5 @@ def read_journal(file: Path) -> RecoveredRun:
                     tracks[-1] = edited(tracks[-1], change)
                 else:
                     tracks.append(edited(tracks[-1], change))
-    opened = OpenedRun(recording, tracks[0], run_file, branches_of_json(said["branches"]))
-    return RecoveredRun(opened, tuple(tracks[1:]), branches, said, file)
+    opened = OpenedRun(recording, tracks[0], run_file, branches_of_json(header["branches"]))
+    return RecoveredRun(opened, tuple(tracks[1:]), branches, header, file)

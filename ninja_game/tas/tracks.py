@@ -188,8 +188,8 @@ class Branches:
             waiting += [(child, depth + 1) for child in reversed(children.get(number, []))]
 
     def as_json(self) -> dict[str, Any]:
-        said = {"branches": [branch_as_json(branch) for branch in self.all], "current": self.current}
-        return {**said, "watched": list(self.watched)}
+        data = {"branches": [branch_as_json(branch) for branch in self.all], "current": self.current}
+        return {**data, "watched": list(self.watched)}
 
     def do(self, change: dict[str, Any]) -> None:
         """A change as a journal tells it: one of the words below, or all of it. Raises DAMAGED."""
@@ -240,8 +240,8 @@ def branch_of_json(kept: dict[str, Any]) -> Branch:
 
 def track_as_json(track: InputTrack) -> dict[str, Any]:
     """An input track as JSON can say it: its inputs a hexadecimal digit a tick."""
-    said = {"inputs": track.inputs.hex()[1::2], "markers": [list(marker) for marker in track.markers]}
-    return said | {"made": track.made.as_json()}
+    data = {"inputs": track.inputs.hex()[1::2], "markers": [list(marker) for marker in track.markers]}
+    return data | {"made": track.made.as_json()}
 
 
 def track_of_json(kept: dict[str, Any]) -> InputTrack:

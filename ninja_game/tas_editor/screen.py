@@ -167,8 +167,8 @@ class Head(TasPart):
         saved = ", not saved"
         if session.is_run_saved:
             what = "branches" if len(session.branches) else "watched values"
-            beside = f", not its {what}" * (not session.is_saved)
-            saved = f", saved{beside}" if session.file.path else beside
+            unsaved_note = f", not its {what}" * (not session.is_saved)
+            saved = f", saved{unsaved_note}" if session.file.path else unsaved_note
         state = session.journal.problem or file + saved
         seconds = f", {seconds_text(end)} s" if end >= 0 else ""
         words = (session.timeline.ending or "no exit yet") + seconds
@@ -182,9 +182,9 @@ class Foot(TasPart):
 
     def render_key(self) -> tuple[object, ...]:
         editor = self.editor
-        beside = editor.chosen, len(editor.others), editor.ghosts
+        other_run = editor.chosen, len(editor.others), editor.ghosts
         run = len(editor.track), editor.session.timeline.simulated_until
-        return editor.cursor, editor.selection, run, editor.hint, beside
+        return editor.cursor, editor.selection, run, editor.hint, other_run
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         editor, palette, (_, y, w, _) = self.editor, theme.palette, self.area
@@ -194,9 +194,9 @@ class Foot(TasPart):
         timeline = editor.session.timeline
         known = "" if timeline.complete else f", simulated up to {timeline.simulated_until}"
         other = editor.beside if editor.ghosts else None
-        beside = f", beside {theme.fit(other.name, 110, 9.5)}" if other else ""
+        other_note = f", beside {theme.fit(other.name, 110, 9.5)}" if other else ""
         behind = ", behind the run's" if editor.cursor >= len(editor.track) else " of"
-        text = f"tick {editor.cursor}{behind} {len(editor.track)}{selected}{known}{beside}"
+        text = f"tick {editor.cursor}{behind} {len(editor.track)}{selected}{known}{other_note}"
         theme.text(surface, text, 8, y + 5, size=9.5, colour=palette.on_tile)
         hint = editor.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"
         room = w - 28 - theme.width(text, 9.5)

@@ -70,8 +70,8 @@ class Theme:
     def _room(self, x: float, align: str) -> float:
         """From a text's place to the window's edges."""
         left, right = self.canvas.logical((0, 0))[0], self.canvas.logical(self.canvas.window)[0]
-        beside = {"left": right - x, "right": x - left}
-        return beside.get(align, 2 * min(right - x, x - left)) - EDGE
+        rooms = {"left": right - x, "right": x - left}
+        return rooms.get(align, 2 * min(right - x, x - left)) - EDGE
 
     def largest(
         self, text: str, size: float, width: float, *, bold: bool = False, height: float | None = None

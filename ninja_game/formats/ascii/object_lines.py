@@ -254,9 +254,7 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
         else:
             raise _unknown_word(keyword, form, token, next(words, None))
         if name in named_words:
-            raise LevelError(
-                f"the {name} of '{keyword}' is named_words twice", column=token.column, found=shown(token.text)
-            )
+            raise LevelError(f"the {name} of '{keyword}' is given twice", column=token.column, found=shown(token.text))
         named_words[name] = value
     _check_complete(keyword, form, named_words, tokens)
     return places, named_words

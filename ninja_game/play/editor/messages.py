@@ -365,19 +365,19 @@ class MessagesScreen(MenuScreen):
         if key not in self._stages:
             kept = {old: stage for old, stage in self._stages.items() if old[:2] == key[:2]}
             self._stages = kept | {key: _Stage(draft.level, palette, *size, opened=opened)}
-        stage, said, texts = self._stages[key], None, [other.text for other in self.messages]
+        stage, message_said, texts = self._stages[key], None, [other.text for other in self.messages]
         picture = stage.picture.copy()
         if message:
             controls, when = self.app.controls, message.when
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
             where = draft.level.tiles, self._things(stage, texts), self._eye(message), when == "start", when == "at"
-            said = Said(text, *where) if text else None
+            message_said = Said(text, *where) if text else None
             if when == "at" and (eye := self._eye(message)):
                 frame = eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR
                 stage.hud.theme.canvas.frame_rect(picture, palette.accent, *frame, 2)
         foot = draft.name, f"gold 0 / {draft.level.gold}"
         labels = named_in(stage.world, arrow_targets(texts)) if stage.world else ()
-        stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=said, named=labels))
+        stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=message_said, named=labels))
         surface.blit(picture, place)
         for number, other in enumerate(self.messages, 1):
             if other is not message and other.when == "at" and (eye := self._eye(other)):

@@ -283,8 +283,8 @@ class PaletteView(Widget):
                 self._draw_key(surface, theme, what.key, below, live=entry_of_key(tools, what.key) is what)
             if what in (brush.EMPTY, brush.FULL):
                 key = brush.tile_key(what)
-                beside = area[0] - 9, area[1] + 4
-                self._draw_key(surface, theme, key, beside, live=entry_of_key(tools, key.lower()) == what)
+                left_of = area[0] - 9, area[1] + 4
+                self._draw_key(surface, theme, key, left_of, live=entry_of_key(tools, key.lower()) == what)
                 canvas.frame_rect(surface, palette.panel_edge, *area)
             if what == self._in_hand:
                 canvas.frame_rect(surface, palette.accent, *area, 2)

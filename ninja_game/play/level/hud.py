@@ -226,8 +226,8 @@ class Hud:
         theme, colour = self.theme, self.theme.palette.on_tile
         gap = 14 if left and right else 0
         # The right text grows only where that takes nothing from the left one.
-        beside = min(_FOOT_WIDTH / 2, theme.lettering.width(left, size))
-        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, size)), _FOOT_WIDTH - beside - gap)
+        half_width = min(_FOOT_WIDTH / 2, theme.lettering.width(left, size))
+        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, size)), _FOOT_WIDTH - half_width - gap)
         rect = theme.text(surface, right, 768, y, size=size, colour=colour, align="right", width=room)
         room = _FOOT_WIDTH - rect.width / theme.canvas.scale - gap
         return [rect, theme.text(surface, left, 24, y, size=size, colour=colour, width=room)]
@@ -376,22 +376,22 @@ def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | 
 def _box(theme: Theme, said: Said, keys: float) -> Box:
     """As ``Hud.box``. Kept, since a text is drawn in each picture and its place takes longer than all the rest."""
     text, tiles, things, about, covers, near = said
-    high, beside = _SAID_LINE * theme.scales[0], about if near else None
+    high, anchor = _SAID_LINE * theme.scales[0], about if near else None
     if about:
         things = (*things, (*about, MUST))
     boxes: list[tuple[int, Box]] = []
-    for rows, width in ((0, 1), (0, 0.6), (0, 0.4)) if beside else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
+    for rows, width in ((0, 1), (0, 0.6), (0, 0.4)) if anchor else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
         lines = text.split("\n") if keys else wrapped(theme, text, width * _SAID_WIDE, _SAID_SIZE)
         lines = [theme.fit(line, _SAID_WIDEST - keys, _SAID_SIZE) for line in lines]
         w = min(max(theme.width(line, _SAID_SIZE) for line in lines), _SAID_WIDEST - keys) + 28 + keys
         left, y, covered, hidden = solid_place(
-            tiles, w, high * len(lines) + 19, things, about, rows=rows, beside=beside
+            tiles, w, high * len(lines) + 19, things, about, rows=rows, beside=anchor
         )
         box = Box(lines, left, y, w, high, 10.0, _SAID_SIZE)
         if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
             return box
         boxes.append((hidden, box))
-    if beside:
+    if anchor:
         return min(boxes)[1]
     text = text.replace("\n", "    ")
     size = min(_SAID_SIZE, _SAID_SIZE * _BESIDE_GOLD / theme.width(text, _SAID_SIZE))

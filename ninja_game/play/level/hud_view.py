@@ -45,7 +45,7 @@ def hud_view(play: LevelPlay) -> HudView:
     covers = play.sayings.is_start or "\n" in text
     place = play.sayings.place
     where = context.level.tiles, play.things, place or play.about, covers, place is not None
-    said = Said(named_keys(text, key), *where) if text else None
+    message_said = Said(named_keys(text, key), *where) if text else None
     if play.phase is Phase.DEAD:
         cause, _, why = cause_of_death(play).partition(". ")
         end = EndPanel(cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], *_covering(play))
@@ -71,7 +71,7 @@ def hud_view(play: LevelPlay) -> HudView:
         pars=_pars_ahead(play),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
-        said=said,
+        said=message_said,
         moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
         letters=[key(name) for name in ("left", "jump", "right")],
         end=end,

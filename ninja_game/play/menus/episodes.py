@@ -269,8 +269,8 @@ class EpisodeGrid(ThumbnailScreen):
         self._draw_total(surface, theme, self._below + 92)
         if self.pack.key and self.pack.pack:
             index = self.pack.pack.index
-            said = f"{index.title}. {index.comment}" if index.comment else index.title
-            theme.text(surface, shown_text(said, 200), SIDE, 114, size=10, colour=palette.faint, width=364)
+            subtitle = f"{index.title}. {index.comment}" if index.comment else index.title
+            theme.text(surface, shown_text(subtitle, 200), SIDE, 114, size=10, colour=palette.faint, width=364)
         episode = self.episode
         if episode is None:
             theme.text(surface, "No episodes", SIDE, 66, size=16, colour=palette.faint, bold=True)

@@ -110,14 +110,14 @@ class Packer(Aside):
         app, name, waited_for = self.app, ready.pack.name, self.app.top is self.desk
         self.saved = app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
         self._zipped, self._seen = ready.zipped, None
-        said = [app.notice]
+        notices = [app.notice]
         if ready.link and waited_for:
             copy_link(app, lambda: ready.link, title=name)
-            said.append("the link is in the clipboard")
-        app.notify("; ".join(said) if waited_for else f"{shown_text(name)} is ready to share", here=waited_for)
+            notices.append("the link is in the clipboard")
+        app.notify("; ".join(notices) if waited_for else f"{shown_text(name)} is ready to share", here=waited_for)
         if codes := dict.fromkeys(finding.code.replace("-", " ") for finding in ready.findings):
-            said[0] += f", with {counted(len(ready.findings), 'open problem')} ({', '.join(codes)})"
-        self.text = self._made = "; ".join([*said, *ready.notes])
+            notices[0] += f", with {counted(len(ready.findings), 'open problem')} ({', '.join(codes)})"
+        self.text = self._made = "; ".join([*notices, *ready.notes])
 
     def follow(self, pack: Pack | None) -> None:
         """Say of the zip what is true of it. ``pack``: as its files are now, None where it is gone."""
@@ -202,14 +202,14 @@ class PackStatus:
         """How far a level is, in a word: its time where it is measured."""
         known, file = self._states.get(id(level)), Path(level.named.file)
         if known is None:
-            beside = (file.parent / certificate_name(file.name, "exit")).is_file()
-            if level.pars and (beside or file.parent != (self.pack and self.pack.path)):
+            has_certificate = (file.parent / certificate_name(file.name, "exit")).is_file()
+            if level.pars and (has_certificate or file.parent != (self.pack and self.pack.path)):
                 known = f"{seconds_text(level.pars.exit)} s"
             else:
                 run = self.catalogue.author_run(level)
                 vain = (level.named.level, "exit") in self.packer.obstacles
                 stopped = level.named.level in SOLVER.stopped and not self.packer.busy
-                untried = "stopped" if stopped else "changed" if beside else "no run yet"
+                untried = "stopped" if stopped else "changed" if has_certificate else "no run yet"
                 known = "certified" if run else NOT_FOUND if vain else untried
             self._states[id(level)] = known
         return known

@@ -145,7 +145,7 @@ class PackScreen(ThumbnailScreen):
         chosen.hint = f"{whose}. Enter, or a click on the name: what can be done with it"
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(pack.name if pack.key else "The game's own", pack.key) for pack in self.sets if pack is not self.pack]
-        beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
+        tray_choice = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
         ready, end = partial(self.packer.start, self.path), self.packer.end
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
@@ -167,7 +167,7 @@ class PackScreen(ThumbnailScreen):
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
         share = [] if self.packer.busy else [*[folder] * bool(self._saved), link]
-        first = [self.shelves, chosen, undo, new, paste, about, view, problems, make, beside, self.tray]
+        first = [self.shelves, chosen, undo, new, paste, about, view, problems, make, tray_choice, self.tray]
         return [*first, *share] if have else [new, paste, *[undo] * bool(steps)]
 
     def _view(self) -> None:
@@ -524,8 +524,10 @@ class PackScreen(ThumbnailScreen):
         file = file_of(pack, finding)
         entry, why = self._entry(level_of(pack, file)), obstacle_of(pack, finding, self.packer.obstacles)
         # Files count columns and episodes from 0; what is behind the semicolon is about files.
-        said = re.sub(r"((?:column|episode) )(\d+)", lambda n: f"{n[1]}{int(n[2]) + 1}", finding.text.partition(";")[0])
-        text = said[:1].upper() + said[1:]
+        numbered_text = re.sub(
+            r"((?:column|episode) )(\d+)", lambda n: f"{n[1]}{int(n[2]) + 1}", finding.text.partition(";")[0]
+        )
+        text = numbered_text[:1].upper() + numbered_text[1:]
         go: Callable[[], object] | None = self._about if file == INDEX else None
         if finding.code == "no-author":
             go = partial(self._form, 1)
@@ -554,9 +556,9 @@ class PackScreen(ThumbnailScreen):
         named = entry.named if entry and accepted.code in LEVEL_RULES else None
         every = level_findings(named.level, named.says) if named else []
         odd = [finding for finding in every if finding.code == accepted.code]
-        said = "; ".join(finding.sentence for finding in odd) or accepted.code.replace("-", " ")
+        problem_text = "; ".join(finding.sentence for finding in odd) or accepted.code.replace("-", " ")
         take_back = partial(packs.take_back, self.path, accepted.file, accepted.code)
-        text = f"{entry.title if entry else accepted.file}: {said}. Accepted: {accepted.reason}"
+        text = f"{entry.title if entry else accepted.file}: {problem_text}. Accepted: {accepted.reason}"
         go = partial(self.change, partial(self._edit, entry, next(iter(odd), None)), "Edit") if entry else None
         return Problem(text, "", go, lambda: self.change(take_back, "Take it back"), accepted=True)
 

@@ -79,8 +79,8 @@ class Film:
 
     @property
     def whole_size(self) -> tuple[int, int]:
-        beside, (w, h) = len(self.beside), self.size
-        return w * min(2, 1 + beside), h * (1 + beside // 2)
+        ghost_runs, (w, h) = len(self.beside), self.size
+        return w * min(2, 1 + ghost_runs), h * (1 + ghost_runs // 2)
 
     @cached_property
     def moments(self) -> range:

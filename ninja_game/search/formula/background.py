@@ -167,7 +167,7 @@ class RunSearch(SpanSearch):
 
     def _work(self) -> None:
         """Shorten the run by its own route, and beside that by those of all runs."""
-        task, beside = self._wanted, None
+        task, mixed_job = self._wanted, None
         played = run_level(task.level, task.first, body=task.body)
         self._reaches = played.outcome == "exit"
         others = tuple(filter(self._counts, task.others))
@@ -175,15 +175,15 @@ class RunSearch(SpanSearch):
         if others:
             known = (own.first, *others) if self._reaches else others
             mixed = partial(self._shorten, replace(own, first=known[0], others=known[1:]), own_route=False)
-            beside = run_in_background(mixed, self._fail_beside)
+            mixed_job = run_in_background(mixed, self._fail_beside)
         if not self._reaches:
             own = self._led_to_exit(own, played.ticks)
         if own.first:
             self._shorten(own, own_route=True)
         elif not others and not self._cancelled.is_set():
             self.problem = NO_WAY
-        if beside is not None:
-            beside.join()
+        if mixed_job is not None:
+            mixed_job.join()
         self._ended = monotonic()
 
     def _counts(self, inputs: bytes) -> bool:

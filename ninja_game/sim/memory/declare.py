@@ -61,12 +61,12 @@ def fields_of(cls: type) -> list[Field]:
     """The fields that a struct declares or inherits, bases first, in the order of declaration."""
     if "FIELDS" in cls.__dict__:
         return list(cls.__dict__["FIELDS"])
-    fields: dict[str, Field] = {}
+    found: dict[str, Field] = {}
     for base in reversed(cls.__mro__[:-1]):
         hints = get_type_hints(base, include_extras=True)
         for name in get_annotations(base):
-            fields.setdefault(name, _field(name, hints[name]))
-    return list(fields.values())
+            found.setdefault(name, _field(name, hints[name]))
+    return list(found.values())
 
 
 def scalars_of(cls: type) -> list[Field]:

@@ -144,8 +144,8 @@ class OtherRunScreen(ReplaysScreen):
         session = self.others.editor.session
         file = session.file.path or Path(session.about.file)
         names = [name for name in files_in(file.parent) if name.lower().endswith(SUFFIXES)] if file.is_file() else []
-        beside = [file.parent / name for name in names if name != file.name]
-        return [("Same folder", beside[:FILES_SHOWN]), *super().places()]
+        siblings = [file.parent / name for name in names if name != file.name]
+        return [("Same folder", siblings[:FILES_SHOWN]), *super().places()]
 
     def bundled(self) -> list[Path]:
         """All of them: who edits runs knows the way."""
@@ -168,8 +168,8 @@ class OtherRunScreen(ReplaysScreen):
         """Show the runs of a file or a link; a file is looked for beside that of the run in the TAS editor too."""
         about = self.others.editor.session.about
         path = Path(text) if is_link(text) else Path(text).expanduser()
-        beside = Path(about.file).parent / path
-        path = beside if not is_link(path) and not path.exists() and beside.exists() else path
+        path_there = Path(about.file).parent / path
+        path = path_there if not is_link(path) and not path.exists() and path_there.exists() else path
         if self.others.editor.attempt(lambda: self.others.open(runs_of_level(path, about))):
             self.app.pop()
 

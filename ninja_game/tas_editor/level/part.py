@@ -224,10 +224,10 @@ class LevelPart(TasPart):
         self.picture.follow(self.ghosts)
         # Not at each tick of a run that is taken over is the other one shorter.
         first, last = paths.shown_span(editor.cursor)
-        beside = [paths.RunPath(run.trajectory, colour, first, last) for run, colour in runs]
+        other_paths = [paths.RunPath(run.trajectory, colour, first, last) for run, colour in runs]
         return [
             paths.RunPath(before, palette.ghost, max(first, at - at % paths.BRIGHT_TICKS - 1), last, paths.FAINT),
-            *beside,
+            *other_paths,
         ]
 
     def _write(self, surface: pygame.Surface, theme: Theme) -> None:

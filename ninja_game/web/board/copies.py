@@ -160,17 +160,17 @@ class Courses:
                 near = near[np.lexsort((self.numbers[near], -alike[near]))]
                 first = near[0]
                 if of_presses[first] > of_path[first]:
-                    said = f"{presses[first]} of {of[first]} presses and releases are at the ticks of"
+                    reason = f"{presses[first]} of {of[first]} presses and releases are at the ticks of"
                 else:
-                    said = f"{places[first]} of the {len(course.places)} places on its way are those of"
-                return self.numbers[near].tolist(), said
+                    reason = f"{places[first]} of the {len(course.places)} places on its way are those of"
+                return self.numbers[near].tolist(), reason
             # Aligning is slow: only where nothing else tells.
             strokes, ticks = self._strokes.counts(course.strokes, columns), len(course.keys)
             most = nlargest(ALIGNED, np.flatnonzero(chosen).tolist(), key=strokes.__getitem__)
             shared = [(-course.inputs_shared(self._courses[column]), int(self.numbers[column])) for column in most]
             aligned = sorted(pair for pair in shared if pair[0])
-            said = f"{-aligned[0][0]} of its {ticks} ticks have the inputs of" if aligned else ""
-            return [number for _, number in aligned], said
+            reason = f"{-aligned[0][0]} of its {ticks} ticks have the inputs of" if aligned else ""
+            return [number for _, number in aligned], reason
 
         return nearest
 
@@ -248,12 +248,12 @@ def _remarked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Itera
     for _, moment in groupby(runs, key=lambda run: run.added):
         compared.begin_moment()
         for run in moment:
-            said, earlier = compared.near(run)
+            reason, earlier = compared.near(run)
             compared.add(run)
-            near = said * earlier
+            near = reason * earlier
             if not earlier:
-                said = together.get(run.key, said + ", of the same moment" * bool(said and run.added))
-            yield replace(run, remark="; ".join(filter(None, (said, run.remark))), near=near) if said else run
+                reason = together.get(run.key, reason + ", of the same moment" * bool(reason and run.added))
+            yield replace(run, remark="; ".join(filter(None, (reason, run.remark))), near=near) if reason else run
 
 
 class _Compared:
@@ -289,8 +289,8 @@ class _Compared:
             course = self._course(run, new=True)
             players = [run.player for run in self._runs]
             near = _near_to_another(run.player, course, self._courses, players, self._earlier)
-            said = f"{near[1]} the run by {self._runs[near[0]].player} in {self._runs[near[0]].file}" if near else ""
-            self._memo.note(key, noted := [said, bool(near and near[0] < self._earlier)])
+            reason = f"{near[1]} the run by {self._runs[near[0]].player} in {self._runs[near[0]].file}" if near else ""
+            self._memo.note(key, noted := [reason, bool(near and near[0] < self._earlier)])
         return noted[0], noted[1]
 
     def _course(self, run: Run, *, new: bool = False) -> Course:
@@ -317,7 +317,7 @@ def _near_to_another(
     for _ in range(2):  # inputs are aligned only where nothing else is near
         until = min(near(own & (numbers < until))[0], default=until)
     for last in sorted({min(until, until_moment), until}):
-        others, said = near(~own & (numbers < last))
+        others, reason = near(~own & (numbers < last))
         if others:
-            return others[0], said
+            return others[0], reason
     return None

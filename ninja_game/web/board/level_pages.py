@@ -150,10 +150,10 @@ class LevelPages:
 
     def run_link(self, run: Run, up: str, text: str = "") -> Markup:
         """A link to the page of a run that says ``text``, such as its time; without one to its replay."""
-        address, said = f"{up}../{REPLAYS}/{self.stems[run.key]}", f"{run.player} on {run.entry.title}"
+        address, label = f"{up}../{REPLAYS}/{self.stems[run.key]}", f"{run.player} on {run.entry.title}"
         if text:
-            return tag("a", text, href=f"{address}.html", aria_label=f"{text}: {said}")
-        return tag("a", "File", href=f"{address}.txt", download=True, aria_label=f"File: {said}")
+            return tag("a", text, href=f"{address}.html", aria_label=f"{text}: {label}")
+        return tag("a", "File", href=f"{address}.txt", download=True, aria_label=f"File: {label}")
 
     def behind(self, category: Category, row: Ranked, first: Ranked, word: str = "") -> str:
         """By how much a run is behind the first, or what decides between the two. ``word``: behind a number."""
@@ -243,10 +243,10 @@ class LevelPages:
             run = known[row[0]]
             return self.run_cells(run, seconds_text(run.tick), seconds_text(run.score))
 
-        beside = self.ranking.side_by_side(digest, TOGETHER)[1] if runs else []
+        splits = self.ranking.side_by_side(digest, TOGETHER)[1] if runs else []
         for run in runs:
             self.pages.make(f"{self.stems[run.key]}.txt", self.stems[run.key], partial(_text, run), replay=True)
-            self.write_run_page(run, beside)
+            self.write_run_page(run, splits)
             run.folder.forget(run.key)
         if runs:
             heads, back = ("Player", "Time", "Score", *RUN_HEADS), tag("a", "The level", href=UP + page_name(digest))
@@ -259,9 +259,9 @@ class LevelPages:
         tables = self.ranking.tables.get(entry.digest, {})
         if not tables:
             return None, None, section("Runs", tag("p", "Nobody has passed this level here yet."))
-        said = f"All runs: {len(self.ranking.by_level[entry.digest])}"
-        link = tag("p", tag("a", said, href=f"{entry.digest[:16]}-runs.html"))
-        drawn, beside = self._side_by_side(*self.ranking.side_by_side(entry.digest, TOGETHER))
+        label = f"All runs: {len(self.ranking.by_level[entry.digest])}"
+        link = tag("p", tag("a", label, href=f"{entry.digest[:16]}-runs.html"))
+        drawn, splits_view = self._side_by_side(*self.ranking.side_by_side(entry.digest, TOGETHER))
         fell = [board for board in tables if len(self.ranking.history[entry.digest, board]) > 1]
         first, *others = [self._progression(entry, board, RECORDS * (not at)) for at, board in enumerate(fell)] or [
             None
@@ -287,9 +287,9 @@ class LevelPages:
             for board, (best, *_) in leaderboards.items():
                 leader = f": {self.shown_name(best.run.player)}, {board[1].text(best.values[0])}"
                 leads.append((anchor, self.leaderboard_name(board) + leader * (best.place == 1)))
-        leads += [(tab, tab.capitalize()) for tab, content in ((RECORDS, first), (SPLITS, beside)) if content]
+        leads += [(tab, tab.capitalize()) for tab, content in ((RECORDS, first), (SPLITS, splits_view)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
-        return on_this_page(leads), drawn, joined(*shown, note, link, first, folded, beside)
+        return on_this_page(leads), drawn, joined(*shown, note, link, first, folded, splits_view)
 
     def _table(self, leaderboards: Mapping[Leaderboard, Sequence[Ranked]], above: set[str], anchor: str) -> Markup:
         """A table of categories with the same runs in order. ``above``: remarks of tables above."""
@@ -320,9 +320,9 @@ class LevelPages:
         # Records of one moment are one record.
         moments = [datetime.fromisoformat(run.added).timestamp() if run.added else 0.0 for run in runs]
         start, end = (f"{category.text(numbers[at])} {runs[at].day}" for at in (0, -1))
-        said = f"The record {moved} from {start} to {end} in {counted(len(runs) - 1, 'step')}"
+        label = f"The record {moved} from {start} to {end} in {counted(len(runs) - 1, 'step')}"
         heights = [-number if category.rising else number for number in numbers]
-        chart = steps(list(zip(moments, heights, strict=True)), start, end, said)
+        chart = steps(list(zip(moments, heights, strict=True)), start, end, label)
         heads = ("Date", "Player", category.unit, "Better by", "Watch")
         title = f"How the record {moved}: {self.leaderboard_name(leaderboard)}"
         return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]), anchor=anchor or None)
@@ -347,8 +347,8 @@ class LevelPages:
             (tag("a", number, href=f"#{PLACE}{number}"), row.split.kind, *_cells(row))
             for number, row in enumerate(rows, 1)
         ]
-        said = "Seconds; later than the first: +; numbers are those in the picture"
-        splits = table(said, ("No.", "Split", names[0], "Fastest segment", *names[1:]), lines)
+        note = "Seconds; later than the first: +; numbers are those in the picture"
+        splits = table(note, ("No.", "Split", names[0], "Fastest segment", *names[1:]), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
         drawn = joined(drawn, tag("p", f"The first {len(runs)} runs: {category.name}"), together)
         where = _where_time_goes(names, ghosts) if len(rows) < ENOUGH_SPLITS else None
@@ -368,19 +368,19 @@ def _where_time_goes(names: Sequence[str], runs: Sequence[RunSplits]) -> list[Ma
         return []
     ticks = range(step := TICKS_PER_SECOND * (1 + first.ticks // MOST_SECONDS), first.ticks, step)
     late = [_leads(first.positions, other.positions, ticks) for other in others]
-    said = []
+    sentences = []
     for name, leads in zip(names[1:], late, strict=True):
         near = [(0, 0), *((tick, lead) for tick, lead in zip(ticks, leads, strict=True) if lead is not None)]
         lost, start, end = max(((b[1] - a[1], a[0], b[0]) for a, b in pairwise(near)), default=(0, 0, 0))
         span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of the first"
-        said += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
+        sentences += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
     rows = [
         (f"{tick // TICKS_PER_SECOND} s", *("" if ahead is None else signed(ahead) for ahead in leads))
         for tick, *leads in zip(ticks, *late, strict=True)
     ]
     caption = f"Seconds by which each is later where {names[0]} is then; empty: it goes another way"
     rows = [row for row in rows if any(row[1:])]
-    return [*said, table(caption, (names[0], *names[1:]), rows)] if rows else said
+    return [*sentences, table(caption, (names[0], *names[1:]), rows)] if rows else sentences
 
 
 def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
@@ -489,11 +489,11 @@ def paths(picture: str, runs: Sequence[tuple[str, str]], places: Sequence[tuple[
         tag("path", tag("title", name), d=way, class_="way", stroke=_colour(number))
         for number, (name, way) in enumerate(runs)
     ]
-    said = f"The level with the paths of {', '.join(name for name, _ in runs)}"
+    label = f"The level with the paths of {', '.join(name for name, _ in runs)}"
     box = f"0 0 {PICTURE_WIDTH} {PICTURE_HEIGHT}"
     names = [tag("li", swatch(number), joined(" ", name)) for number, (name, _) in enumerate(runs)]
     drawn = tag(
-        "svg", image, *reversed(lines), *_marks(places), viewBox=box, class_="paths", role="img", aria_label=said
+        "svg", image, *reversed(lines), *_marks(places), viewBox=box, class_="paths", role="img", aria_label=label
     )
     return joined(drawn, tag("ul", *names, class_="facts"))
 

@@ -259,8 +259,8 @@ class BoardPages(LevelPages):
         heads = ("Level", "Record", "Result", "Date", "Lost to", "With", "On")
         for player, own in runs.items():
             name, records = player_page(player), held[player] + lost[player]
-            said = f"Records: {len(held[player])} held, {len(lost[player])} lost"
-            link = tag("p", tag("a", said, href=f"{UP}{name}-records.html")) if records else None
+            note = f"Records: {len(held[player])} held, {len(lost[player])} lost"
+            link = tag("p", tag("a", note, href=f"{UP}{name}-records.html")) if records else None
             self._runs_of(player, own, [*sums[player], link])
             if records:
                 back = tag("p", tag("a", "All runs of the player", href=f"{UP}{name}.html"))
@@ -368,7 +368,7 @@ class BoardPages(LevelPages):
     def _rejected(self) -> None:
         rejected, order = self.ranking.judged.rejected, list(KINDS)
         counts = Counter(item.kind for item in rejected)
-        said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title, _) in KINDS.items() if counts[kind])
+        kinds = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title, _) in KINDS.items() if counts[kind])
         rows: list[tuple[Content, ...]] = [
             (
                 KINDS[item.kind][2],
@@ -381,7 +381,7 @@ class BoardPages(LevelPages):
             )
             for item in sorted(rejected, key=lambda item: order.index(item.kind))
         ]
-        lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."
+        lead = f"None of them is ranked; {kinds}." if kinds else "Every file of the folder is a run that counts."
         near = [
             (level_link(run.entry), self.player_link(run.player), self.run_link(run, "", seconds_text(run.tick)),
              run.gold, self.watch_link([run], ""), run.file + f", record {run.record}" * (run.record > 0), run.near,
@@ -399,8 +399,8 @@ class BoardPages(LevelPages):
 
     def _first_run(self, key: Key | None) -> Content:
         """A link to the page of a run that others have copied."""
-        said = f"The run in {key[0]}" if key else ""
-        return tag("a", "Look", href=f"../{REPLAYS}/{self.stems[key]}.html", aria_label=said) if key else ""
+        label = f"The run in {key[0]}" if key else ""
+        return tag("a", "Look", href=f"../{REPLAYS}/{self.stems[key]}.html", aria_label=label) if key else ""
 
 
 def _together(records: Sequence[Record]) -> str:
@@ -409,12 +409,12 @@ def _together(records: Sequence[Record]) -> str:
 
 def _sums(ladder: str, category: str, standing: Standing) -> str:
     """What a player has reached in a ladder, ranks in a category, in a sentence."""
-    said = f"{ladder.capitalize()}: {counted(standing.runs, 'run')} on {counted(standing.levels, 'level')}"
+    sentence = f"{ladder.capitalize()}: {counted(standing.runs, 'run')} on {counted(standing.levels, 'level')}"
     if not standing.ranks:
-        return f"{said}."
+        return f"{sentence}."
     ranks = f"total of ranks {sum(standing.ranks)}, {mean(standing.ranks):.2f} on average"
     close = f"in the median {100 * median(standing.behind):.1f}% slower than the fastest"
-    return f"{said}; in {category} first on {standing.ranks.count(1)}; {ranks}; {close}."
+    return f"{sentence}; in {category} first on {standing.ranks.count(1)}; {ranks}; {close}."
 
 
 def _about(element: ET.Element, title: str, name: str, date: str) -> None:

@@ -92,8 +92,8 @@ class Category:
         ('91.425 points', '1 press')
         """
         counts = {"Time": "s", "Score": "points"}.get(self.unit, self._shown if self._shown in NAMES else "")
-        said = f"{self.text(value)} {counts}".rstrip()
-        return {"1 presses": "1 press", "1 jumps": "1 jump"}.get(said, said)
+        text = f"{self.text(value)} {counts}".rstrip()
+        return {"1 presses": "1 press", "1 jumps": "1 jump"}.get(text, text)
 
     def decided(self, values: Sequence[float], best: Sequence[float]) -> str:
         """What decides against a run whose first number is the best one's.
