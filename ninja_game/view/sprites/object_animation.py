@@ -11,6 +11,7 @@ from ninja_game.sim import kinds
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import DRONE_MOVE, LAUNCHER_FLIGHT
+from ninja_game.sim.traces import place_of
 
 MOVING_KINDS = frozenset(kind.number for kind in kinds.KINDS if kind.moves)
 STATE_FIELDS = {kind.number: kind.used for kind in kinds.KINDS if kind.used} | {kinds.DRONE: "chasing"}
@@ -32,11 +33,6 @@ def state_of(world: World, o: Object) -> tuple[int, int, int]:
     return getattr(o, STATE_FIELDS.get(o.kind, "updating")), o.routine, o.updating
 
 
-def drawn_place(o: Object) -> Place:
-    """The place of an object that moves; of a turret its crosshair."""
-    return (o.aim_x, o.aim_y) if o.kind == kinds.TURRET else (o.x, o.y)
-
-
 class ObjectAnimation:
     """The memory of one view. ``tick``: ticks seen; ``closing``: the slot of an exit that closes, or 0."""
 
@@ -54,7 +50,7 @@ class ObjectAnimation:
         self.since = dict.fromkeys(self.static_slots, LONG_AGO)
         self.changed: set[int] = set()
         self.closing = 0
-        self.now = {slot: drawn_place(world.objects[slot]) for slot in self.moving_slots}
+        self.now = {slot: place_of(world, slot) for slot in self.moving_slots}
         self.before = dict(self.now)
         self.eyes = {
             slot: _eye_angle(world, world.objects[slot])
@@ -71,7 +67,7 @@ class ObjectAnimation:
         self.before, self.now = self.now, {}
         for slot in self.moving_slots:
             o = world.objects[slot]
-            self.now[slot] = drawn_place(o)
+            self.now[slot] = place_of(world, slot)
             if o.kind == kinds.DRONE:
                 turn = (_eye_angle(world, o) - self.eyes[slot] + pi) % (2 * pi) - pi
                 self.eyes[slot] += _EYE_TURN * turn
