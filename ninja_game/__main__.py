@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-# `signal` itself imports enough for a signal to come in between.
+# Importing `signal` takes long enough for a signal to arrive meanwhile.
 import _signal  # type: ignore[import-not-found]
 import os
 import sys
@@ -26,16 +26,16 @@ def main() -> None:
     if sys.platform != "win32":
         if _signal.getsignal(_signal.SIGINT) is _signal.default_int_handler:
             _signal.signal(_signal.SIGINT, _signal.SIG_DFL)
-        # tools/dev.py starts the program so that one which comes before this line waits for it.
+        # tools/dev.py blocks signals before it starts the program: one that arrived early is delivered here.
         _signal.pthread_sigmask(_signal.SIG_UNBLOCK, (_signal.SIGINT,))
     open_missing_streams()
-    # Nor does a process that it starts import what lies in the current folder.
+    # Child processes must not import modules from the current folder either.
     os.environ["PYTHONSAFEPATH"] = "1"
     from ninja_game.signals import end_on_signals
 
     end_on_signals()
     if sys.argv[1:] == ["play"]:
-        # The first picture comes before the command line is loaded. What fails here fails there again, and is said.
+        # Show the first picture before the command line is loaded. An error here occurs there again, and is reported.
         with suppress(Exception):
             from ninja_game.play.window import open_at_once
 
@@ -47,6 +47,6 @@ def main() -> None:
 
 if __name__ == "__main__":
     if not sys.flags.safe_path:
-        # `-m` puts the current folder first on the path; nothing that lies there may be imported.
+        # `-m` puts the current folder first on the path; modules in it must not be imported.
         del sys.path[0]
     main()

@@ -41,13 +41,13 @@ def end_on_signals() -> None:
     """
     if sys.platform == "win32" or signal.getsignal(signal.SIGTERM) is _on_signal:
         return
-    # What a process that is ended by force shared with its workers is cleaned up by one of Python's, without a word.
+    # A process of Python's cleans up, silently, what a killed process shared with its workers.
     sys.warnoptions.append("ignore:resource_tracker:UserWarning")
     sys.unraisablehook = _forget_signals
     arrivals, announce = os.pipe()
     os.set_blocking(announce, False)
     for number in _ENDING:
-        # What a shell starts in the background ignores Ctrl-C.
+        # Programs that a shell starts in the background ignore Ctrl-C.
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, _on_signal)
     # Written by the handler in C, also while the main thread is in compiled code.
@@ -113,7 +113,7 @@ def _end_by_force(arrivals: int) -> None:
 def _end(number: int) -> None:
     """End this process and its workers at once; unfinished files go."""
     try:
-        # What is not loaded has nothing to end; to load it now might wait for the main thread.
+        # A module that is not loaded has nothing to end; importing it now might wait for the main thread.
         for child in _known("multiprocessing", "active_children")() or ():
             child.kill()
         _known("ninja_game.files.writing", "discard_unfinished")()

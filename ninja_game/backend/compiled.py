@@ -71,8 +71,8 @@ class CompiledWorlds(Worlds):
         self._step, self._observe = compiled(step_world), compiled(observe_object)
         tables = [object_table(level) for level in self.levels]
         self.slots = max(table.slots for table in tables)
-        # Behind the worlds lies a new one in each level, and one more: an array of one counts as contiguous, which is
-        # another type and another compile.
+        # After the worlds comes a fresh one for each level, and one more: an array of one is contiguous, which is
+        # another type for Numba, compiled again.
         self.worlds: Records = new_worlds(count + len(tables) + 1, self.slots)
         self.maps = _loaded(compiled, self.levels, tables, self.worlds, count, box)
         self.records, self.fresh = self.worlds[:count], self.worlds[count:]

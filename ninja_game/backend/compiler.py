@@ -78,7 +78,7 @@ class Compiler:
     def _one_for_all_integers(self, compiled: Any) -> Any:
         """Have a function take any integer as int64: Numba would compile it for each type and each constant again."""
         template, types = getattr(compiled, "get_call_template", None), self._types
-        if template is None:  # a private part of Numba: without it everything works, and compiles longer
+        if template is None:  # private in Numba: without it everything works, but compiling takes longer
             return compiled
 
         def widened(args: Iterable[Any], names: dict[str, Any]) -> Any:

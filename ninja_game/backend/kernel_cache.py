@@ -53,7 +53,7 @@ def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
     """How the names of an entry point's files begin; Numba is not imported for it."""
     from importlib.metadata import version
 
-    # Kernels hold no code of NumPy's, only the layout of its arrays; its patches change none of that.
+    # Kernels contain no code of NumPy, only the layout of its arrays, which patch releases keep.
     versions = version("numba"), *version("numpy").split(".")[:2]
     digest = code_digest(entry, f"{EXTENSION_SUFFIXES[0]} {versions} {OPTIONS} checked={checked}")
     return f"{entry.__name__}-{digest[:32]}"
@@ -174,7 +174,7 @@ class KernelCache:
 
         pack: Any = dumps
         try:
-            # The one text in it lists the types of all lines, with addresses of this process.
+            # The only text in it lists the types of all lines, with memory addresses of this process.
             parts = result._reduce()  # noqa: SLF001 - as Numba's own caches do
             code = pack(tuple("" if isinstance(part, str) else part for part in parts))
         except Exception as error:  # noqa: BLE001 - whatever another version of Numba does here: it works without

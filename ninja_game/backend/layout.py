@@ -108,7 +108,7 @@ def new_worlds(count: int, objects: int) -> Records:
     """
     stride = _align(used_bytes(objects), 64)
     size = (count - 1) * stride + max(stride, WORLD.itemsize)
-    # Private, where processes are forked: one of these must not play in the worlds of the one that it comes from.
+    # Private: a forked process must not write into the worlds of its parent.
     block = mmap.mmap(-1, size, access=mmap.ACCESS_COPY if hasattr(mmap, "MAP_PRIVATE") else mmap.ACCESS_WRITE)
     if hasattr(mmap, "MADV_HUGEPAGE"):
         huge = count * stride // HUGE_PAGE * HUGE_PAGE

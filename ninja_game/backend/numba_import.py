@@ -53,7 +53,7 @@ class _ConfigFinder:
     def find_spec(self, fullname: str, path: Sequence[str] | None, target: Any = None) -> ModuleSpec | None:
         if fullname != _CONFIG:
             return None
-        # A program without a Python has a finder of its own.
+        # A frozen program has a module finder of its own.
         specs = (finder.find_spec(fullname, path, target) for finder in sys.meta_path if finder is not self)
         spec = next(filter(None, specs), None)
         if spec:
@@ -95,7 +95,7 @@ def import_numba() -> Any:
         raise ImportError(f"the settings of Numba {numba.__version__} cannot be set back")
     if settings is None:
         return numba
-    # Also where somebody else imported Numba before. The number of threads, which we have no use for, cannot change.
+    # Also if Numba was imported before. The number of threads cannot change then; we do not use it.
     settings.process_environ(FIXED | {"NUMBA_NUM_THREADS": config.NUMBA_NUM_THREADS})
     # Numba asks again before each function that it compiles.
     settings.update = lambda **_: None
@@ -152,7 +152,7 @@ def _make_pipeline() -> type:
             state.flags.no_compile = True
             super().run_pass(state)
             state.flags.no_compile = False
-            # A function that is built in, and another one each time: callers find the library by it.
+            # Each time another built-in function: callers find the library by it.
             stand_in: Any = [].append
             state.cr = state.cr._replace(cfunc=stand_in)
             state.targetctx.insert_user_function(stand_in, state.cr.fndesc, [state.library])

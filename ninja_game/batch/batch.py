@@ -95,7 +95,7 @@ class Batch:
         memory: str = "auto",
         threads: int | None = None,
     ) -> None:
-        # A text is a sequence too: it is refused as one wrong level, not letter by letter.
+        # A text is a sequence too: report it as one wrong level, not letter by letter.
         self.levels = [levels] if isinstance(levels, (Level, str)) else list(levels)
         if not self.levels:
             raise ArgumentError("0 levels; expected at least one")
@@ -169,7 +169,7 @@ class Batch:
         keys = np.require(rows, np.uint8, ["C", "W"])
         keys = self._pressed(keys) if press else keys
         worlds, ticks = self._worlds, 0
-        # The interpreter has one lock; and between calls of a kernel Python sees Ctrl-C.
+        # Python threads share one lock; and Ctrl-C is handled only between two calls of a kernel.
         pool = thread_pool(self.threads if self.memory == "compiled" else 1)
         at_once = max(1, 8 * SLICE // (worlds.slots * self.count))
         for begin in range(0, len(keys), at_once):

@@ -17,7 +17,7 @@ SPACING = TICKS_PER_SECOND  # ticks between the save-states from which the tries
 LENGTH = 3 * TICKS_PER_SECOND // 2  # ticks of a try
 SHIFT = 3  # ticks by which a key may come early or late
 TRIES = 256  # tries from each save-state
-LOST = 3 * CELL  # px from the run at which a try that lives has lost it
+LOST = 3 * CELL  # px from the run beyond which a try counts as failed although the ninja lives
 LOST_WEIGHT = 0.25
 """What a try that has lost the run counts for, a death being 1: mostly it only costs time. Not tuned: a guess."""
 

@@ -16,7 +16,7 @@ from typing import SupportsIndex, TypeAlias
 from ninja_game.errors import ArgumentError
 from ninja_game.runtime import cores
 
-Work: TypeAlias = Callable[[int, int], int]  # does items first … last - 1 and says how much that was
+Work: TypeAlias = Callable[[int, int], int]  # processes items first … last - 1 and returns the work done
 
 CHUNKS_PER_THREAD = 8
 SMALL_CHUNK = 2048

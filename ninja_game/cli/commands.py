@@ -82,8 +82,8 @@ GROUPS = {
 COMMANDS = {name: command for group in GROUPS.values() for name, command in group.items()}
 
 # Exit codes, the last three as shells have them.
-FAILED = 1  # a recording does not do what it says, no run was found, traces differ
+FAILED = 1  # a recording does not do what it claims, no run was found, traces differ
 BAD_INPUT = 2  # input that cannot be read, or wrong usage
 INTERNAL_ERROR = 3  # a fault of this program; its traceback is on stderr
 INTERRUPTED, TERMINATED = 130, 143  # by Ctrl-C, by SIGTERM
-BROKEN_PIPE = 141  # whoever read our output has gone
+BROKEN_PIPE = 141  # the reader of our output was closed (a broken pipe)

@@ -132,11 +132,11 @@ def _quoted(word: str) -> str:
     """A word as the key Exec of a menu's file has it."""
     for sign in ("\\", '"', "`", "$"):
         word = word.replace(sign, f"\\{sign}")
-    # Texts in such a file have escapes of their own.
+    # Desktop files have their own rules for escaping.
     return f'"{word}"'.replace("\\", "\\\\").replace("%", "%%")
 
 
-MOST_PROCESSES = 2  # each compiles the rules again for what it makes of them; more would only wait for each other
+MOST_PROCESSES = 2  # each process compiles the rules again; more processes would only wait for each other
 
 EVERY = 0.5  # seconds between two looks whether another process is done
 
@@ -157,7 +157,7 @@ def compile(background: bool) -> None:  # noqa: A001 - the name of the command
     from ninja_game.backend.background_compiler import lock_compilation, lower_priority
     from ninja_game.backend.kernel_cache import before_compiling
 
-    # This command says itself what it does.
+    # This command reports its own progress.
     before_compiling.clear()
     handle = lock_compilation()
     if background:

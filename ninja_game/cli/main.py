@@ -63,7 +63,7 @@ class Commands(click.Group):
             code = super().invoke(ctx)
             sys.stdout.flush()
         except (BrokenPipeError, SystemExit) as error:
-            # Rich, which draws tables, makes a lost reader exit code 1.
+            # Rich, which draws tables, exits with 1 where the reader of the output was closed.
             if not isinstance(error, BrokenPipeError) and not isinstance(error.__context__, BrokenPipeError):
                 raise
             # What Python flushes at exit must not fail again.
@@ -149,12 +149,12 @@ def main() -> NoReturn:
     guard_terminal()
     end_on_signals()
     if sys.argv[1:]:
-        # A shell that completes words gives none to the program itself.
+        # A shell that asks for completions passes no arguments to the program.
         os.environ.pop("_NINJA_GAME_COMPLETE", None)
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
-    # Nothing here multiplies matrices; where memory is short, the threads of that library would wait for ever.
+    # We multiply no matrices; with little memory the threads of the BLAS library would wait for ever.
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
-    # NumPy, which some commands import before Numba is set up, may fail by them.
+    # They may make NumPy fail, which some commands import before Numba is set up.
     remove_foreign_settings()
     try:
         cli.main(prog_name="ninja-game")

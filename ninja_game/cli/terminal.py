@@ -17,7 +17,7 @@ from ninja_game.files.shown_text import shown_character, shown_text
 _COLOURS = r"\n|\t|\x1b\[[0-9;]*m"
 _OURS = {
     "stdout": re.compile(f"({_COLOURS})"),
-    # The lines that count are drawn again in their place, by rich.
+    # Rich redraws progress lines in place.
     "stderr": re.compile(rf"({_COLOURS}|\r|\x1b\[(?:\?25[hl]|1A|2K))"),
 }
 """Control sequences of our own output; names have passed ``shown_text`` and hold none."""
@@ -52,7 +52,7 @@ def guard_terminal() -> None:
     """Wrap stdout and stderr in ``Terminal`` where they are one; files and pipes get every byte."""
     for name, ours in _OURS.items():
         stream = getattr(sys, name)
-        # Names of levels may hold what the terminal's encoding has not.
+        # Names of levels may contain characters that the terminal's encoding lacks.
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
         if stream and stream.isatty():
             setattr(sys, name, Terminal(stream, ours))

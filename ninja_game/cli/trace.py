@@ -151,7 +151,7 @@ def _write(traces: Readable[FiledTrace], output: Path | None, files: Sequence[Pa
 
     first = next(iter(traces), None)
     if first is None:
-        return  # and no heads of columns before the error
+        return  # no column heads are written before an error
     runs = chain([first], traces)
     if output is None:
         write_csv(runs, data_output())

@@ -270,7 +270,7 @@ def _ranking(
     from ninja_game.web.board.runs import NO_LEDGER
     from ninja_game.web.pages.gallery import published_levels
 
-    # Of many runs, all of which stay, a third of the time went into looking for garbage.
+    # With many runs, all of which stay in memory, garbage collection took a third of the time.
     gc.set_threshold(20_000)
     now = datetime.now(UTC)
     memo = memo_of("runs", folder, folder, again=again)

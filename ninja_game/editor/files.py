@@ -183,7 +183,7 @@ def _read(file: Path) -> RecoveredDraft:
     source = new_source()
     if kept["path"]:
         with suppress(OSError, NinjaGameError):
-            # Where somebody else has changed it since, saving will ask.
+            # If another program has changed the file since, saving asks.
             source = replace(open_source(Path(kept["path"])), digest=str(kept["digest"]))
     return RecoveredDraft(draft, source, file)
 
@@ -261,7 +261,7 @@ class _Lines:
         parts = [visible_glyphs(spec) for spec in self.draft.objects]
         for (number, line), chars in zip(self.rows, writer.picture_rows(self.draft.level, parts), strict=True):
             match = _ROW.fullmatch(line)
-            # A blank is as empty as a dot: what a person left blank stays so.
+            # A blank is an empty cell, as a dot is: blanks that a person typed are kept.
             old = line[match.end(1) : match.start(2)] if match else ""
             kept = "".join(" " if a == "." and b == " " else a for a, b in zip(chars, old, strict=True))
             self.replaced[number] = [f"{match[1]}{kept}{match[2]}"] if match else [line]

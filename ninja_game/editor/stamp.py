@@ -73,7 +73,7 @@ def put(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> Draft:
     tiles: Tiles = {}
     for number, motion in enumerate((Motion(), *symmetry)):
         image = stamp.carried(motion)
-        # A cell that is its own image keeps what was drawn there.
+        # A cell on the axis, its own mirror image, keeps what was drawn there.
         tiles |= {cell: tile for cell, tile in image.tiles.items() if number == 0 or cell not in stamp.tiles}
         for spec in image.objects:
             if number and spec.kind in (NINJA, EXIT):

@@ -271,7 +271,7 @@ class EditorTools:
             if self.slopes and self._doing == "ellipse" and self.tile == brush.FULL:
                 column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
                 tiles = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
-                # Its slopes take nothing away.
+                # Slopes of the shape remove no tiles.
                 rock = {cell for cell in tiles if self.history.began.tile(cell)}
                 tiles = {cell: tile for cell, tile in tiles.items() if tile == brush.FULL or cell not in rock}
             self._change(stamps.Stamp(tiles), self.history.began)

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 Found = TypeVar("Found")
 
-LOCK_SUFFIX = ".lock"  # suffix of the file that a program holds as long as it keeps another one
+LOCK_SUFFIX = ".lock"  # suffix of the lock file that a program holds while it uses another file
 
 _OWN_FILE = os.O_CREAT | os.O_RDWR | getattr(os, "O_NOFOLLOW", 0)
 

@@ -21,7 +21,7 @@ from ninja_game.errors import FileError, NinjaGameError, reason
 
 SUFFIXES = (".txt", ".nlevel", ".level", ".replay", ".demo", ".tas")  # which files of a folder are looked at
 
-MAX_BYTES = 64 * 2**20  # no file of levels or replays comes near this size; a larger one is something else
+MAX_BYTES = 64 * 2**20  # far more than any file of levels or replays has; a larger file is something else
 
 _inputs: set[tuple[int, int]] | None = None
 """Device and number of each file that was read, while inputs are kept."""
@@ -78,7 +78,7 @@ def _is_folder(entry: os.DirEntry[str]) -> bool:
     try:
         return entry.is_dir()
     except OSError:
-        # A link that leads in a circle: the walk names it if it has the name of a file.
+        # A circle of links: the walk reports it if it has the name of a file.
         return False
 
 
@@ -136,7 +136,7 @@ def open_regular(path: Path) -> IO[bytes]:
     return os.fdopen(handle, "rb")
 
 
-NO_FILE: list[int] = []  # the stamp of what is not there
+NO_FILE: list[int] = []  # the stamp of a missing file
 
 
 def stamp_of(path: Path | str) -> list[int]:

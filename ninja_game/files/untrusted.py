@@ -82,7 +82,7 @@ def open_zip(file: IO[bytes], *, most_files: int, most_bytes: int) -> ZipFile:
 
     Raises ValueError for more, and for what is not a zip.
     """
-    # The library makes an object of each entry before it can be asked how many there are.
+    # The library creates an object for each entry before it tells how many there are.
     if sum(block.count(_ENTRY) for block in iter(partial(file.read, _BLOCK), b"")) > most_files:
         raise ValueError(f"more than {most_files} files in a zip")
     file.seek(0)
@@ -96,7 +96,7 @@ def open_zip(file: IO[bytes], *, most_files: int, most_bytes: int) -> ZipFile:
 
 def unpacked(archive: ZipFile, entry: ZipInfo) -> bytes:
     """A file's content, of no more bytes than its entry says. Raises ValueError."""
-    # The other ways of packing take memory as the file says.
+    # Other compression methods allocate as much memory as the file demands.
     if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
         raise ValueError("packed in an unusual way")
     with _value_errors():

@@ -18,7 +18,7 @@ HOME_VARIABLE = "NINJA_GAME_HOME"  # environment variable that moves the folder
 
 # Folders in it.
 LEVELS = "levels"
-DAILY = "daily-levels"  # in that of levels: the pack of the levels of days
+DAILY = "daily-levels"  # in the folder of levels: the pack of daily levels
 REPLAYS = "replays"
 EXPORTS = "exports"  # what the game writes on request
 EDITING = "editing"  # levels that are being edited
@@ -39,7 +39,7 @@ def user_folder() -> Path:
 
 
 def _system_folder() -> Path:
-    # The page names its folder, and has no such library.
+    # The page sets its folder itself, and lacks this library.
     from platformdirs import user_data_path
 
     return user_data_path("ninja-game", appauthor=False)
@@ -173,7 +173,7 @@ def install_hint(extra: str) -> str:
     """
     if IN_PAGE:
         return ONLY_ON_A_DESKTOP
-    # It takes as long to import as all of this.
+    # Importing it takes as long as importing all the rest.
     from importlib.metadata import PackageNotFoundError, requires
 
     tool = PACKAGE.parent / "tools" / "dev.py"

@@ -82,7 +82,7 @@ def replacing(
             if kept:
                 os.fsync(handle)
             if sys.platform != "win32":
-                # While it is open and locked, so that no other process takes it for a leftover.
+                # Rename it while it is open and locked, so that no other process removes it as a leftover.
                 os.replace(named(part, at), named(target, at), src_dir_fd=at, dst_dir_fd=at)
         if sys.platform == "win32":
             part.replace(target)
@@ -217,7 +217,7 @@ else:
                 fcntl.flock(handle, fcntl.LOCK_EX)
             if os.fstat(handle).st_nlink:
                 return handle, part
-            # Between its making and its locking another process took it for a leftover.
+            # Another process removed it as a leftover, after it was made and before it was locked.
             os.close(handle)
 
     def _remove_unlocked(part: Path, at: int | None) -> None:

@@ -148,7 +148,7 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
             scene.hazards = before
             continue
         then = difficulty(scene.level, changed.inputs, tries=effort.tries)
-        # What makes it worse than it was, the other way, is taken back.
+        # A change that overshoots, so that the level is farther off than before, is undone.
         if abs(then - wanted) > abs(measured - wanted) and (then > measured) == (measured < wanted):
             scene.hazards = before
             continue

@@ -21,8 +21,8 @@ from ninja_game.sim.rules import CELL, PAD_RADIUS
 MOST_MINES = 34
 MOST_OBJECTS = 110
 MOST_HARDENING = 28  # mines and objects beyond those that may be added when a level turns out too easy
-SAFE = 150.0  # px from the ninja's start in which nothing waits
-BESIDE_PX = 110.0  # from gold, exit and switches, in which enemies are put first
+SAFE = 150.0  # px around the ninja's start without any danger
+BESIDE_PX = 110.0  # from gold, exit and switches, within which enemies are placed first
 AT_BAIT = 120.0  # px from the middle of a group of gold in which mines guard it
 FROM_RUN = 17.0  # px from a certified run at which a mine leaves it alone: their radii, and a little
 CLOSE_PX = 48.0  # from a certified run, within which hazards are put when a level turns out too easy
@@ -117,7 +117,7 @@ def place_enemies(scene: Scene, rng: Random, count: int, difficulty: int) -> boo
             break
         offered = list(source(scene, rng))
         rng.shuffle(offered)
-        # The first three guard the hoard together, each other one something else.
+        # The first three guard the group of gold together, each further one another place.
         together = len(scene.hazards) < 3
         offered.sort(key=partial(_from_hoard if together else _guards_nothing, scene))
         apart = (2 if together else 4) * CELL

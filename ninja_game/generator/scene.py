@@ -133,7 +133,7 @@ class RockBoard:
 
     def fill(self, rng: Random) -> None:
         """Stones of one or two sorts in what is too wide and open, some of them on one side only."""
-        for row in self.ink:  # What comes close to the border goes on to it.
+        for row in self.ink:  # Rock close to the border is extended to it.
             row[:FINE], row[-FINE:] = row[FINE], row[-FINE - 1]
         self.ink[:FINE] = self.ink[FINE]
         sorts, even = rng.sample(STONES, 2), self.even

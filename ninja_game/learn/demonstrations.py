@@ -196,7 +196,7 @@ def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: An
     env = gymnasium.make("ninja_game:Ninja-v0", **{**own, **settings})
     try:
         with env, warnings.catch_warnings():
-            # Minari misses an author's address, a link and scores, which recordings have not.
+            # Minari warns of a missing author's address, link and scores, which recordings do not have.
             warnings.simplefilter("ignore", UserWarning)
             written = minari.create_dataset_from_buffers(
                 dataset,

@@ -25,7 +25,7 @@ EVALUATION_SEED = 1_000_000  # the first seed of evaluations; agents are trained
 PROTOCOL: dict[str, Any] = {"repeat": REPEAT, "longest_wait": LONGEST_WAIT, "time_limit": TIME_LIMIT}
 """What ``evaluate`` and the environments of the benchmark set."""
 
-CHANCES = 2**32  # kernels take a chance as a whole number of this many parts
+CHANCES = 2**32  # kernels take a probability as a whole number of this many parts
 
 
 def draw_starts(drawn: NDArray[np.uint64], longest_wait: int) -> NDArray[np.int64]:

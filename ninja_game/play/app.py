@@ -165,7 +165,7 @@ class ScreenStack:
         for screen in visible:
             whole = screen.redraw
             if not whole and screen is not self.top:
-                # Covered and still: drawing it again would paint over what covers it.
+                # Covered by another screen, and unchanged: drawing it again would paint over that.
                 continue
             rects = screen.draw(surface)
             screen.redraw = False
@@ -236,7 +236,7 @@ class App:
         self._notice_on: Screen | None = None
         self.window = window or Window(size, self.settings)
         self.wipe = Wipe()
-        # In a page whole pictures in a row cost too much.
+        # In a page, several whole pictures in a row are too slow.
         self.wipes = in_page_or_not(page=False, desktop=pygame.display.get_driver() not in UNSEEN)
         pygame.font.init()
         self._lay_out()
@@ -443,7 +443,7 @@ class App:
         middle, lines = (left + right) / 2, wrapped(theme, self.notice, most, NOTICE)[:NOTICE_LINES]
         y, size, margin, high = self.top.notice_top, NOTICE, 6.0, 1.5 * NOTICE * theme.scales[0]
         if self.top.plays and len(lines) == 1:
-            # In the border: nothing is written over a level in which somebody runs.
+            # In the border: no text covers a level that is being played.
             y, size, margin, high = 577.0, IN_BORDER, 1.0, 20.0
         wide = min(most, max(theme.width(line, size) for line in lines)) + 28
         rect = theme.window(self.surface, middle - wide / 2, y, wide, high * len(lines) + 2 * margin)

@@ -69,9 +69,9 @@ def run_app(
         app = build_app(size=size, tas_editor=tas_editor, window=window)
         try:
             app.push(first(app))
-            # Who certifies or searches later does not wait for the compiler then.
+            # A later search does not have to wait for the compiler then.
             run_in_background(warm_up, lambda _: None)
-            # What is there now stays: to look through all of it for garbage took 9 ms in the middle of play.
+            # Freeze what is loaded: collecting garbage in it took 9 ms in the middle of play.
             gc.freeze()
             app.run(frames)
             if screenshot:

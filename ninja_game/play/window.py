@@ -105,7 +105,7 @@ def open_at_once(size: tuple[int, int] | None) -> Window:
     theme.text(
         window.surface, "loading", WIDTH / 2, HEIGHT / 2 + 30, size=12, colour=theme.palette.faint, align="centre"
     )
-    # A window that was just opened must be told of before it shows something.
+    # A new window must process its events before it shows anything.
     pygame.event.pump()
     pygame.display.flip()
     return window

@@ -134,7 +134,7 @@ class Attempt:
         del self.inputs[tick:]
         self.lifetime = self.start_lifetime + GOLD_BONUS * self.gold
         if not ended:
-            # After a death by the player's own hand ticks went on without input.
+            # After a self-chosen death the ticks went on without input.
             self.inputs.extend(bytes(tick - len(self.inputs)))
             self.ended_tick, self.score, self.self_inflicted = -1, 0, False
         self.assists.add("rewind")

@@ -159,7 +159,7 @@ def _advanced(present: Place, episode: int, goal: Place) -> Place:
 
 
 NO_MEDAL = "with help: no medal"
-HELPED = f"Passed {NO_MEDAL}"  # what a run that is assisted, and a pass by it, are called on every screen
+HELPED = f"Passed {NO_MEDAL}"  # the label of an assisted run, and of a pass by one, on every screen
 
 WITH_HELP = "with help"  # in the place of the body in marks of such passes: they open what follows, and are no records
 

@@ -108,7 +108,7 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
     connection = sqlite3.connect(name, timeout=seconds, isolation_level=None)
     try:
         connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MOST_CELL_BYTES)
-        # Text that is not UTF-8 is damage of one row, no reason to fail.
+        # Text that is not UTF-8 damages one row only: do not fail.
         connection.text_factory = _text
         if source is not None:
             _copy(source, connection)
@@ -181,7 +181,7 @@ def _check_file(connection: sqlite3.Connection, name: str) -> None:
     application = connection.execute("PRAGMA application_id").fetchone()[0]
     try:
         empty = not connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
-        # A file that can be read only is opened without a word, and refuses the first save.
+        # A read-only file opens without an error, and fails at the first save.
         connection.execute("BEGIN IMMEDIATE")
         connection.execute(f"PRAGMA user_version = {version}")
         connection.execute("ROLLBACK")

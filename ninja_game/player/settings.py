@@ -296,7 +296,7 @@ def _changed_text(path: Path, before: Settings, after: Settings) -> str:
     except FileNotFoundError:
         return ""
     except (FileError, TOMLKitError, ValueError, TypeError, KeyError, RecursionError):
-        # No TOML, or too odd for the library: it is kept, and a new one begun.
+        # Not TOML, or the library fails on it: the file is kept under another name, and a new one is begun.
         pass
     quarantine(path, why)
     return ""

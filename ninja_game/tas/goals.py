@@ -178,7 +178,7 @@ class RunPiece(NamedTuple):
     wanted: SpanGoal
 
 
-SHORTEST_PIECE = 10  # ticks; what is reached sooner belongs to the piece before
+SHORTEST_PIECE = 10  # ticks; a goal that is reached sooner belongs to the previous piece
 GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened": "opened({})", "won": "won"}
 
 

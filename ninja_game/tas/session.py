@@ -58,7 +58,7 @@ class Session:
         text = write_replay(unclaimed_replay(about, self.track))
         path = str(self.file.path.absolute()) if self.file.path else ""
         source = about.file
-        with suppress(OSError):  # a name that no system takes
+        with suppress(OSError):  # a name that no file system accepts
             source = str(Path(source).absolute()) if Path(source).is_file() else source
         return {
             "path": path, "digest": self.file.digest, "branches_digest": self.file.branches_digest, "source": source,

@@ -145,7 +145,7 @@ class Timeline:
         first = self._states.nearest(self.simulated_until)[0]
         while self.simulated_until < stop:
             start, state = self._states.nearest(self.simulated_until)
-            # A world at the same tick may have come there by other inputs.
+            # A world at the same tick may have got there by other inputs.
             if self._worlds.tick() != start or start == first:
                 self._worlds.restore(state)
             end = min(stop, start + max(1, self._states.spacing))

@@ -78,7 +78,7 @@ def grain(palette: Palette, role: str) -> pygame.Surface:
     sheet = pygame.Surface((_WIDE, _HIGH), pygame.SRCALPHA)
     GRAINS[palette.scenery](sheet, _numbers(f"rock of {palette.name}"))
     sheet.fill(getattr(palette, role), special_flags=pygame.BLEND_RGBA_MULT)
-    # Made small and large again, it is soft.
+    # Scaling down and up again blurs it.
     return pygame.transform.smoothscale(pygame.transform.smoothscale(sheet, (_WIDE // 2, _HIGH // 2)), (_WIDE, _HIGH))
 
 

@@ -83,7 +83,7 @@ class TextEntry(Widget):
         elif ctrl and not getattr(event, "mod", 0) & pygame.KMOD_ALT:
             return self._command(key)
         else:
-            # What types a character comes again as TEXTINPUT; as a key it must not do anything else.
+            # A key that types a character also sends TEXTINPUT; the key event itself must do nothing.
             return key not in _NO_TEXT and not _FUNCTION_KEY.fullmatch(key)
         return True
 

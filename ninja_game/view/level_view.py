@@ -243,7 +243,7 @@ class LevelView:
             fraction = 1.0
         shaken = self._shake > 0.25
         whole = whole or self._whole or shaken
-        # What a shaken picture shows lies elsewhere in the next one.
+        # A shaken picture is offset: everything is elsewhere in the next one.
         self._whole = shaken
         self._shift(shaken=shaken)
         mended = self._restore(surface, whole, fraction)

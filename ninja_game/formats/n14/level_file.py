@@ -86,7 +86,7 @@ def _parts(text: str) -> Iterator[tuple[int, str]]:
         free, data = "", text
     line = 1 + free.count("\n")
     pieces = (_ENCODED_SEPARATOR.split(data.partition("&")[0])) if marker else _SEPARATOR.split(data)
-    # A replay text may have lost its '$' when it was copied.
+    # The '$' of a replay text may have been lost when it was copied.
     lost = len(pieces) == 1 and pieces[0].lstrip().startswith("#")
     for index, piece in enumerate(pieces):
         if index or lost:

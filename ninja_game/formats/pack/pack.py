@@ -27,7 +27,7 @@ from ninja_game.formats.replay.text import episode_key
 INDEX = "pack.toml"
 PARS = "pars.toml"  # the table of par times
 CERTIFICATES = "certificates"  # the folder of replays
-RECEIVED = "received"  # a file that marks a pack as somebody else's, come by a link; it goes along with no copy
+RECEIVED = "received"  # marks a pack as received by a link; copies of the pack do not get this file
 
 MOST_FILES = 4096  # in a zip; all of them together may hold MAX_BYTES
 

@@ -29,7 +29,7 @@ KEYS = (
 
 COUNT_LIMIT = 10**9
 
-# Recordings of one level stand together.
+# Recordings of one level usually follow each other.
 LEVELS_KEPT = 512  # levels in memory, some 10 MB
 LONGEST_KEPT = 2**15  # characters of their texts
 

@@ -151,7 +151,7 @@ class _Reader:
             return self._read[path]
         lines = in_our_notation(text, path) if is_tas_text(text) else numbered_lines(text)
         block = self.block(lines, [*files, path])
-        # Its markers name ticks of the first place: what comes again is read once, and has none.
+        # Markers belong to the first place that includes the file: it is read once, later places get none.
         self._read[path] = replace(block, items=[item for item in block.items if not isinstance(item, str)])
         return block
 

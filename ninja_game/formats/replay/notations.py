@@ -165,7 +165,7 @@ def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
     _check_keyboard(inputs)
     names = {marker.tick: marker.name for marker in markers}
     lines = []
-    # How many markers there are up to each tick: a line never goes on over one.
+    # The number of markers up to each tick: a line ends where a marker is.
     parts = accumulate(tick in names for tick in range(len(inputs)))
     at = 0
     for (_, keys), ticks in groupby(zip(parts, (down & KEYS_DOWN for down in inputs), strict=True)):

@@ -44,7 +44,7 @@ DELAY = 16
 AWAY = 36.0  # px, at least, between a new start and the old one
 KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}  # share of what kills that stays at least, by grade
 BASES = 1000  # levels that are varied
-LARGEST = 306  # number of one with as many objects as any of them
+LARGEST = 306  # the number of a level with the most objects of all
 TRIES = 32
 """The last one takes away only gold, is not mirrored, and begins where the run does: that run passes it."""
 TABLE = "bench.bin"

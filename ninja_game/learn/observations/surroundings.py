@@ -299,7 +299,7 @@ def observe_rays(
                             tile, CENTRE_X[cell], CENTRE_Y[cell], hit_x, hit_y, dx[j], dy[j]
                         )
                     if stopped:
-                        # A hit may lie behind the start, within a tile: that is no way at all.
+                        # A hit may lie behind the start, within a tile: its distance counts as 0.
                         length = (hit_x - x) * dx[j] + (hit_y - y) * dy[j]
                     if stopped or state == OUTSIDE:
                         break

@@ -306,7 +306,7 @@ class Bullets(Figure):
             cell = cell_at(o.x, o.y)
             if self.filed:
                 self.list_changes += 2 * grid_move(bullets.world, o)
-                # Whoever walks the lists meets the other bullets too.
+                # A walk through the lists meets the other bullets too.
                 self.tests += sum(1 for _ in bullets.neighbours(cell)) - 1
             for target in targets.neighbours(cell):
                 self.tests += 1

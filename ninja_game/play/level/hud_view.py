@@ -41,7 +41,7 @@ def hud_view(play: LevelPlay) -> HudView:
     gold = f"{attempt.gold} / {play.all_gold}"
     end = None
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
-    # The start's text stays where it is; who needs to see what keys do is stuck. Both may cover open space.
+    # The text of the start, and that for a player who is stuck, stay in place and may cover open space.
     covers = play.sayings.is_start or "\n" in text
     place = play.sayings.place
     where = context.level.tiles, play.things, place or play.about, covers, place is not None
@@ -115,7 +115,7 @@ def _reached(play: LevelPlay) -> list[str]:
     gold = f"{attempt.gold} of {play.all_gold} gold" if attempt.gold < play.all_gold else f"All {play.all_gold} gold"
     medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
     clock = [f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"] * play.context.carries_clock
-    # Of a first pass all is new, and the medal and the gold are said already.
+    # After a first pass everything is new, and the medal and the gold are shown already.
     first = FIRST_PASS in play.notices
     news = [notice for notice in play.notices if notice != NEW_ALL_GOLD and not (first and notice in OF_A_LEVEL)]
     brought = "    ".join([*[gold] * bool(play.all_gold), *news])

@@ -21,7 +21,7 @@ STILL = 0.05
 """px in a tick that are no motion."""
 
 AGAIN = "Stuck? {retry} starts the level over"
-# AGAIN is said to players who are stuck; who waits as a text asks them to is not.
+# AGAIN is for players who are stuck; one who waits because a text says so is not.
 STILL_TICKS = 400  # for which they stand or lie still
 QUIET_TICKS = 800  # since any text
 AWAY = 2 * CELL  # from the start, px
@@ -125,7 +125,7 @@ class Sayings:
             self._say(*self._next)
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
         if "switch" in happened:
-            # The goal is understood: no need to say how it begins again.
+            # The player has understood the goal: do not repeat the text of the start.
             self._said.update(saying for saying in self._sayings if saying.when == "start")
         new = [saying for saying in self._sayings if saying.when in happened or _is_near(world, saying.place)]
         if new := [saying for saying in new if saying not in self._said]:

@@ -89,7 +89,7 @@ class Film:
             return self.known
         runs = self.run, *self.beside
         end_tick = self.first + MOST_PICTURES // len(runs) if self.last is None else self.last
-        # What comes after the last picture is not run.
+        # Ticks after the last picture are not simulated.
         ends = [
             Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0).find_end(end_tick + 1) for run in runs
         ]
@@ -117,7 +117,7 @@ def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film
         count = len(film.moments)
         start, end = max(0, first - before), count - 1 if last is None else min(count - 1, last - before)
         if start <= end:
-            # With what is known already the runs are not simulated once more.
+            # `known` spares a second simulation of the runs.
             sections.append(replace(film, first=start, last=end, known=film.moments[start : end + 1]))
         before += count
     if not sections:

@@ -126,7 +126,7 @@ class ReplayScreen(Screen):
         tick = min(max(0, tick), self.length)
         start = max(0, tick - _WARM)
         if self.outcome == "dead" and start > self.end:
-            # A corpse lies where it fell: its fall is run again.
+            # The ragdoll depends on its whole fall: simulate it again.
             start = self.end
         self._way = start, tick
         self._go_on()
@@ -138,7 +138,7 @@ class ReplayScreen(Screen):
         if start >= 0:
             self._left = self.playback.seek(start, self._left)
             self.view.on_seek()
-            # The rest is run with its animations, never back.
+            # The rest is played with animations, only forward.
             self._way = -1 if self.tick == start else start, tick
         self.view.audible = False
         try:

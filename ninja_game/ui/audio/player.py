@@ -76,7 +76,7 @@ class AudioPlayer(AudioOutput):
         self._closed = False
         self.works = _open_mixer()
         if self.works:
-            # Reading while the device is closed spoils the memory of the whole program, which then dies anywhere.
+            # Reading while the device is closed corrupts memory: the program would crash later, anywhere.
             pygame.register_quit(self.close)
         self._reader = run_in_background(self._read_all, lambda _: None) if self.works else None
 

@@ -17,7 +17,7 @@ MOVING_KINDS = frozenset(kind.number for kind in kinds.KINDS if kind.moves)
 STATE_FIELDS = {kind.number: kind.used for kind in kinds.KINDS if kind.used} | {kinds.DRONE: "chasing"}
 """The field that tells whether an object has changed for good or for a while, where a kind has one."""
 LONG_AGO = -100_000
-_JUMP = 30.0  # an object that is farther away than this (px) after a tick was put there, it did not move
+_JUMP = 30.0  # px; an object that is farther away than this after a tick was relocated, it did not move
 _EYE_TURN = 0.66
 """Share of the remaining angle that a drone's eye turns in a tick (0.3 a picture at the classic 120 a second)."""
 _DIRECTIONS = (0.0, pi / 2, pi, -pi / 2)

@@ -35,7 +35,7 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
         edge = taken = inks[role]
         step = round(depth * sheet.canvas.scale) or (1 if depth > 0 else -1)
         if soft:
-            # Made small and large again.
+            # Blurred by scaling down and up again.
             few = [max(1, round(length / soft / sheet.canvas.scale)) for length in size]
             for numbers in ([2 * number for number in few], few, size):
                 taken = pygame.transform.smoothscale(taken, numbers)

@@ -86,7 +86,7 @@ class TileSheet:
 
     def on_tiles(self, areas: Iterable[pygame.Rect]) -> list[pygame.Rect]:
         """Those areas of which any px may be a tile's."""
-        # At once, since a picture asks for a hundred.
+        # Inlined, since a picture asks for a hundred.
         (left, top), size, rows, rects = self._shift, 24 * self.canvas.scale, self._rows, []
         for area in areas:
             x, y, w, h = area

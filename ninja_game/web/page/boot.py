@@ -31,12 +31,12 @@ class _Game:
 def start(host: Any, level: str | None = None, replay: str | None = None) -> None:
     """Open the game in the page of ``host`` (host.js): the main menu, or a file of levels or replays."""
     LINK.page = host
-    # A page may start from a picture of the memory, which holds the state of chance too.
+    # A page may start from a memory snapshot, which contains the state of random numbers too.
     random.seed()
     first = first_screen(level, replay, body="circle", practice=False)
     _Game.app = build_app()
     _Game.app.push(first(_Game.app))
-    # Play makes no cyclic garbage, and to look for it takes longer than a picture may: only when the screen changes.
+    # Play makes no cyclic garbage, and collecting takes longer than a frame: collect only when the screen changes.
     gc.collect()
     gc.freeze()
     gc.disable()
@@ -61,7 +61,7 @@ def turn(now: float) -> bool:
         return True
     limit = app.settings.frame_limit
     if limit:
-        # A display shows its pictures not quite evenly: one that comes a little early is the one that is due.
+        # Displays do not show frames quite evenly: a frame that comes a little early counts as due.
         if now < _Game.due - 2:
             return True
         _Game.due = max(_Game.due + 1000 / limit, now)

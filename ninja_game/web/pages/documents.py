@@ -155,7 +155,7 @@ class Documents:
             link = tag("a", f"{title}: {heading}" if heading else title, href=page_name + (anchor and f"#{anchor}"))
             start = " ".join(texts)[:160]
             entry = tag("li", link, tag("p", start, class_="faint"), data_place=len(self.searched))
-            # All words, past what ``tag`` lets through of a text.
+            # All words: ``tag`` would truncate a text.
             self.searched.append(Markup(entry.replace("<li", f'<li data-words="{escape(words.casefold())}"', 1)))
 
     def _rewrite_links(self, name: str, tokens: list[Token]) -> bool:

@@ -76,7 +76,7 @@ def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:
             try:
                 (certificates[kind],) = parse_replays(pack.files.text(name), level=entry.named.level)
             except NinjaGameError:
-                # `levels lint` tells what is wrong with it; the page does without.
+                # `levels lint` reports what is wrong with it; the page leaves it out.
                 continue
     return certificates
 
@@ -308,7 +308,7 @@ def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, lin
             pages.write(f"{stem}.html", run, replay=True)
         pages.write(page_name(digest), level_page(entry, certificates, f"../{game}", deeper, site=site))
     pages.write(name, frame.page("Levels", *_list(shown), links=links))
-    # Last of all: where the disk is full, the pages of an earlier time are all there.
+    # Last of all: if the disk is full, the earlier pages are still complete.
     pages.clear("levels")
     pages.clear("pictures")
 

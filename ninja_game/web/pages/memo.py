@@ -12,7 +12,7 @@ from ninja_game.errors import DAMAGED
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
 
-MOST_BYTES = 2**30  # that of a million runs has half of it
+MOST_BYTES = 2**30  # the memo of a million runs has half as many
 MOST_MEMOS = 100  # the newest stay
 
 

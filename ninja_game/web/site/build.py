@@ -20,7 +20,7 @@ from ninja_game.web.pages.frame import GAME, MARK as PAGES_MARK, REPLAYS
 from ninja_game.web.pages.gallery import page_name, picture_name, published_levels
 from ninja_game.web.site import game_archive as archive
 
-MARK = "ninja-game-site.json"  # the file that tells a folder of ours, with the names of what was written into it
+MARK = "ninja-game-site.json"  # marks a folder that the build wrote, with the names of the files in it
 
 ICONS = {"icons/64.png": (64, 1 / 6), "icons/192.png": (192, 1 / 6), "icons/512.png": (512, 1 / 6)}
 MASKABLE = "icons/maskable-512.png"  # an icon that systems cut to their own shape: nothing of it is in the corners
@@ -28,7 +28,7 @@ MASKABLE = "icons/maskable-512.png"  # an icon that systems cut to their own sha
 LARGE = ("pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "game.tar.gz")
 """What the page fetches with progress and keeps itself; the service worker keeps the rest."""
 
-TEMPLATES = (GAME, "sw.js")  # files of the page that know the version; they lie above the folder of what has one
+TEMPLATES = (GAME, "sw.js")  # files of the page that name the version; they lie above the versioned folder
 
 FOLDER = "app-folder"  # what templates and documents call the folder of the version
 
