@@ -69,7 +69,7 @@ class RecoveryFile:
 
     @contextmanager
     def reporting(self) -> Iterator[None]:
-        """Note as ``problem`` whether what is done within succeeds."""
+        """Set ``problem`` by whether the block succeeds."""
         try:
             yield
             self.problem = ""
@@ -86,7 +86,7 @@ class RecoveryFile:
 
 
 def recovered_from(folder: Path, suffix: str, read: Callable[[Path], Found]) -> Iterator[Found]:
-    """What programs that have died were editing, the newest first; files of running ones and damaged ones left out."""
+    """The documents of programs that crashed, the newest first; running programs' and damaged files are left out."""
     return read_abandoned(folder, f"*{suffix}", read, DAMAGED)
 
 
@@ -150,7 +150,7 @@ class History(Generic[Draft]):
         return self._step(self._done, self._undone)
 
     def redo(self) -> bool:
-        """Do again what was taken back last; whether there was anything."""
+        """Redo the edit that was undone last; whether there was one."""
         return self._step(self._undone, self._done)
 
     def _step(self, source: list[Draft], target: list[Draft]) -> bool:

@@ -1,4 +1,4 @@
-"""What names the machine code of a kernel: a digest of all that goes into it, found without Numba and NumPy."""
+"""The digest that names the machine code of a kernel, of all its sources; it needs neither Numba nor NumPy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What memories are called for: worlds loaded, stepped, run and traced, without coming back to Python each tick.
+"""The entry points of memories: load, step, run and trace worlds without a return to Python each tick.
 
 These functions take arrays of worlds and an index, never a single record: that is what Numba passes quickly. The plain
 memory calls the same functions with lists. Results go into flat arrays of numbers, which both write quickly.

@@ -45,7 +45,7 @@ _ALL_CHECKED = os.environ.get("NINJA_GAME_CHECKED") == "1"
 
 @dataclass(frozen=True)
 class Plan:
-    """On which memory a run begins (``first``) and, once that is worth it, goes on (``then``).
+    """The memory that a run begins in (``first``), and the one it changes to once that pays (``then``).
 
     ``checked``: compiled code checks each index: one out of range is an IndexError.
     """

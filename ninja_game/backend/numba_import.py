@@ -144,7 +144,7 @@ def _make_pipeline() -> type:
         _name = "rule_lowering"
 
         def run_pass(self, state: Any) -> bool:
-            """What has a wrapper for Python is an entry point."""
+            """Only entry points have a wrapper for Python."""
             if not state.flags.no_cpython_wrapper:
                 return bool(super().run_pass(state))
             state.library = InnerLibrary(state.targetctx.codegen(), state.func_id.func_qualname)

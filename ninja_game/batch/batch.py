@@ -220,7 +220,7 @@ class Batch:
         return world_digest(self.world(index))
 
     def state_digests(self, worlds: WorldChoice = None) -> list[str]:
-        """The sha256 (hex) of what decides how each world goes on (``state_digest``), once for equal worlds."""
+        """The sha256 (hex) of each world's state (``state_digest``), computed once for equal worlds."""
         known: dict[bytes, str] = {}
         digests = []
         for index in numbers_of(worlds, self.count, "worlds").tolist():

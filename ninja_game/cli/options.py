@@ -35,7 +35,7 @@ OLD_PATH = click.Path(exists=True, path_type=Path)
 
 
 class InputPath(click.Path):
-    """A file or folder that is there; or a link, which is kept as a path as it stands."""
+    """An existing file or folder; or a link, which is kept unchanged as a path."""
 
     def __init__(self, *, dir_okay: bool = True) -> None:
         super().__init__(exists=True, dir_okay=dir_okay, path_type=Path)

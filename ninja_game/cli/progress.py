@@ -1,4 +1,4 @@
-"""What commands report meanwhile: items as they pass, what cannot be read, how a search stands."""
+"""Progress of commands: items as they are processed, files that cannot be read, the state of a search."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Readable(Generic[T]):
 
 
 def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
-    """Items as they pass, counted on stderr if that takes long. ``label``: what one of them is."""
+    """The items, counted on stderr if that takes long. ``label``: the word for one of them."""
     done = 0
     with heartbeat(lambda: f"{counted(done, label)} done"):
         for done, item in enumerate(items, 1):  # noqa: B007 - the line tells it

@@ -70,12 +70,12 @@ def print_error(message: str) -> None:
 
 
 def say(text: str) -> None:
-    """Write a line on stderr; where none can be written, the exit code still tells."""
+    """Write a line on stderr; if stderr is closed, only the exit code is left."""
     with suppress(OSError):
         click.echo(text, err=True)
 
 
 def size_note(path: Path) -> str:
-    """What is said of a GIF that is large."""
+    """A note on a large GIF."""
     size = path.stat().st_size
     return f", {size / 1e6:.0f} MB; as .mp4 it would be smaller" if path.suffix == ".gif" and size > LARGE else ""

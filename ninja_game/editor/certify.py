@@ -1,4 +1,4 @@
-"""What is found out about a level under edit: routes of tests, what the solver finds, what can be reached."""
+"""Analyses of a level under edit: routes of test runs, results of the solver, the places that can be reached."""
 
 from __future__ import annotations
 
@@ -207,7 +207,7 @@ class Certifier:
 
     @property
     def text(self) -> str:
-        """How it stands, in a line, "" before the first start; while the solver is made ready, for how long."""
+        """The state of the search in a line, "" before the first start; while kernels are compiled, for how long."""
         search = self.search
         if search.run is not None and not search.failed:
             gold = f", {search.run.gold} gold" if search.run.gold else ""
@@ -262,7 +262,7 @@ class Certifier:
         self.solver.job.ask(self.search)
 
     def adopt(self, search: Search) -> None:
-        """What is known of a level counts, until the solver has better; a search without a run changes nothing."""
+        """Use a known result of a level until the solver finds a better one; one without a run changes nothing."""
         if search.run and self.search.level != search.level:
             self.stop()
             self.search = search

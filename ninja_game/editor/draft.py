@@ -30,7 +30,7 @@ class Draft:
         return self.level.tile(*cell) if is_inside(cell) else 1
 
     def with_tiles(self, tiles: Tiles) -> Draft:
-        """Other tiles in some cells; what lies outside the level is left out."""
+        """The draft with other tiles in some cells; cells outside the level are ignored."""
         ids = list(self.level.tiles)
         for (column, row), tile in tiles.items():
             if is_inside((column, row)):

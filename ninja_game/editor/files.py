@@ -172,7 +172,7 @@ class RecoveredDraft:
 
 
 def recovered(folder: Path) -> Iterator[RecoveredDraft]:
-    """What editors that have died were editing, the newest first; those of running editors are left out."""
+    """The drafts of editors that crashed, the newest first; those of running editors are left out."""
     return recovered_from(folder / EDITING, AUTOSAVE_SUFFIX, _read)
 
 
@@ -267,7 +267,7 @@ class _Lines:
             self.replaced[number] = [f"{match[1]}{kept}{match[2]}"] if match else [line]
 
     def _change_list(self) -> None:
-        """Keep the lines whose objects are still there, in order; put what is new between them."""
+        """Keep the lines of objects that remain, in order, and insert new objects between them."""
         read = {number: read_object_line(line) for number, line in self.listed}
         tiles = [number for number, entries in read.items() if entries and isinstance(entries[0], OddTile)]
         end = self._end_of_picture()

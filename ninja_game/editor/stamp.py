@@ -1,4 +1,4 @@
-"""Tiles and objects together: what is drawn, copied, pasted and mirrored, and what a selection of them undergoes."""
+"""Stamps, tiles and objects together, that are drawn, copied, pasted or mirrored; operations on selections."""
 
 from __future__ import annotations
 

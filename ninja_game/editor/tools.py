@@ -204,7 +204,7 @@ class EditorTools:
         self.history.end()
 
     def cancel(self) -> bool:
-        """Give up what is half done, or the selection; whether there was any. What was copied stays selected."""
+        """Cancel the operation under way, else the selection; whether there was one. A copied selection stays."""
         kept = self._chosen_before if self.ghost else stamps.Selection()
         busy = bool(self._doing or self.placing_switch or self.ghost or self.selection)
         if self._doing or self.placing_switch:
@@ -384,7 +384,7 @@ class EditorTools:
             self.history.change(draft)
 
     def turn(self, motion: Motion) -> bool:
-        """Flip or turn what is pasted, or what is chosen, in its place; without a selection what the brush draws.
+        """Flip or turn the stamp that is being pasted, else the selection in its place, else the brush.
 
         False, and nothing is done, where something would leave the level.
         """
@@ -450,7 +450,7 @@ class EditorTools:
 
     @property
     def pasted(self) -> stamps.Stamp | None:
-        """What is in hand, as it comes to lie: its middle under the pointer, all of it in the level if it has room."""
+        """The stamp to paste at its place: its middle under the pointer, within the level if it fits."""
         if self.ghost is None:
             return None
         cells = [(CELL * column + at, CELL * row + at) for column, row in self.ghost.tiles for at in (0.0, CELL)]

@@ -102,7 +102,7 @@ def read_abandoned(
 
 
 def remove_abandoned(file: Path) -> bool:
-    """Remove a file whose program has died or let it go, and its lock; False where another program goes on with it."""
+    """Remove a file that no program uses any more, and its lock; False where another program uses it."""
     with suppress(OSError):
         handle = try_lock(file.with_suffix(LOCK_SUFFIX))
         if handle is None:

@@ -1,4 +1,4 @@
-"""Folders that are filled by name: what lies in them already, links above all, leads nothing out of them.
+"""Folders that are filled by file names: existing entries, links above all, cannot redirect a write elsewhere.
 
 Each step goes from the handle of a folder to that of the next one, so that no link can come into the way between a look
 and a use. Windows and pages have no such handles: there each path is compared with where it leads, which holds for what

@@ -46,7 +46,7 @@ def _system_folder() -> Path:
 
 
 def cache_folder() -> Path:
-    """The system's place for what the program can make again: compiled code, pages, what a board remembers."""
+    """The system's cache folder: compiled code, pages, a board's memo; all of it can be made again."""
     from platformdirs import user_cache_path
 
     return user_cache_path("ninja-game", appauthor=False)

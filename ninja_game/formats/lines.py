@@ -37,7 +37,7 @@ def header_text(value: str) -> str:
 
 
 def read_quoted(text: str) -> str | None:
-    """What stands in double quotes, with JSON's escapes; None if that is not in order."""
+    """The text in double quotes, with JSON's escapes; None if it is malformed."""
     try:
         value = json.loads(text)
     except ValueError:

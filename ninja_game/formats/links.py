@@ -105,7 +105,7 @@ def _packed(text: str) -> str:
 
 
 def read_link(text: str | Path) -> Link:
-    """What a link carries; whatever stands before its # does not matter, nor do blanks and line breaks in it.
+    """The content of a link; text before its # is ignored, and so are blanks and line breaks in it.
 
     Raises LinkError for anything that is not a whole and sound link, FileError for what is not text, in a time and
     memory that its length bounds.

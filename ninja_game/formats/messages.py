@@ -57,7 +57,7 @@ def parse_messages(value: str) -> tuple[LevelMessage, ...]:
 
 
 def unknown_words(text: str) -> list[str]:
-    """What stands in braces and is neither of KEYS nor of TARGETS."""
+    """Words in braces that are neither of KEYS nor of TARGETS."""
     return [name for name in _KEY.findall(text) if name not in KEYS + TARGETS]
 
 

@@ -70,7 +70,7 @@ class Recording:
 
     @property
     def begun_by(self) -> str:
-        """Whose run one is that begins from it; of one that only commands have searched, whose that began from."""
+        """The author whom a run that starts from this one names; of a run found by commands, that of its own start."""
         made, file = self.replay.made, Path(self.file).name or self.name
         searched = made.searches and not (made.played or made.edits)
         return self.player or (made.begun_by if searched else f"unknown ({file_stem(file, 'no file')})")

@@ -152,7 +152,7 @@ def episode_code(number: int) -> str:
 
 
 def author_name(author: str) -> str:
-    """What an author is called on screens: who or what of the project made a thing tells a player nothing.
+    """The name of an author on screens: the project's own makers get one common name.
 
     >>> author_name("the ninja-game team"), author_name("ninja-game check"), author_name("Ann")
     ('ninja-game', 'ninja-game', 'Ann')

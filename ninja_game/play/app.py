@@ -393,7 +393,7 @@ class App:
             self.audio_output.music(self.top.music, real_ms)
 
     def _handle(self, raw: pygame.Event) -> None:
-        """Deal with what concerns the window; a screen that waits for a press takes it before the keys of the app.
+        """Handle events of the window; a screen that waits for a key press gets it before the app's own keys.
 
         SDL sends each notch of the wheel as a press of a fourth or fifth button too; those, and buttons at the side of
         a mouse, mean nothing.

@@ -94,7 +94,7 @@ def _save(app: App, path: Path) -> None:
 def first_screen(
     level_path: str | None, replay_path: str | None, *, body: Body, practice: bool, record: int = 0
 ) -> Callable[[App], Screen]:
-    """What makes the first screen; behind what a link leads to is the main menu.
+    """The function that makes the first screen; the main menu lies under a screen that a link opens.
 
     Files and links are read here, before a window opens; screens are imported when needed.
 

@@ -242,14 +242,14 @@ class _TargetFolder:
         self._content = cache(self._read)
 
     def _read(self, name: str) -> bytes:
-        """What a file says; for one that cannot be read what no file says."""
+        """The content of a file; for one that cannot be read a byte that equals no file of ours."""
         with suppress(FileError, OSError):
             content = read_bytes(self._tree.root / name, MOST_BYTES)
             return _without_path(content) if self._tree.root.name == EDITING else content
         return b"\0"
 
     def add(self, name: PurePosixPath, files: Mapping[str, bytes], undo: ExitStack) -> bool:
-        """Put one of the files there if it is not there yet; whether it was not. ``undo``: gets what takes it back."""
+        """Write one of the files unless it exists; whether it was written. ``undo``: receives its inverse."""
         content = files[str(name)]
         if name.name.endswith(BRANCHES):
             # They belong to a run of the same backup, which may have another name here.
@@ -347,7 +347,7 @@ def _merge_numbers(
 
 
 def _merge_progress(db: sqlite3.Connection, store: Store) -> None:
-    """The farther of two places, both for what was reached and for what was reached without help."""
+    """The farther of two places, for progress with and without help."""
     query = "SELECT pack, grid_column, reached_episode, reached_level, beaten_episode, beaten_level FROM progress"
     mine = {row[:2]: row[2:] for row in db.execute(query)}
     for row in store.rows(query, (), (str, *[int] * 5)):

@@ -170,7 +170,7 @@ class Catalogue:
 
 
 def _name_among(packs: Sequence[PackIndex], index: PackIndex, file: str) -> str:
-    """What a pack is called: its title, with author, version or ``file`` where that tells it from its namesakes."""
+    """The name of a pack: its title, with author, version or ``file`` where packs of that title differ in it."""
     alike = [other for other in packs if other.name == index.name]
     authors, versions = {other.author for other in alike}, {other.version for other in alike}
     distinct = replace(

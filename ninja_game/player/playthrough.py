@@ -241,7 +241,7 @@ class LevelRun(LevelContext):
         return save_work(self.data, work)
 
     def _open_following(self, entry: Entry) -> None:
-        """Where its episode stands at this level it goes on behind it, and behind those passed before."""
+        """If the episode stands at this level, move on to the next level that is not passed."""
         data, episode = self.data, self.data.catalogue.episode_of(entry)
         if episode is None or entry.position is None or data.episode_state(episode) != UNLOCKED:
             return
@@ -400,7 +400,7 @@ def note_progress(
     legitimate: bool = True,
     kept: bool = True,
 ) -> None:
-    """A level of an episode was passed or left out: open what follows, and keep that play goes on there.
+    """A level of an episode was passed or skipped: unlock the next one, and save it as the place to continue.
 
     ``replays``: those of the episode up to it, where no level was left out. Raises sqlite3.Error.
     """

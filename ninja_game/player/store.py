@@ -1,4 +1,4 @@
-"""The database of what was played: transactions that are on the disk or not there, and what to do when it fails.
+"""The database of records: atomic transactions, and what happens when the database fails.
 
 Write-ahead log with full synchronisation: a transaction that has returned is on the disk, and the game tells the
 player that something is saved only after that. A process killed in between loses the transaction it was in, no other.

@@ -1,1 +1,1 @@
-"""Runs under edit, tick by tick: what they lead to, what was changed, what is kept of it on the disk. No window."""
+"""Runs under edit, tick by tick: their simulation, their history, their files and journals. No window."""

@@ -118,12 +118,12 @@ class RecoveredRun:
 
 
 def recovered(folder: Path) -> Iterator[RecoveredRun]:
-    """What sessions that have died were editing, the newest first; those of running sessions are left out."""
+    """The runs of sessions that crashed, the newest first; those of running sessions are left out."""
     return recovered_from(folder / FOLDER, SUFFIX, read_journal)
 
 
 def read_journal(file: Path) -> RecoveredRun:
-    """What a journal tells; a line that is damaged is skipped.
+    """The edits in a journal; damaged lines are skipped.
 
     Raises one of DAMAGED for one whose first line is damaged, OSError.
     """

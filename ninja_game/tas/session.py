@@ -157,7 +157,7 @@ class Session:
         self._note()
 
     def _credit(self) -> None:
-        """What is said of the run: once its keys are others, what was done to it since it was opened, and by whom."""
+        """Set the provenance of the run: if its keys have changed, the edits since it was opened, and their author."""
         opened, made = self._first.recording, self.track.made
         self.about = opened if made == NONE else made.credited(opened, self._player)
 
@@ -167,7 +167,7 @@ class Session:
         self._credit()
 
     def _note(self) -> None:
-        """Put what has changed into the journal. What could not be written is a part of the next edit's line."""
+        """Append the changes to the journal. Changes that could not be written become part of the next line."""
         if self.track == self._noted:
             return
         change = edit_as_json(self._noted, self.track)

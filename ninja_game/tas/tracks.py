@@ -1,4 +1,4 @@
-"""A run as its maker edits it, an input track; and its branches: kept tracks, as a tree of what was made of what."""
+"""Input tracks, the runs under edit; and branches: saved tracks, in a tree by the track that each came from."""
 
 from __future__ import annotations
 

@@ -202,7 +202,7 @@ class Camera:
         self.held, self.moved = px, False
 
     def drag(self, window: tuple[int, int], px: tuple[int, int]) -> None:
-        """The mouse is there: what it has hold of goes along, once it has moved more than a hand trembles."""
+        """The mouse is there: move what it drags, once it has moved farther than a click may."""
         if self.held:
             dx, dy = px[0] - self.held[0], px[1] - self.held[1]
             self.moved = self.moved or max(abs(dx), abs(dy)) > _STILL

@@ -119,7 +119,7 @@ class ListView(Widget):
         return index is not None
 
     def hover(self, x: float, y: float) -> bool:
-        """The mouse is over it: select what is there, unless that takes a click; whether that changed anything."""
+        """The mouse is over it: select that row, unless rows need a click; whether the selection changed."""
         index = self._index_at(x, y)
         if index is None or index == self.index or self.opens:
             return False

@@ -1,4 +1,4 @@
-"""What lies far behind a level: a sky and still layers of soft shapes, in the colours and the kind of a palette."""
+"""The far background of a level: a sky and still layers of soft shapes, in colours and style of a palette."""
 
 from __future__ import annotations
 

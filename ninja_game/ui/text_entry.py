@@ -260,7 +260,7 @@ class EditedText:
         self.anchor, self.cursor = 0, len(self.text)
 
     def select_word(self, place: int) -> None:
-        """Select the word, or what stands between two words, around a place."""
+        """Select the word, or the gap between two words, around a place."""
         place = min(place, len(self.text) - 1)
         kind = [_character_class(char) for char in self.text]
         first = last = max(0, place)
@@ -271,7 +271,7 @@ class EditedText:
         self.anchor, self.cursor = first, last
 
     def put(self, typed: str) -> None:
-        """Instead of what is selected comes a text, as much of it as fits in; line ends are blanks."""
+        """Replace the selection by a text, as much of it as fits; line ends become blanks."""
         first, last = self.span
         line = re.sub(r"[\r\n\t]+", " ", typed.strip("\r\n"))
         line = "".join(char for char in line if char.isprintable())

@@ -1,4 +1,4 @@
-"""A program that a reader wrote in a page, run by the page's own Python: what it prints, or what is wrong in it."""
+"""Run a program that a reader wrote in a page, by the page's own Python: its output, or its error."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MOST_SHOWN = 5_000  # characters of its output
 
 
 def run_program(text: str) -> str:
-    """All that it prints; after that, of an error, the line and what is wrong there."""
+    """Its output; after an error also its line and message."""
     printed, left = StringIO(), MOST_LINES
 
     def count(_frame: FrameType, event: str, _: object) -> Any:

@@ -17,7 +17,7 @@ from ninja_game.sim.level import Level
 
 @dataclass(frozen=True)
 class AsciiLevel:
-    """A level as its file gives it: who made it, what it is, what it teaches, and what it says."""
+    """A level as its file describes it: author, comment, tiles and objects, what it teaches, its messages."""
 
     name: str
     author: str

@@ -1,4 +1,4 @@
-"""Our replay text: what was played, the inputs, and what must come out of them; and several of them as an episode.
+"""Our replay text: level, inputs, and the result that they must give; also several of them as an episode.
 
 An episode is the replays of up to five levels in a row, with the time carried on (`docs/replay-format.md`).
 """

@@ -41,7 +41,7 @@ def is_there(w: World, o: Object) -> bool:
 
 @fast
 def velocity_of(o: Object) -> tuple[float, float]:
-    """How it moves, px/tick, as far as it tells: what has no speed of its own is at rest."""
+    """Its velocity, px/tick; zero for kinds without a speed of their own."""
     if o.kind == kinds.BOUNCE_BLOCK:
         return o.x - o.prev_x, o.y - o.prev_y
     if o.kind == kinds.THWUMP and o.routine == THWUMP_MOVE:

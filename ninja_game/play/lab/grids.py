@@ -64,7 +64,7 @@ class Crowd:
         return frozenset(cell_at(o.x + dx, o.y + dy) for dx in (-r, r) for dy in (-r, r))
 
     def move(self) -> tuple[Work, Work]:
-        """Let a tick pass. What it cost the loose grid, and what it would have cost a normal one."""
+        """Simulate a tick: the work of the loose grid, and that of a normal one."""
         loose = normal = 0
         for o in self.objects:
             before = self.cells_of(o)

@@ -105,7 +105,7 @@ def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
 
 
 def _reached(play: LevelPlay) -> list[str]:
-    """The medal; what the next one needs; the gold of a passed run, what that has brought, and what it leaves."""
+    """Lines after a pass: the medal, what the next medal needs, the gold, what the pass unlocked."""
     attempt, pars = play.attempt, play.context.pars
     following = (
         [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!"]

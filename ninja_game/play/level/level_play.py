@@ -68,7 +68,7 @@ def followed(shown: float, true: float) -> float:
 
 
 def things_at_start(level: Level, world: World, texts: Iterable[str], inputs: bytes) -> Things:
-    """What a player looks for at the start of a level with these texts: what there is, and the author's way."""
+    """The things that a level's texts may name at its start, and the author's route."""
     places = list(things_in(world, tagged=bool(arrow_targets(texts))))
     if inputs:
         way = Simulation(level)

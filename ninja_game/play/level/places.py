@@ -104,7 +104,7 @@ def solid_place(
 
 @lru_cache(maxsize=4)
 def _ways(tiles: tuple[int, ...]) -> tuple[list[int], list[int]]:
-    """A number for each column of a level, a bit for each row: what is not full, and of that what lies along rock."""
+    """Bit masks, a number per column, a bit per row: the cells that are not full, and those of them beside rock."""
     all_rows = (1 << ROWS) - 1
     full = [
         sum(1 << row for row in range(ROWS) if SHAPE[tiles[first + row]] == FULL)

@@ -87,7 +87,7 @@ class Sayings:
         self._unread = READ_TICKS
 
     def _say_first(self, *texts: _Text) -> None:
-        """Say this, then go on with what it interrupts and what waits; not with the start's once the exit is open."""
+        """Show these texts first, then the interrupted and waiting ones; none of the start once the exit is open."""
         over = {saying.text for saying in self._said if saying.when == "start"}.union(text for text, *_ in texts)
         now = [(self.text, self._left, self.place)] if self.is_start or self._unread > 0 else []
         self._say(*texts, *(line for line in (*now, *self._next) if line[0] and line[0] not in over))

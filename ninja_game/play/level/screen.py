@@ -132,7 +132,7 @@ class LevelScreen(Screen):
             self.retry(ignored=JUMP_HELD)
 
     def go_on(self) -> None:
-        """From a level that is passed or left out to what comes next."""
+        """Go on to the next level, after a pass or a skip."""
         where = self.context.advance()
         if where is Navigation.SAME_LEVEL:
             self.retry()
@@ -164,7 +164,7 @@ class LevelScreen(Screen):
             self.ask_for_help()
 
     def ask_for_help(self, *, paused: bool = False) -> None:
-        """What to do about a level that is too hard: nobody has to stay in it. What is off says why.
+        """A menu for a level that is too hard; entries that are disabled say why.
 
         ``paused``: asked for in the pause panel, to which Esc leads back, as it does from play.
         """

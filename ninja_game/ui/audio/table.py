@@ -1,4 +1,4 @@
-"""What is heard when: the files of each event, by what strength, and the loops of what goes on."""
+"""The sounds of the game: the files of each event, how loud they are, and the loops of lasting states."""
 
 from __future__ import annotations
 

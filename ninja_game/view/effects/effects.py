@@ -166,7 +166,7 @@ def _won(e: Effects, level: TileMap, world: World, event: Event) -> None:
 
 
 def _free_way(level: TileMap, world: World, x: float, y: float, angle: float, far: float) -> tuple[float, float]:
-    """Where something that flies so far comes to: not into a wall."""
+    """The end of a flight of this length; it stops before a wall."""
     dx, dy = cos(angle), sin(angle)
     stopped, to_x, to_y = ray_tiles(level, world, x, y, x + dx, y + dy)
     way = min(far, max(0.0, hypot(to_x - x, to_y - y) - 3)) if stopped else far

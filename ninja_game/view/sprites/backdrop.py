@@ -128,7 +128,7 @@ class Backdrop:
         self.picture.set_clip(None)
 
     def cover(self, surface: pygame.Surface, area: pygame.Rect, corner: tuple[int, int]) -> None:
-        """Draw what is in front of all that moves in an area: tiles, and mines, so that no corner hides one."""
+        """Redraw the foreground of an area over moving objects: tiles, then mines, so that no corner hides one."""
         surface.blit(self.tiles, area.move(corner), area, pygame.BLEND_PREMULTIPLIED)
         for number in area.collidelistall(self._mine_places):
             place, part = self._mine_places[number], self._mine_places[number].clip(area)

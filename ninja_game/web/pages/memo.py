@@ -23,7 +23,7 @@ def digest_of(data: object) -> str:
 
 @cache
 def program() -> str:
-    """Digest of what decides what is remembered: all code of the package, and what pages are made of."""
+    """Digest of all that cached results depend on: the code of the package and the templates of pages."""
     here = Path(__file__).parent
     files = sorted({*here.parents[1].rglob("*.py"), *here.glob("*.*")})
     return digest_of([sha256(file.read_bytes()).hexdigest() for file in files])
