@@ -251,10 +251,8 @@ def link_of(files: Sequence[Path], record: int | None = None) -> str:
             raise click.UsageError("a link carries one pack, whole")
         return PackFiles(first).link()
     if all(holds_recordings(text) for file in files for _, text in texts_of(file)):
-        recordings = [recording for file in files for recording in load_replays(file)]
-        return recording_link(
-            recordings if record is None else [options.choose(recordings, "recordings", first, record)]
-        )
+        runs = [run for file in files for run in load_replays(file)]
+        return recording_link(runs if record is None else [options.choose(runs, "recordings", first, record)])
     if len(files) > 1:
         raise click.UsageError("a link carries one level; make a pack of several, or give replays only")
     named = options.choose(load_levels(first), "levels", first, record)

@@ -132,11 +132,9 @@ def _compare(traces: Readable[FiledTrace], expected: Iterator[FiledTrace], again
     different = 0
     for trace in traces:
         section = trace.comment if SECTION.fullmatch(trace.comment) else ""
-        record_number = trace.record if record is None else record
-        there = pairs.get((trace.file, record_number), pairs.get(record_number))
-        difference = (
-            first_difference(trace.run, there, section) if there else f"record {record_number} is not in {against}"
-        )
+        number = trace.record if record is None else record
+        there = pairs.get((trace.file, number), pairs.get(number))
+        difference = first_difference(trace.run, there, section) if there else f"record {number} is not in {against}"
         if difference:
             different += 1
             click.echo(f"{shown_text(trace.file)}:{trace.record} {shown_text(trace.name)}: {difference}")

@@ -376,24 +376,18 @@ def ask(
 
 
 def _answer(
-    what: str,
-    ranked_runs: Sequence[Ranked],
-    category: Category,
-    output: Path | None,
-    *,
-    as_data: bool,
-    keep: Sequence[Path],
+    what: str, ranks: Sequence[Ranked], category: Category, output: Path | None, *, as_data: bool, keep: Sequence[Path]
 ) -> None:
     from ninja_game.formats.recording import Recording
     from ninja_game.runs.compare import run_splits
 
-    rows: Any = [_row(ranked, category) for ranked in ranked_runs]
+    rows: Any = [_row(ranked, category) for ranked in ranks]
     form = RANKED
-    ladders = sorted({ranked.run.ladder for ranked in ranked_runs}, reverse=True)
-    names = [ranked.run.player + f", {ranked.run.ladder}" * (len(ladders) > 1) for ranked in ranked_runs]
+    ladders = sorted({ranked.run.ladder for ranked in ranks}, reverse=True)
+    names = [ranked.run.player + f", {ranked.run.ladder}" * (len(ladders) > 1) for ranked in ranks]
     runs = [
         Recording(ranked.run.entry.named.level, replace(ranked.run.replay, name=name))
-        for ranked, name in zip(ranked_runs, names, strict=True)
+        for ranked, name in zip(ranks, names, strict=True)
         if what not in ("rank", "best")
     ]
     if what == "inputs":
@@ -413,7 +407,7 @@ def _answer(
     if as_data:
         click.echo(json.dumps(rows))
     else:
-        entry, ladder = ranked_runs[0].run.entry, " and ".join(ladders)
+        entry, ladder = ranks[0].run.entry, " and ".join(ladders)
         click.echo(shown_text(f"{entry.number} {entry.title}, {category.name.lower()}, {ladder}:".strip(), LONGEST))
         click.echo("\n".join(_line(form, row | {"player": name}) for row, name in zip(rows, names, strict=True)))
 

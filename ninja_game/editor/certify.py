@@ -285,9 +285,7 @@ class Certifier:
 
     def edit(self, level: Level) -> None:
         """Another level is under edit, perhaps one whose search goes on."""
-        self.search = next(
-            (search for search in self.solver.left if search.level == level and not search.end), Search()
-        )
+        self.search = next((old for old in self.solver.left if old.level == level and not old.end), Search())
         self.search.then = None
 
 

@@ -77,9 +77,7 @@ def load_replays(path: Path | str, *, level: Level | None = None, changed: bool 
     Raises ReplayError, DemoError or LevelError naming file and line; OSError for a file that cannot be opened.
     """
     recordings = [
-        replay
-        for file, text in texts_of(path)
-        for replay in parse_replays(text, file=file, level=level, changed=changed)
+        run for file, text in texts_of(path) for run in parse_replays(text, file=file, level=level, changed=changed)
     ]
     if not recordings:
         raise ReplayError("no recordings here", str(path), expected=f"files *{', *'.join(SUFFIXES)}")

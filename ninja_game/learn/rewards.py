@@ -79,9 +79,7 @@ def reward_terms(reward: RewardLike | Sequence[RewardLike] | None) -> list[Rewar
     """
     several = isinstance(reward, Sequence) and not isinstance(reward, str)
     choices: Any = ["exit"] if reward is None else reward if several else [reward]
-    terms = [
-        REWARD_TERMS[choice]() if isinstance(choice, str) and choice in REWARD_TERMS else choice for choice in choices
-    ]
+    terms = [REWARD_TERMS[term]() if isinstance(term, str) and term in REWARD_TERMS else term for term in choices]
     wrong = [term for term in terms if type(term) not in REWARD_TERMS.values()]
     if wrong:
         expected = ", ".join(f"{name!r} ({kind.__name__})" for name, kind in REWARD_TERMS.items())

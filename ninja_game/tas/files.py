@@ -69,9 +69,7 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     texts = list(texts_of(path))
     if not any(holds_recordings(text) for _, text in texts):
         return _begun_on(path, "".join(text for _, text in texts), record, level)
-    recordings = [
-        replay for file, text in texts for replay in parse_replays(text, file=file, level=level, changed=True)
-    ]
+    recordings = [run for file, text in texts for run in parse_replays(text, file=file, level=level, changed=True)]
     if record is None and len(recordings) > 1:
         raise ReplayError(f"{len(recordings)} recordings", str(path), hint="say which one with --record")
     recording = next((other for other in recordings if other.record == (record or 0)), None)

@@ -98,7 +98,7 @@ def door_middle(values: Sequence[float]) -> tuple[float, float]:
 
 
 def object_values(keyword: str, place: Token, words: Mapping[str, Token]) -> tuple[float, ...]:
-    """The values of the record that a line stands for; ``named_words``: property or keyword to its word.
+    """The values of the record that a line stands for; ``by_name``: property or keyword to its word.
 
     Raises LevelError with the column of the word that cannot be read.
     """
@@ -231,7 +231,7 @@ def _split_keyword(tokens: Sequence[Token]) -> tuple[str, Sequence[Token]]:
 def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list[Token], dict[str, Token]]:
     """Which words are places, and which word tells which property."""
     places: list[Token] = []
-    named_words: dict[str, Token] = {}
+    by_name: dict[str, Token] = {}
     words = iter(tokens)
     for token in words:
         names = [name for name, vocabulary in form.words.items() if token.text in vocabulary]
@@ -253,11 +253,11 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
             continue
         else:
             raise _unknown_word(keyword, form, token, next(words, None))
-        if name in named_words:
+        if name in by_name:
             raise LevelError(f"the {name} of '{keyword}' is given twice", column=token.column, found=shown(token.text))
-        named_words[name] = value
-    _check_complete(keyword, form, named_words, tokens)
-    return places, named_words
+        by_name[name] = value
+    _check_complete(keyword, form, by_name, tokens)
+    return places, by_name
 
 
 def _unknown_word(keyword: str, form: Form, token: Token, following: Token | None) -> LevelError:
@@ -277,10 +277,10 @@ _EXAMPLES = {"switch": "switch 3,4 (column,row)", "normal": "normal 0.6,-0.8", "
 """Of properties that take a value."""
 
 
-def _check_complete(keyword: str, form: Form, named_words: dict[str, Token], tokens: Sequence[Token]) -> None:
+def _check_complete(keyword: str, form: Form, by_name: dict[str, Token], tokens: Sequence[Token]) -> None:
     column = tokens[-1].column + len(tokens[-1].text) if tokens else len(keyword) + 1
     for group in form.needs:
-        present = [named_words[name] for name in group if name in named_words]
+        present = [by_name[name] for name in group if name in by_name]
         if len(present) > 1:
             raise LevelError(f"'{keyword}' with both {' and '.join(group)}", column=present[1].column, hint="keep one")
         if not present:

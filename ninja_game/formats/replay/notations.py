@@ -190,11 +190,7 @@ def write_libtas(inputs: bytes) -> str:
 def _check_keyboard(inputs: bytes) -> None:
     expected = with_press_bits(inputs)
     if inputs != expected:
-        tick = next(
-            tick
-            for tick, (keys, expected_keys) in enumerate(zip(inputs, expected, strict=True))
-            if keys != expected_keys
-        )
+        tick = next(tick for tick, (keys, due) in enumerate(zip(inputs, expected, strict=True)) if keys != due)
         what = "held" if inputs[tick] & JUMP_HELD else "not held"
         hint = "only replays of ours and demos of N can say it"
         raise ReplayError("a jump that no keyboard can make", found=f"tick {tick}, jump {what}", hint=hint)

@@ -179,9 +179,8 @@ def initial_levels(worlds: Worlds, places: Iterable[int]) -> list[InitialLevel]:
     for place in places:
         columns = [column[place, : used[place]].tolist() for column in every]
         objects = list(map(InitialObject, range(len(columns[0])), *columns))
-        levels.append(
-            InitialLevel(tiles[place].tolist(), objects, (float(ninja["x"][place]), float(ninja["y"][place])))
-        )
+        start = float(ninja["x"][place]), float(ninja["y"][place])
+        levels.append(InitialLevel(tiles[place].tolist(), objects, start))
     return levels
 
 

@@ -119,10 +119,7 @@ def _fits(source: str) -> bool:
 
 def messages_of(says: str) -> list[Message]:
     details = {"death": "{0.deaths}", "at": "{0.cell[0]},{0.cell[1]}"}
-    return [
-        Message(message.when, details.get(message.when, "").format(message), message.text)
-        for message in parse_messages(says)
-    ]
+    return [Message(line.when, details.get(line.when, "").format(line), line.text) for line in parse_messages(says)]
 
 
 class _Stage:
@@ -191,9 +188,7 @@ class MessagesScreen(MenuScreen):
 
     def enter(self) -> None:
         super().enter()
-        place = next(
-            (k for k, message in enumerate(self.messages) if self._wanted and message.detail == self._wanted), None
-        )
+        place = next((k for k, row in enumerate(self.messages) if self._wanted and row.detail == self._wanted), None)
         if place is not None:
             self.focus, self._wanted = self._row_widgets[place][-1], ""
 

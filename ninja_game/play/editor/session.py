@@ -317,9 +317,7 @@ class EditorSession:
             if (named := load_levels(path)[0]).level == search.level:
                 return named
         # The window's own catalogue is not for this thread.
-        own = (
-            entry.named for entry in Catalogue(self.app.player.folder / LEVELS).single_levels() if entry.source != GAME
-        )
+        own = (item.named for item in Catalogue(self.app.player.folder / LEVELS).single_levels() if item.source != GAME)
         return next((entry for entry in own if entry.level == search.level and Path(entry.file).is_file()), None)
 
     def _leave_search(self) -> None:

@@ -157,9 +157,7 @@ class Response(Projection):
     def contacts(self) -> list[str]:
         """What each normal means to the rules, in the order of the pushes."""
         normals = [call.arguments for call in self.push().calls if call.name == "note_normal"]
-        return [
-            "wall" if normal["my"] == 0.0 else "floor" if normal["my"] < 0.0 else "a push only" for normal in normals
-        ]
+        return ["wall" if push["my"] == 0.0 else "floor" if push["my"] < 0.0 else "a push only" for push in normals]
 
     def numbers(self) -> list[tuple[str, str]]:
         push, (x, y) = self.push(), self.origin

@@ -174,9 +174,8 @@ class PackStatus:
         every = problems_of(pack, known)
         to_do = [finding for finding in every if finding.code in MADE_READY and not obstacle_of(pack, finding, known)]
         findings = [finding for finding in every if finding not in to_do]
-        return Checked(
-            pack, findings, to_do, frozenset(pack.files.place(file_of(pack, finding)) for finding in findings)
-        )
+        places = frozenset(pack.files.place(file_of(pack, finding)) for finding in findings)
+        return Checked(pack, findings, to_do, places)
 
     @property
     def findings(self) -> list[PackFinding] | None:

@@ -524,10 +524,8 @@ class PackScreen(ThumbnailScreen):
         file = file_of(pack, finding)
         entry, why = self._entry(level_of(pack, file)), obstacle_of(pack, finding, self.packer.obstacles)
         # Files count columns and episodes from 0; what is behind the semicolon is about files.
-        numbered_text = re.sub(
-            r"((?:column|episode) )(\d+)", lambda n: f"{n[1]}{int(n[2]) + 1}", finding.text.partition(";")[0]
-        )
-        text = numbered_text[:1].upper() + numbered_text[1:]
+        text = re.sub(r"((?:column|episode) )(\d+)", lambda n: f"{n[1]}{int(n[2]) + 1}", finding.text.partition(";")[0])
+        text = text[:1].upper() + text[1:]
         go: Callable[[], object] | None = self._about if file == INDEX else None
         if finding.code == "no-author":
             go = partial(self._form, 1)

@@ -55,9 +55,7 @@ def object_at(run: Simulation, x: float, y: float) -> ObjectView | None:
     """The object that is nearest to a place now, if it is near; a switch of an exit is that exit."""
     world, objects = run.world, run.objects
     switches = (world.objects[world.objects[obj.id + 1].partner] for obj in objects if obj.kind == KIND_NAMES[EXIT])
-    objects += [
-        replace(run.object(switch.partner - 1), x=switch.x, y=switch.y) for switch in switches if switch.kind == SWITCH
-    ]
+    objects += [replace(run.object(obj.partner - 1), x=obj.x, y=obj.y) for obj in switches if obj.kind == SWITCH]
     nearest = min(objects, key=lambda obj: hypot(obj.x - x, obj.y - y), default=None)
     return nearest if nearest is not None and hypot(nearest.x - x, nearest.y - y) < _REACH else None
 

@@ -72,13 +72,9 @@ class Roll(TasPart):
             self.choose_columns()
 
         rows = [
-            (
-                f"{column.meaning}: {'hidden' if column.name in self.hidden else 'shown'}",
-                partial(switch, column.name),
-                "",
-            )
-            for column in COLUMNS
-            if column.meaning
+            (f"{col.meaning}: {'hidden' if col.name in self.hidden else 'shown'}", partial(switch, col.name), "")
+            for col in COLUMNS
+            if col.meaning
         ]
         self.editor.app.push(Menu(self.editor.app, "Columns", [*rows, ("Done", nothing, "")]))
 

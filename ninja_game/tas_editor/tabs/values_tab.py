@@ -405,7 +405,5 @@ class ValuesTab(Tab):
 
     def _tell(self, tick: int) -> None:
         tick = min(max(0, tick), self.editor.last_tick)
-        values = "  ".join(
-            f"{watched.watch.text}: {shown_value(watched, tick)}" for watched in self.watched if watched.plotted
-        )
+        values = "  ".join(f"{lane.watch.text}: {shown_value(lane, tick)}" for lane in self.watched if lane.plotted)
         self.editor.hint = f"tick {tick}  {values}   (wheel: zoom, drag: move, right: all)"

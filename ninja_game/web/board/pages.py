@@ -231,15 +231,9 @@ class BoardPages(LevelPages):
         """The title of a list of players; the ladder only where there are two."""
         return f"Players, {ladder}" if len(self.ranking.ladders) > 1 else "Players"
 
-    def _standing(self, standing: Standing) -> tuple[Content, ...]:
-        firsts = [standing.records[category] for category in self.ranking.categories]
-        return (
-            self.player_link(standing.player),
-            standing.levels,
-            standing.runs,
-            *firsts,
-            *(n or "" for n in standing.medals.values()),
-        )
+    def _standing(self, row: Standing) -> tuple[Content, ...]:
+        firsts = [row.records[category] for category in self.ranking.categories]
+        return (self.player_link(row.player), row.levels, row.runs, *firsts, *(n or "" for n in row.medals.values()))
 
     def _players(self) -> None:
         sums: dict[str, list[Content]] = defaultdict(list)
@@ -334,12 +328,7 @@ class BoardPages(LevelPages):
 
     def _episodes(self) -> list[Content]:
         sections: list[Content] = []
-        parts = [
-            (ladder, category)
-            for ladder in self.ranking.ladders
-            for category in self.ranking.categories
-            if category.episodes
-        ]
+        parts = [(ladder, kind) for ladder in self.ranking.ladders for kind in self.ranking.categories if kind.episodes]
         kinds = ("sum of the best of all its levels", self.ranking.episode), ("in one recording", self.ranking.whole)
         for number, episode in sorted(self.ranking.shown.levels.episodes.items()):
             tables = []

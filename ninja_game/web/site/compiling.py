@@ -20,9 +20,7 @@ UNCHECKED = MAGIC_NUMBER + (1).to_bytes(4, "little") + bytes(8)
 
 def without_lines(code: CodeType) -> CodeType:
     """Code without line numbers: entries that say so, each for up to eight units of code."""
-    inner = tuple(
-        without_lines(constant) if isinstance(constant, CodeType) else constant for constant in code.co_consts
-    )
+    inner = tuple(without_lines(item) if isinstance(item, CodeType) else item for item in code.co_consts)
     eights, rest = divmod(len(code.co_code) // 2, 8)
     return code.replace(co_consts=inner, co_linetable=b"\xff" * eights + bytes([0xF7 + rest] * (rest > 0)))
 
