@@ -256,6 +256,14 @@ def copy_words(target: StateWords, source: StateWords) -> None:
 
 
 @fast
+def same_words(words: StateWords, others: StateWords) -> bool:
+    for k in range(len(words)):
+        if words[k] != others[k]:
+            return False
+    return True
+
+
+@fast
 def keep_state(words: StateWords, initial: StateWords, node: Node, arrays: SearchArrays) -> bool:
     """Store the first word and those that differ from the start; False, and nothing stored, if the pool is empty."""
     counters = arrays.counters[0]
