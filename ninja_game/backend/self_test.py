@@ -42,7 +42,6 @@ def known_level() -> Level:
     return Level(tuple(n % 34 * (n % 7 == 0) for n in range(TILES)), tuple(ObjectSpec(k, (*v,)) for k, *v in _OBJECTS))
 
 
-
 class SelfTestError(NinjaGameError):
     """The known run ends otherwise: nothing that this process computes can be trusted."""
 

@@ -257,10 +257,10 @@ def copy_words(target: StateWords, source: StateWords) -> None:
 
 @fast
 def same_words(words: StateWords, others: StateWords) -> bool:
-    for k in range(len(words)):
-        if words[k] != others[k]:
-            return False
-    return True
+    k = 0
+    while k < len(words) and words[k] == others[k]:
+        k += 1
+    return k == len(words)
 
 
 @fast
