@@ -128,7 +128,10 @@ def run_splits(
         with named_errors(recording):
             raise over_budget(recording.level, recording.ticks, budget)
     places = np.array(positions, np.float64).reshape(-1, 2)
-    death = death_text(run.world) if run.outcome == "dead" else ""
+    death = ""
+    if run.outcome == "dead":
+        w = run.world
+        death = death_text(w.events[: w.event_count], w.ninja, w.objects)
     return RunSplits(recording, run.outcome, run.gold, tuple(splits), places, death)
 
 
