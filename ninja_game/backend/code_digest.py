@@ -9,8 +9,8 @@ from typing import Any
 
 from ninja_game.sim.memory.declare import REGISTERED
 
-OPTIONS = {"nogil": True, "error_model": "python"}
-"""How Numba compiles every function."""
+OPTIONS = {"nogil": True, "error_model": "python", "_nrt": False}
+"""How Numba compiles every function. No kernel makes an array, so none counts references to one (``_nrt``)."""
 
 
 def code_digest(entry: Callable[..., Any], compiler: str) -> str:

@@ -158,6 +158,9 @@ class CompiledWorlds(Worlds):
     def events(self, index: int = 0) -> list[Any]:
         return [_EventRow(*row) for row in self._events[index, : int(self._event_count[index])].tolist()]
 
+    def objects(self, index: int = 0) -> Any:
+        return self.records["objects"][index].view(np.recarray)
+
     def observe(self, slot: int, index: int = 0) -> tuple[int, float, float, int]:
         seen: tuple[int, float, float, int] = self._observe(self.worlds, index, slot)
         return seen

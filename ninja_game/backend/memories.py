@@ -114,7 +114,7 @@ def open_worlds(
     # The first time this imports Numba, which must come before NumPy.
     if not isinstance(memory, Plan):
         begins = at_once and memory == "auto"
-        begins = begins and begin_plain(memory, ticks * max(map(tick_cost, several), default=0))
+        begins = begins and prefers_plain(memory, ticks * max(map(tick_cost, several), default=0), now=True)
         memory = Plan("plain" if begins else _usable_memory(memory), "compiled", checked=False)
     if memory.first == "plain":
         return PlainWorlds(several, count, box=box)
@@ -123,23 +123,26 @@ def open_worlds(
     return CompiledWorlds(partial(compiled, checked=memory.checked), several, count, box=box)
 
 
-def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False) -> bool:
-    """Whether a run of so much work begins on the plain memory: it is little, or kernels are still to be compiled."""
+def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False, now: bool = False) -> bool:
+    """Whether a run of so much work begins on the plain memory: it is little, or kernels are still to be compiled.
+
+    ``now``: it begins now; its work counts, and a process compiles kernels that are missing.
+    """
     if memory != "auto" or not compiled_available():
         return False
     from ninja_game.backend import background_compiler
 
     if not background_compiler.is_enabled() or (load_world, checked or _ALL_CHECKED) in _KERNELS:
         return False
-    return _WORK[0] + work <= PLAIN_WORK or not _kernels_ready(checked=checked)
-
-
-def begin_plain(memory: str, work: int, *, checked: bool = False) -> bool:
-    """As ``prefers_plain``, of a run that begins now: its work counts, and a process compiles kernels that it lacks."""
-    plain = prefers_plain(memory, work, checked=checked)
-    if plain and not warm_up(checked=checked):
+    little = _WORK[0] + work <= PLAIN_WORK
+    if little and not now:
+        return True
+    ready = _kernels_ready(checked=checked)
+    if now and not ready:
+        background_compiler.start()
+    elif now and little:
         _WORK[0] += work
-    return plain
+    return little or not ready
 
 
 def warm_up(*, checked: bool = False) -> bool:
@@ -201,7 +204,7 @@ def proven_memory(memory: str, work: int = NO_LIMIT) -> Plan:
 
     Raises SelfTestError where it does not, and what ``choose_memory`` raises.
     """
-    begins = begin_plain(memory, work, checked=True)
+    begins = prefers_plain(memory, work, checked=True, now=True)
     if not begins and _usable_memory(memory, checked=True) == "compiled":
         return CHECKED
     _prove_plain()

@@ -161,6 +161,9 @@ class PlainWorlds(Worlds):
         w = self.worlds[index]
         return w.events[: w.event_count]
 
+    def objects(self, index: int = 0) -> list[Object]:
+        return self.worlds[index].objects
+
     def observe(self, slot: int, index: int = 0) -> tuple[int, float, float, int]:
         return observe_object(self.worlds, index, slot)
 

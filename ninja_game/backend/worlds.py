@@ -132,6 +132,10 @@ class Worlds(ABC):
         """The events of the last tick, with the fields of the schema; to be read at once."""
 
     @abstractmethod
+    def objects(self, index: int = 0) -> Sequence[Any]:
+        """The objects by slot, with the fields of the schema; to be read at once."""
+
+    @abstractmethod
     def observe(self, slot: int, index: int = 0) -> tuple[int, float, float, int]:
         """Kind, x, y (px) and status of the object in a slot, as traces show them."""
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import begin_plain
+from ninja_game.backend.memories import prefers_plain
 from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget, tick_cost
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
@@ -103,7 +103,7 @@ def run_splits(
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
     when its ``budget`` of work is.
     """
-    if begin_plain(memory, recording.ticks * tick_cost(recording.level)):
+    if prefers_plain(memory, recording.ticks * tick_cost(recording.level), now=True):
         memory = "plain"
     with named_errors(recording):
         run = Simulation(recording.level, body=recording.body, memory=memory)
@@ -128,7 +128,10 @@ def run_splits(
         with named_errors(recording):
             raise over_budget(recording.level, recording.ticks, budget)
     places = np.array(positions, np.float64).reshape(-1, 2)
-    death = death_text(run.world) if run.outcome == "dead" else ""
+    death = ""
+    if run.outcome == "dead":
+        w = run.world
+        death = death_text(w.events[: w.event_count], w.ninja, w.objects)
     return RunSplits(recording, run.outcome, run.gold, tuple(splits), places, death)
 
 

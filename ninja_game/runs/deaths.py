@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 from ninja_game.formats.ascii.object_lines import WEAPONS
 from ninja_game.sim.events import DIED
 from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
@@ -15,34 +18,34 @@ _DRONES = {int(weapon): name for name, weapon in WEAPONS.items()}
 KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and kind.number != DRONE), SELF)
 
 
-def _death(world: World) -> tuple[int, int]:
-    """Cause and killer's slot (0: nobody) of the ninja's death in the last tick; NO_CAUSE where it did not die."""
-    events = world.events[: world.event_count]
+def _death(events: Sequence[Any]) -> tuple[int, int]:
+    """Cause and killer's slot (0: nobody) of the ninja's death among a tick's events; NO_CAUSE where it did not die."""
     return next(((event.cause, event.slot) for event in events if event.kind == DIED), (NO_CAUSE, 0))
 
 
 def cause_of(world: World) -> int:
     """The cause of the ninja's death in the world's last tick, as in ``sim.states``; NO_CAUSE where it did not die."""
-    return _death(world)[0]
+    return _death(world.events[: world.event_count])[0]
 
 
 def killer_of(world: World) -> str:
     """What killed the ninja in the world's last tick, one of KILLERS."""
-    _, slot = _death(world)
-    if not slot:
-        return SELF
-    killer = world.objects[slot]
+    _, slot = _death(world.events[: world.event_count])
+    return _name(world.objects[slot]) if slot else SELF
+
+
+def _name(killer: Any) -> str:
     return _DRONES[killer.weapon] if killer.kind == DRONE else KIND_OF[killer.kind].killer
 
 
-def death_text(world: World) -> str:
-    """What killed the ninja in the world's last tick, in words; "" where it did not die.
+def death_text(events: Sequence[Any], ninja: Any, objects: Sequence[Any]) -> str:
+    """What killed the ninja in a world's last tick, in words; "" where it did not die. All three: that world's.
 
     A killer with its id; of a landing the speed against the floor, px/tick, and the greatest that is survived there.
     """
-    (cause, slot), n = _death(world), world.ninja
+    (cause, slot), n = _death(events), ninja
     if slot:
-        return f"{killer_of(world)} {slot - 1}"
+        return f"{_name(objects[slot])} {slot - 1}"
     if cause == FALL:
         speed = -(n.impact_x * n.floor_x + n.impact_y * n.floor_y)
         return f"floor at {speed:.3f} px/tick, over {FATAL_IMPACT - FLOOR_ALLOWANCE * abs(n.floor_y):.3f}"

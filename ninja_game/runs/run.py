@@ -166,7 +166,9 @@ def run_in_slices(
     places = _little_endian(array("d", b"".join(_bytes(record.places) for record in records))).tobytes()
     states = b"".join(_bytes(record.states) for record in records)
     final_digest = replay_digest(world.world()) if digest else ""
-    death = death_text(world.world()) if world.outcome() == OUTCOME_DEAD else ""
+    death = ""
+    if world.outcome() == OUTCOME_DEAD:
+        death = death_text(world.events(), world.ninja(), world.objects())
     return RunResult(OUTCOME_NAMES[world.outcome()], world.gold(), places, states, in_time, final_digest, death)
 
 

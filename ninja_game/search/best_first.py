@@ -11,7 +11,7 @@ is the index of a node, an ``action`` what leads from it to the scratch world (m
 
 from __future__ import annotations
 
-from ninja_game.search.heuristics import open_mask, point_at
+from ninja_game.search.heuristics import point_at
 from ninja_game.search.known_run import KnownRun, nearest
 from ninja_game.search.macros import (
     MOST_ROWS,
@@ -213,17 +213,17 @@ def keep_along(
     Its ticks to go are those that the known run still has from its row that is most like the scratch world.
     """
     w = start.worlds[1]
-    _, to_go = nearest(known, w, open_mask(w, goal.switch_slots))
-    run_ticks = w.tick + to_go
-    delay = known.max_delay if w.tick < known.span[1] else -LEAST_GAIN
-    if run_ticks > arrays.counters[0].best_ticks + delay:
-        return
     switch_state = switch_state_of(w, goal, arrays.counters[0], arrays.nodes[parent].switch_state)
     if switch_state < 0:
         return
     key = key_of(w, goal, switch_state, 0, resolution)
     slot = find_entry(arrays.table, key)
-    if is_new(arrays.table[slot], w.tick, resolution):
+    if not is_new(arrays.table[slot], w.tick, resolution):
+        return
+    _, to_go = nearest(known, w, goal.masks[switch_state])
+    run_ticks = w.tick + to_go
+    delay = known.max_delay if w.tick < known.span[1] else -LEAST_GAIN
+    if run_ticks <= arrays.counters[0].best_ticks + delay:
         index = keep_node(parent, action, slot, key, to_go, switch_state, start, arrays)
         # Two buckets a tick; the known run's own states wait in the middle one.
         push(index, 0.5 * BUCKETS + 2.0 * (run_ticks - len(known.keys)), arrays)

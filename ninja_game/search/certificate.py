@@ -19,6 +19,7 @@ from ninja_game.formats.pack.pack import certificate_name
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.notations import Marker
 from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.runs.deaths import ending_text
 from ninja_game.runs.run import record_replay, run_level
 from ninja_game.sim.digest import state_digest
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
@@ -38,7 +39,7 @@ def verified_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: in
         raise UnverifiedRunError("a run without inputs does not reach the exit")
     run = record_replay(level, inputs, body=body, budget=NO_LIMIT)
     if run.outcome != "exit":
-        raise UnverifiedRunError(f"the run does not reach the exit: {run.outcome} after {run.ticks} ticks")
+        raise UnverifiedRunError(f"the run does not reach the exit: {ending_text(run.outcome, run.ticks - 1)}")
     if run.gold < gold:
         raise UnverifiedRunError(f"the run collects {run.gold} pieces of gold, {gold} were asked for")
     return run

@@ -16,7 +16,16 @@ from numpy.typing import NDArray
 from ninja_game.backend.memories import compiled
 from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.macros import Keys
-from ninja_game.search.nodes import MUTATIONS, RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
+from ninja_game.search.nodes import (
+    MUTATIONS,
+    RandomState,
+    Start,
+    copy_words,
+    random_below,
+    same_words,
+    ticks_at_once,
+    zeroed,
+)
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
@@ -204,7 +213,7 @@ def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: 
             if away > LEASH and abs(w.ninja.x - path[then, 0]) + abs(w.ninja.y - path[then, 1]) > LEASH:
                 return k + 1, UNREACHED
             is_back = away == 0.0 and differs <= k + 1 < ticks and score < ticks
-            if is_back and np.array_equal(start.scratch, runs.checkpoints[(k + 1) // CHECKPOINT]):
+            if is_back and same_words(start.scratch, runs.checkpoints[(k + 1) // CHECKPOINT]):
                 return k + 1, score
     return limit, UNREACHED
 

@@ -256,7 +256,7 @@ class Timeline:
             start, state = self._states.nearest(end)
             self._worlds.restore(state)
             self._worlds.run(inputs[start:])
-            self._death = inputs, death_text(self._worlds.world())
+            self._death = inputs, death_text(self._worlds.events(), self._worlds.ninja(), self._worlds.objects())
         return self._death[1]
 
     def save_state(self, tick: int) -> SaveState:

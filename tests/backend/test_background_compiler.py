@@ -22,7 +22,7 @@ from ninja_game.backend.memories import (
     proven_memory,
     switch_to_compiled,
 )
-from ninja_game.backend.self_test import LEVEL as ALL_KINDS, RUNS, known_keys
+from ninja_game.backend.self_test import RUNS, known_keys, known_level
 from ninja_game.budget import PLAIN_WORK, tick_cost
 from ninja_game.errors import FileError
 from ninja_game.formats.load import load_replays
@@ -37,6 +37,7 @@ from tests.support.slow import the_rest_is_slow
 
 pytestmark = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 
+ALL_KINDS = known_level()
 NAMES = ("00-4-locksmith", "01-0-springtime", "01-1-night-shift", "01-2-the-works")
 
 
@@ -45,7 +46,7 @@ class Compiler:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.asked, self.ready_after = 0, 10**9
-        monkeypatch.setattr(memories, "begin_plain", lambda memory, *_, **__: memory == "auto")
+        monkeypatch.setattr(memories, "prefers_plain", lambda memory, *_, **__: memory == "auto")
         monkeypatch.setattr(memories, "_kernels_ready", self.are_there)
         monkeypatch.setattr(background_compiler, "is_compiling", lambda: True)
         for module in ("backend.memories", "runs.run", "runs.trace"):
@@ -193,7 +194,7 @@ def test_the_first_run_on_a_machine_starts_one_process_that_compiles(
 def test_who_names_a_memory_gets_it_and_starts_nothing(
     memory: str, started: list[tuple[list[str], dict[str, Any]]]
 ) -> None:
-    assert not memories.begin_plain(memory, 0)
+    assert not memories.prefers_plain(memory, 0, now=True)
     assert not started
 
 
@@ -206,11 +207,20 @@ def test_whether_a_run_begins_on_the_plain_memory_may_be_asked_without_a_process
     assert len(started) == 1
 
 
+def test_a_run_that_begins_now_looks_for_its_kernels_once(
+    started: list[tuple[list[str], dict[str, Any]]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[bool] = []
+    monkeypatch.setattr(memories, "_kernels_ready", lambda *, checked: asked.append(checked))
+    assert memories.prefers_plain(now=True)
+    assert (asked, len(started)) == ([False], 1)
+
+
 def test_switched_off_it_is_not_started(
     started: list[tuple[list[str], dict[str, Any]]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(background_compiler.VARIABLE, "0")
-    assert not memories.begin_plain("auto", 0)
+    assert not memories.prefers_plain("auto", 0, now=True)
     memories.warm_up()
     background_compiler.start()
     assert not started

@@ -36,6 +36,16 @@ def test_equal_runs_and_traces_are_equal(memory: str) -> None:
 
 
 @pytest.mark.parametrize("memory", BOTH)
+@pytest.mark.parametrize(("record", "death"), [("12^130,566", "mine 0"), ("6^130,566,0,0,0,3", "zap 0")])
+def test_a_run_tells_what_killed_without_a_copy_of_its_world(
+    memory: str, record: str, death: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ninja_game.backend.compiled.plain_copy", None)
+    run = run_level(parse_level("0" * 713 + f"|5^100,566!{record}"), bytes([2] * 60), memory=memory)
+    assert (run.outcome, run.death) == ("dead", death)
+
+
+@pytest.mark.parametrize("memory", BOTH)
 def test_a_simulation_says_what_it_is_and_how_far(memory: str) -> None:
     run = Simulation(LEVEL, body="box", memory=memory)
     run.step(right=True)

@@ -180,7 +180,7 @@ def test_jumps_trigger_only_where_the_key_goes_down() -> None:
 
 
 def test_a_run_that_does_not_reach_the_exit_is_refused() -> None:
-    with pytest.raises(UnverifiedRunError, match="does not reach the exit: running after 5 ticks"):
+    with pytest.raises(UnverifiedRunError, match="does not reach the exit: still running after 5 ticks"):
         solve(Task(WALK, first=bytes(5), work=1000))
     with pytest.raises(UnverifiedRunError, match="collects 1 pieces of gold, 2 were asked for"):
         solve(Task(WALK, first=bytes([2] * 40), gold=2, work=1000))

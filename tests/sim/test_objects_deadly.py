@@ -30,7 +30,10 @@ def assert_killed(
     """
     assert (death.object_id, death.cause, killer_of(run.world)) == (killer, cause, name)
     assert (run.outcome, run.ninja.state) == ("dead", "dead")
-    assert death_text(run.world) == (text or (cause if killer is None else f"{name} {killer}"))
+    w = run.world
+    assert death_text(w.events[: w.event_count], w.ninja, w.objects) == (
+        text or (cause if killer is None else f"{name} {killer}")
+    )
 
 
 def test_a_mine_kills_within_14_px_and_is_gone(play: Play) -> None:
