@@ -394,3 +394,21 @@ def test_the_lab_by_keys_and_mouse(driver: MenuDriver) -> None:
     assert (screen.figure.x, screen.figure.y) == screen.figure.start
     driver.press("escape")
     assert driver.top() is not screen
+
+
+def test_the_mouse_presses_and_drags_a_figure_in_its_own_px(
+    driver: MenuDriver, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    driver.open("Help")
+    driver.choose("How it works")
+    screen = driver.top()
+    assert isinstance(screen, LabScreen)
+    left, top, zoom = screen.figure.view
+    x, y = FIGURE[0] + 30 * zoom, FIGURE[1] + 40 * zoom
+    called: list[tuple[str, float, float]] = []
+    for name in ("press", "drag"):
+        monkeypatch.setattr(screen.figure, name, lambda x, y, name=name: called.append((name, x, y)))
+    area = next(each for each in screen.widgets if isinstance(each, FigureArea))
+    area.click(x, y)
+    area.drag(x + zoom, y - zoom)
+    assert called == [("press", left + 30, top + 40), ("drag", left + 31, top + 39)]
