@@ -230,3 +230,14 @@ def test_unknown_palette_is_told_of_and_the_game_starts(tmp_path: Path) -> None:
     assert driver.app.theme.palette.base.name == "morning"
     assert "drak" in driver.app.notice
     driver.close()
+
+
+@pytest.mark.parametrize(
+    "name, before, typed, known",
+    [("", "", " Ida ", "Ida"), ("", "Ida", "Ida", ""), ("Bo", "", "Ida", "Bo"), ("", "", "x" * 50, "x" * 40)],
+)
+def test_an_author_who_is_typed_is_the_player_where_none_is_set(name: str, before: str, typed: str, known: str) -> None:
+    with scripted_app() as (app, _):
+        app.change_settings(name=name)
+        app.know_author(before, typed)
+        assert app.settings.name == known

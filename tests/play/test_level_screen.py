@@ -15,6 +15,7 @@ from ninja_game.play.app import App
 from ninja_game.play.level.hud import Hud, bar_length
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, Phase
+from ninja_game.play.level.places import away_from, hidden_by
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import FileRun
@@ -302,3 +303,25 @@ def test_keys_of_practice_are_named_where_they_work(app: App, recording: Recordi
     assert "Rewind: rewind" in hud_view(screen.play).foot[1]
     frames(app, 620)
     assert "rewind" not in hud_view(screen.play).foot[1]
+
+
+@pytest.mark.parametrize(
+    "point, away, hides",
+    [
+        ((150, 120), 0, True),
+        ((100, 100), 0, True),
+        ((90, 120), 10, True),
+        ((80, 120), 20, False),
+        ((215, 120), 15, True),
+        ((220, 120), 20, False),
+        ((150, 90), 10, True),
+        ((150, 80), 20, False),
+        ((150, 160), 20, False),
+        ((230, 180), 50, False),
+        ((97, 96), 5, True),
+    ],
+)
+def test_a_panel_hides_what_is_within_16_px_of_it(point: tuple[float, float], away: float, hides: bool) -> None:
+    panel = 100, 100, 100, 40
+    assert away_from(point, *panel) == away
+    assert [*hidden_by([(*point, 7)], *panel)] == [7] * hides

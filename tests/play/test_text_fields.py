@@ -232,3 +232,14 @@ def test_a_field_takes_every_key_that_makes_text() -> None:
             if name not in NO_TEXT:
                 assert field.text_event(event), name
                 assert field.text == "text"
+
+
+def test_what_is_typed_replaces_the_first_field_of_a_form_and_goes_on_in_the_others(at: Writer) -> None:
+    form = FormPanel(at.app, "Two fields", [("first", "old", 40), ("second", "kept", 40)], "Yes", print)
+    at.app.push(form)
+    at.frames(2)
+    for key in ("", "down"):
+        at.key(key) if key else None
+        pygame.event.post(pygame.Event(pygame.TEXTINPUT, text="!"))
+        at.frames()
+    assert form.texts == ["!", "kept!"]

@@ -872,3 +872,17 @@ def test_check_against_something_else_is_an_error(text: str, runs: Path, levels:
     put(runs, "bea.txt", replay())
     path = put(tmp_path, "other.json", text)
     assert check(runs, levels, "--check", str(path))[0] == 2
+
+
+def test_how_a_record_moved_shows_the_ten_newest_steps(
+    runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ninja_game.web.board.copies._near_to_another", lambda *_: None)
+    for number in range(12):
+        put(runs, f"{number}.txt", slow_walk(12 - number, author=f"Ann {number}"), day=1 + number)
+    BoardPages(tmp_path / "site", Ranking(with_demands(runs, levels), published_levels(levels))).write()
+    texts = (path.read_text("utf-8") for path in (tmp_path / "site" / "board" / "levels").glob("*.html"))
+    (page,) = (text for text in texts if "How the record" in text)
+    steps = page.partition("How the record fell")[2].partition("Newest first")[2].partition("</table>")[0]
+    days = [*dict.fromkeys(re.findall("1970-01-[0-9]{2}", steps))]
+    assert days == [f"1970-01-{day:02d}" for day in range(13, 3, -1)]

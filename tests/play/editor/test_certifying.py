@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import ceil, dist
 from pathlib import Path
 from threading import Event
 from unittest.mock import patch
@@ -10,9 +11,11 @@ from unittest.mock import patch
 import pygame
 import pytest
 
+from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.brush import object_of_type, placed, with_switch
-from ninja_game.editor.certify import Search, passed_by, search_of
+from ninja_game.editor.certify import LANDED, Ask, Search, find_reach, passed_by, search_of
+from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import open_source
 from ninja_game.editor.specs import BODY, SWITCH, points
 from ninja_game.formats.ascii.places import cell_of, is_inside
@@ -21,12 +24,15 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay, parse_replay
 from ninja_game.levels.findings import level_finding
 from ninja_game.play.editor.session import _examine
+from ninja_game.play.editor.sheet import _rects
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.runs.packs import lint, make_pars
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, Task
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import EXIT
+from ninja_game.sim.level import Level
+from ninja_game.ui.canvas import Canvas
 from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker
 from tests.support.waiting import LONGEST
@@ -244,3 +250,24 @@ def test_a_search_for_an_exit_that_cannot_be_reached_is_asked_about(
     odd = _examine((room.draft.level, (never,), ""))[1]
     assert [each.code for each in odd if exit_ in each.records] == ["unreachable"]
     assert _examine((ROOM.level, (never,), ""))[1] == [never]
+
+
+@pytest.mark.skipif(not compiled_available(), reason="needs Numba")
+def test_who_stands_goes_nowhere_before_the_jump_and_steers_in_the_air() -> None:
+    arcs = find_reach(Ask(Draft(Level()), (396.0, 565.0), 0.0)).arcs
+    lefts, ups, rights = (arcs[k : k + 2] for k in (0, 2, 4))
+    for way, both in ((-1, lefts), (0, ups), (1, rights)):
+        for arc in both:
+            assert {x for x, _ in arc[: LANDED + 1]} == {396.0}
+            assert (arc[-1][0] - 396) * way > 24 if way else arc[-1][0] == 396
+        low, high = (min(y for _, y in arc) for arc in both)
+        assert high < low - 24, "who holds the key jumps higher"
+
+
+@pytest.mark.parametrize("end", [(300.0, 100.0), (100.0, 300.0), (-50.0, 100.0), (220.0, -60.0), (100.0, 100.0)])
+def test_small_rectangles_cover_a_line_over_the_level(end: tuple[float, float]) -> None:
+    found, length = list(_rects(Canvas((792, 600)), (100.0, 100.0), end)), dist((100, 100), end)
+    assert len(found) == max(1, ceil(length / 60))
+    for k in range(101):
+        x, y = (100 + (each - 100) * k / 100 for each in end)
+        assert any(rect.inflate(2, 2).collidepoint(x, y) for rect in found)

@@ -143,3 +143,12 @@ def test_a_save_says_the_name_and_the_panel_where_the_file_is(room: Maker, tmp_p
 def test_a_path_is_said_short(tmp_path: Path) -> None:
     assert short_path(Path.home() / "a" / "b") == str(Path("~", "a", "b"))
     assert short_path(tmp_path).endswith(tmp_path.name)
+
+
+def test_the_findings_follow_each_other_from_the_first_one(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
+    shown: list[str] = []
+    monkeypatch.setattr(room.editor.session, "examine", lambda: ["first", "second", "third"])
+    monkeypatch.setattr(room.editor.commands, "show_finding", shown.append)
+    for _ in range(4):
+        room.editor.commands.run("next_finding")
+    assert shown == ["first", "second", "third", "first"]

@@ -6,10 +6,12 @@ import pygame
 import pytest
 
 from ninja_game.editor.files import Source
+from ninja_game.editor.motion import SYMMETRIES
 from ninja_game.editor.specs import BODY, points
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.formats.ascii.places import Cell, middle_of
 from ninja_game.play.editor.sheet import GRIDS
+from ninja_game.play.editor.view import _AXES
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.ui.canvas import Point
@@ -196,3 +198,11 @@ def test_all_that_lies_over_the_level_is_repaired_wherever_it_was_moved_to(room:
         near.room.frames(1)
         near.drag(area.center, area.midright)
         assert near.is_as_drawn_at_once(), step
+
+
+@pytest.mark.parametrize("name", [name for name in SYMMETRIES if name != "off"])
+def test_the_lines_of_a_symmetry_are_alike_under_it(name: str) -> None:
+    lines = {frozenset(line) for line in _AXES[name]}
+    assert all(len(line) == 2 for line in lines)
+    for motion in SYMMETRIES[name]:
+        assert {frozenset(motion.point(*end) for end in line) for line in lines} == lines

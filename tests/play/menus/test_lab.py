@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from itertools import combinations
 from math import dist
 from pathlib import Path
+from typing import Any
 
 import pygame
 import pytest
@@ -15,10 +16,10 @@ from PIL import Image
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.lab.cells import CellsTouched, GridOfCells, NineCells, RayCast
 from ninja_game.play.lab.edges import STATES, Doors, EdgeStates, WalkingEnemies
-from ninja_game.play.lab.figure import FIGURE, Figure, room_world
+from ninja_game.play.lab.figure import FIGURE, Figure, Sheet, room_world
 from ninja_game.play.lab.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.one_tick import PHASES, PLAYED, OneTick
-from ninja_game.play.lab.projection import PUSH, Bodies, Projection, Response
+from ninja_game.play.lab.projection import PUSH, Bodies, Projection, Response, candidates
 from ninja_game.play.lab.screen import FIGURES, FILM_TICKS, FigureArea, LabScreen, export_figure, figure_pictures
 from ninja_game.play.rooms import room_level
 from ninja_game.sim.collision.box import collide_box
@@ -31,7 +32,8 @@ from ninja_game.sim.kinds import DOOR, DRONE
 from ninja_game.sim.level import BODIES
 from ninja_game.sim.rules import GOLD_RADIUS, STRIDE
 from ninja_game.simulation import Simulation
-from ninja_game.ui.theme import PALETTES
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import PALETTES, Theme
 from ninja_game.web.pages.documents import slug
 from tests.support.menu_driver import MenuDriver
 from tools import ROOT
@@ -224,6 +226,22 @@ def test_projection_counts_edges_and_shapes() -> None:
     assert figure.shape_tests == 1
 
 
+@pytest.mark.parametrize("tile", [3, 14])
+def test_arrows_lead_from_a_body_to_every_way_out(tile: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    figure, arrows = Projection(), list[Any]()
+    figure.tile = tile
+    figure.drag(190, 122)
+    ways = [way for call in figure.push().calls for way in candidates(call)]
+    monkeypatch.setattr(Sheet, "arrow", lambda _, colour, a, b, width=2: arrows.append((colour, a, b)))
+    theme = Theme(PALETTES["classic"], Canvas((792, 600)))
+    figure.draw(Sheet(pygame.Surface((792, 600)), theme, figure.view))
+    x, y = figure.x, figure.y
+    assert ways
+    assert [(a, b) for colour, a, b in arrows if colour == theme.palette.faint] == [
+        ((x, y), (x + dx, y + dy)) for dx, dy in ways
+    ]
+
+
 def test_loose_and_normal_grid_are_counted_as_a_plain_reading_counts() -> None:
     figure = LooseGrid()
     figure.count = 80
@@ -394,3 +412,21 @@ def test_the_lab_by_keys_and_mouse(driver: MenuDriver) -> None:
     assert (screen.figure.x, screen.figure.y) == screen.figure.start
     driver.press("escape")
     assert driver.top() is not screen
+
+
+def test_the_mouse_presses_and_drags_a_figure_in_its_own_px(
+    driver: MenuDriver, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    driver.open("Help")
+    driver.choose("How it works")
+    screen = driver.top()
+    assert isinstance(screen, LabScreen)
+    left, top, zoom = screen.figure.view
+    x, y = FIGURE[0] + 30 * zoom, FIGURE[1] + 40 * zoom
+    called: list[tuple[str, float, float]] = []
+    for name in ("press", "drag"):
+        monkeypatch.setattr(screen.figure, name, lambda x, y, name=name: called.append((name, x, y)))
+    area = next(each for each in screen.widgets if isinstance(each, FigureArea))
+    area.click(x, y)
+    area.drag(x + zoom, y - zoom)
+    assert called == [("press", left + 30, top + 40), ("drag", left + 31, top + 39)]

@@ -22,6 +22,7 @@ from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.timeline import Timeline
+from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.level.other_runs import AHEAD, OtherRunScreen
 from ninja_game.tas_editor.level.part import nearest_tick, object_at
 from ninja_game.tas_editor.level.paths import shown_span
@@ -466,3 +467,13 @@ def test_the_overlays_of_the_game_lie_over_the_level_also_where_it_is_zoomed(at:
         at.screen.level.picture.draw(1.0, whole=True)
         assert picture() == left, "nothing of them stays"
         at.screen.level.picture.camera.zoom_at(at.screen.level.picture.surface.get_size(), (200, 150), 4)
+
+
+def test_a_change_of_the_run_forgets_the_tick_under_the_mouse(at: TasDriver) -> None:
+    level = at.screen.level
+    level.point_at(9, None)
+    level.update(8)
+    assert level.hover == 9
+    at.editor.edit(lambda track: InputTrack(track.inputs[:4]))
+    level.update(8)
+    assert level.hover is None

@@ -113,3 +113,19 @@ def test_the_picture_of_rows_is_the_same_however_one_got_there(at: TasDriver, tm
     at.app.stack.redraw_all()
     at.frames()
     assert pygame.image.tobytes(scrolled, "RGB") == pygame.image.tobytes(at.app.surface.subsurface(area), "RGB")
+
+
+@pytest.mark.parametrize(
+    "saved, now, marked",
+    [
+        ("112200", "1102200", [2]),
+        ("112200", "0112200", [0]),
+        ("112200", "1122001", [6]),
+        ("1102200", "112200", []),
+        ("112200", "110000", [2, 3]),
+        ("112200", "2211220", [0, 1]),
+    ],
+)
+def test_only_ticks_with_other_keys_are_marked_wherever_they_moved(saved: str, now: str, marked: list[int]) -> None:
+    before, after = (InputTrack(bytes(map(int, keys))) for keys in (saved, now))
+    assert [tick for tick, changed in enumerate(changed_ticks(after, before)) if changed] == marked

@@ -1,0 +1,31 @@
+"""What events throw up: particles that begin and end where they should."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+
+from ninja_game.sim import events
+from ninja_game.sim.kinds import NINJA
+from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.memory.schema import Event
+from ninja_game.simulation import Simulation
+from ninja_game.view.effects.effects import REACTIONS, Effects
+from ninja_game.view.effects.particles import Particles
+
+
+@pytest.mark.parametrize("event, line, ahead", [("TURRET_FIRED", "shot", 0), ("CHAINGUN_SHOT", "bullet", 12)])
+@pytest.mark.parametrize("facing", [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
+def test_a_shot_begins_at_the_muzzle_and_is_as_long_as_its_way_to_the_rock(
+    event: str, line: str, ahead: int, facing: tuple[float, float]
+) -> None:
+    run = Simulation(Level(objects=(ObjectSpec(NINJA, (60.0, 560.0)),)))
+    effects = Effects(Particles(), Random(1))
+    fired = Event()
+    fired.x, fired.y, (fired.dx, fired.dy) = 396.0, 300.0, facing
+    REACTIONS[getattr(events, event)](effects, run.tiles, run.world, fired)
+    (shot,) = (each for each in effects.particles.front if each.kind == line)
+    assert (shot.x, shot.y) == (396 + ahead * facing[0], 300 + ahead * facing[1])
+    reach = (768 - 396 if facing[0] > 0 else 396 - 24) if facing[0] else (576 - 300 if facing[1] > 0 else 300 - 24)
+    assert (shot.dx, shot.dy) == pytest.approx((reach * facing[0], reach * facing[1]))
