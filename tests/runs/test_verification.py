@@ -110,7 +110,7 @@ def test_files_come_in_the_order_of_their_names_as_paths_have_it(archive: Path) 
 def test_results_do_not_depend_on_the_workers(
     jobs: int, processes: bool | None, archive: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The plain memory is on processes unless it is told otherwise."""
+    """The plain memory runs on processes unless threads are asked for."""
     monkeypatch.setattr(archives, "JOB_WEIGHT", 2)
     results = verify_plainly([archive], jobs=jobs, processes=processes)
     first = next(results)
