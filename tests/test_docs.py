@@ -45,6 +45,11 @@ PHRASES = {
 SECTIONS = re.compile(r"\b(world|objects|ninja|game|presentation)\.md((?:(?:,? |, | and |-)?§\d+(?:\.\d+)*)+)")
 
 
+@cache
+def text_of(path: Path) -> str:
+    return path.read_text("utf-8")
+
+
 def named(path: Path) -> str:
     return str(path.relative_to(ROOT))
 
@@ -58,8 +63,8 @@ def slug(heading: str) -> str:
 def anchors(page: Path) -> set[str]:
     """Of a document its headings, of a source file what it defines."""
     if page.suffix == ".py":
-        return {node.name for node in ast.walk(ast.parse(page.read_text("utf-8"))) if isinstance(node, DEFINITIONS)}
-    text = re.sub(r"^```.*?^```", "", page.read_text("utf-8"), flags=re.MULTILINE | re.DOTALL)
+        return {node.name for node in ast.walk(ast.parse(text_of(page))) if isinstance(node, DEFINITIONS)}
+    text = re.sub(r"^```.*?^```", "", text_of(page), flags=re.MULTILINE | re.DOTALL)
     return {slug(heading) for heading in re.findall(r"^#+ (.+)$", text, re.MULTILINE)}
 
 
@@ -72,7 +77,7 @@ def sections(name: str) -> set[str]:
 @pytest.mark.parametrize("page", PAGES, ids=named)
 def test_links_lead_somewhere(page: Path) -> None:
     dead = []
-    for target, anchor in re.findall(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)", page.read_text("utf-8")):
+    for target, anchor in re.findall(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)", text_of(page)):
         other = (page.parent / target).resolve() if target else page
         missing = anchor and (not other.exists() or anchor not in anchors(other))
         if "://" not in target and (missing or not other.exists()):
@@ -91,7 +96,7 @@ def test_every_page_is_linked_from_the_index() -> None:
 
 @pytest.mark.parametrize("page", [page for page in PAGES if page.parent.name != "rules"], ids=named)
 def test_lines_outside_of_tables_have_at_most_140_characters(page: Path) -> None:
-    text = re.sub(r"^```.*?^```", "", page.read_text("utf-8"), flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"^```.*?^```", "", text_of(page), flags=re.MULTILINE | re.DOTALL)
     long = [line for line in text.splitlines() if len(line) > 140 and not line.startswith("|")]
     assert not long
 
@@ -99,7 +104,7 @@ def test_lines_outside_of_tables_have_at_most_140_characters(page: Path) -> None
 def test_every_reference_to_the_rules_leads_to_a_section() -> None:
     found, dead = 0, []
     for path in [*SOURCES, *PAGES]:
-        for page, numbers in SECTIONS.findall(path.read_text("utf-8")):
+        for page, numbers in SECTIONS.findall(text_of(path)):
             wanted = re.findall(r"§(\d+(?:\.\d+)*)", numbers)
             found += len(wanted)
             dead += [f"{named(path)}: {page}.md §{number}" for number in wanted if number not in sections(page)]
@@ -107,16 +112,20 @@ def test_every_reference_to_the_rules_leads_to_a_section() -> None:
     assert not dead
 
 
+@cache
+def file_names() -> set[str]:
+    return {path.name for folder in TOP_FOLDERS for path in (ROOT / folder).rglob("*")}
+
+
 @pytest.mark.parametrize("page", PAGES, ids=named)
 def test_files_that_a_page_names_exist(page: Path) -> None:
-    names = {path.name for folder in TOP_FOLDERS for path in (ROOT / folder).rglob("*")}
     missing = []
-    for word in re.findall(r"`([\w./*-]+)`", page.read_text("utf-8")):
+    for word in re.findall(r"`([\w./*-]+)`", text_of(page)):
         if "/" in word and word.split("/")[0] in TOP_FOLDERS:
             exists = any(ROOT.glob(word.rstrip("/")))
         elif word.endswith(".py"):
             # A tour may shorten: `circle.py`, `objects/mine.py` for a file somewhere below the package.
-            exists = any(ROOT.glob(f"**/{word}")) if "*" in word or "/" in word else word in names
+            exists = any(ROOT.glob(f"**/{word}")) if "*" in word or "/" in word else word in file_names()
         else:
             continue
         missing += [] if exists else [word]
@@ -125,14 +134,12 @@ def test_files_that_a_page_names_exist(page: Path) -> None:
 
 def test_constants_that_pages_and_docstrings_name_exist() -> None:
     word = r"(?!PYTHON)[A-Z][A-Z\d_]{3,}"
-    texts = {path: path.read_text("utf-8") for path in SOURCES if path != Path(__file__)}
+    texts = {path: text_of(path) for path in SOURCES if path != Path(__file__)}
     homes = {(path.stem, name) for path, text in texts.items() for name in re.findall(rf"\b({word})\b[^=\n]* = ", text)}
     # What is between quotes is a variable of the environment, or a file's name.
     quoted = {name for text in texts.values() for name in re.findall(rf"[\"']({word})[\"']", text)}
     known = quoted | {name for _, name in homes}
-    in_pages = [
-        (page, name) for page in PAGES for name in re.findall(rf"`(?:\w+\.)*({word})`", page.read_text("utf-8"))
-    ]
+    in_pages = [(page, name) for page in PAGES for name in re.findall(rf"`(?:\w+\.)*({word})`", text_of(page))]
     in_docstrings = [
         (path, home) for path, text in texts.items() for home in re.findall(rf"``([a-z]\w*)\.({word})``", text)
     ]
@@ -149,7 +156,7 @@ def test_the_page_on_latency_says_how_old_a_tap_may_be() -> None:
 
 def test_every_tool_is_listed_with_its_module_name() -> None:
     page = (ROOT / "docs" / "tools.md").read_text("utf-8")
-    scripts = [path for path in (ROOT / "tools").rglob("*.py") if '__name__ == "__main__"' in path.read_text("utf-8")]
+    scripts = [path for path in (ROOT / "tools").rglob("*.py") if '__name__ == "__main__"' in text_of(path)]
     modules = {".".join(path.relative_to(ROOT / "tools").with_suffix("").parts) for path in scripts} - {"dev"}
     assert set(re.findall(r"^\| `([\w.]+)[ `]", page, re.MULTILINE)) == modules
 
@@ -176,9 +183,7 @@ def test_every_public_name_has_a_docstring(module: ModuleType) -> None:
 
 def test_documents_that_sources_name_exist() -> None:
     named_pages = {
-        page
-        for path in SOURCES
-        for page in re.findall(r"\bdocs/[\w./-]*\w\.(?:md|svg|png|gif)", path.read_text("utf-8"))
+        page for path in SOURCES for page in re.findall(r"\bdocs/[\w./-]*\w\.(?:md|svg|png|gif)", text_of(path))
     }
     assert not [page for page in named_pages if not (ROOT / page).is_file()]
 
@@ -189,6 +194,6 @@ def test_nothing_is_said_in_a_private_dialect(phrase: str) -> None:
     found = []
     for path in [*SOURCES, *PAGES, *(ROOT / "ninja_game" / "web").rglob("*.js")]:
         if not any(path.is_relative_to(each) for each in exempt):
-            text = path.read_text("utf-8")
+            text = text_of(path)
             found += [f"{named(path)}: {match.group()}" for match in re.finditer(phrase, text, re.IGNORECASE)]
     assert not found, f"better: {PHRASES[phrase]}"

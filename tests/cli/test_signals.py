@@ -30,13 +30,13 @@ def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_sigterm_ends_a_command_with_all_its_processes(name: str, work: Path) -> None:
     if not compiled_available() and "memory plain" not in COMMANDS[name]:
         pytest.skip("Numba is not installed")
-    code, left = ended(COMMANDS[name], signal.SIGTERM, 2.5, work)
+    code, left = ended(COMMANDS[name], signal.SIGTERM, 1.5, work)
     assert (code, left) == (143, [])
 
 
 @pytest.mark.parametrize("name", the_rest_is_slow(["verify on processes", "verify in one process", "trace"], 1))
 def test_interrupt_ends_a_command_with_all_its_processes(name: str, work: Path) -> None:
-    code, left = ended(COMMANDS[name], signal.SIGINT, 1.5, work)
+    code, left = ended(COMMANDS[name], signal.SIGINT, 1.0, work)
     assert (code, left) == (130, [])
 
 
@@ -46,7 +46,7 @@ def test_a_command_that_still_compiles_ends_too(
     name: str, work: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
-    code, left = ended(COMMANDS[name], signal.SIGINT, 2.5, work)
+    code, left = ended(COMMANDS[name], signal.SIGINT, 1.5, work)
     assert (code, left) == (130, [])
 
 
@@ -55,7 +55,7 @@ def test_a_command_has_less_than_two_seconds_to_end_by_itself() -> None:
 
 
 def test_workers_do_not_outlive_a_killed_parent(work: Path) -> None:
-    code, left = ended(COMMANDS["verify on processes"], signal.SIGKILL, 2.5, work)
+    code, left = ended(COMMANDS["verify on processes"], signal.SIGKILL, 1.5, work)
     assert code == -signal.SIGKILL
     assert "a process" not in left
 

@@ -29,6 +29,9 @@ if not compiled_available():
 
 LEDGE = "0" * 23 * 8 + ("0" * 20 + "111") * 2 + "0" * 23 * 21 + "|5^100,566!11^300,566,228,494"
 CLOSED_IN = "0" * 23 * 5 + "1" * 23 + "0" * 23 * 25 + "|5^60,566!11^400,566,330,566"
+TICKS = "100000"
+"""Of a search: enough for each of these levels."""
+
 WALLED_GOLD = "0" * 23 * 20 + "1" * 23 + "0" * 23 * 10 + "|5^60,566!11^400,566,330,566!0^90,566!0^700,300"
 
 
@@ -52,7 +55,7 @@ def test_threads_default_to_the_cores_that_this_process_may_use(monkeypatch: pyt
 
 def test_solve_writes_a_replay_that_passes(tmp_path: Path) -> None:
     out = tmp_path / "out.replay.txt"
-    result = command("solve", level_file(tmp_path, WALK), "--ticks", "300000", "--jobs", "1", "-o", out)
+    result = command("solve", level_file(tmp_path, WALK), "--ticks", TICKS, "--jobs", "1", "-o", out)
     assert result.exit_code == 0
     assert f"{WALK_END} ticks" in result.stdout
     replay = parse_replay(out.read_text("utf-8"))
@@ -73,7 +76,7 @@ def test_source_is_not_written_over(command_name: str, tmp_path: Path) -> None:
 
 def test_solve_says_when_it_found_nothing(tmp_path: Path) -> None:
     out = tmp_path / "out.replay.txt"
-    result = command("solve", level_file(tmp_path, CLOSED_IN), "--ticks", "300000", "--jobs", "1", "-o", out)
+    result = command("solve", level_file(tmp_path, CLOSED_IN), "--ticks", TICKS, "--jobs", "1", "-o", out)
     assert result.exit_code == 1
     assert "no run to the exit found: exit" in result.stdout
     assert not out.exists()
@@ -82,7 +85,7 @@ def test_solve_says_when_it_found_nothing(tmp_path: Path) -> None:
 def test_solve_names_the_gold_that_it_never_got(tmp_path: Path) -> None:
     file = level_file(tmp_path, WALLED_GOLD)
     # As the help writes it; in small letters, too.
-    words = ("--gold", "ALL", "--ticks", "300000", "--jobs", "1", "-o", tmp_path / "out.replay.txt")
+    words = ("--gold", "ALL", "--ticks", TICKS, "--jobs", "1", "-o", tmp_path / "out.replay.txt")
     result = command("solve", file, *words)
     assert result.exit_code == 1
     assert "no run with 2 gold to the exit found: 1 at most were collected at once" in result.stdout
@@ -92,7 +95,7 @@ def test_solve_names_the_gold_that_it_never_got(tmp_path: Path) -> None:
 def test_improve_shortens_a_recording(tmp_path: Path) -> None:
     slow = write_records(tmp_path / "slow.txt", ("Slow", WALK, f"40:{'0|' * 2}{'35791394|' * 4}"))
     out = tmp_path / "out.replay.txt"
-    result = command("improve", slow, "--ticks", "300000", "--jobs", "1", "-o", out)
+    result = command("improve", slow, "--ticks", TICKS, "--jobs", "1", "-o", out)
     assert result.exit_code == 0, result.stderr
     assert "14 ticks shorter" in result.stdout
     assert parse_replay(out.read_text("utf-8")).final_tick == WALK_END
@@ -100,7 +103,7 @@ def test_improve_shortens_a_recording(tmp_path: Path) -> None:
 
 def test_improve_says_where_no_way_leads_to_the_exit(tmp_path: Path) -> None:
     dead = write_records(tmp_path / "dead.txt", ("Dead", SPIKED, running(60)))
-    result = command("improve", dead, "--seconds", "0.5", "-o", tmp_path / "out.txt")
+    result = command("improve", dead, "--ticks", "20000", "--jobs", "1", "-o", tmp_path / "out.txt")
     assert result.exit_code == 1
     assert "dead in tick 15: mine 1" in result.stdout
     assert "no way to the exit found from there" in result.stdout
@@ -111,7 +114,7 @@ def test_improve_says_where_no_way_leads_to_the_exit(tmp_path: Path) -> None:
 def test_improve_leads_a_run_that_ends_before_the_exit_there(tmp_path: Path, demo: str) -> None:
     short = write_records(tmp_path / "short.txt", ("Short", WALK, demo))
     out = tmp_path / "out.replay.txt"
-    result = command("improve", short, "--ticks", "300000", "--jobs", "1", "-o", out)
+    result = command("improve", short, "--ticks", TICKS, "--jobs", "1", "-o", out)
     assert result.exit_code == 0, result.output
     replay = parse_replay(out.read_text("utf-8"))
     assert (replay.outcome, replay.final_tick <= WALK_END + 20) == ("exit", True)
@@ -122,7 +125,7 @@ def test_improve_goes_on_from_its_best_run_and_says_so_in_its_log(tmp_path: Path
     slow = write_records(tmp_path / "slow.txt", ("Slow", WALK, f"40:{'0|' * 2}{'35791394|' * 4}"))
     out, log = tmp_path / "out.replay.txt", tmp_path / "night.log"
     words = "improve", slow, "--jobs", "1", "--resume", log, "-o", out
-    assert command(*words, "--ticks", "300000").exit_code == 0
+    assert command(*words, "--ticks", TICKS).exit_code == 0
     again = command(*words, "--ticks", "1")
     assert again.exit_code == 0, again.output
     assert parse_replay(out.read_text("utf-8")).final_tick == WALK_END
@@ -155,20 +158,20 @@ def test_check_certifies_and_keeps_replays(tmp_path: Path) -> None:
     level_file(tmp_path, WALK, "good.txt")
     level_file(tmp_path, CLOSED_IN, "shut.txt")
     runs = tmp_path / "runs"
-    result = command("check", tmp_path, "--ticks", "300000", "--jobs", "1", "--replays", runs, "--json")
+    result = command("check", tmp_path, "--ticks", TICKS, "--jobs", "1", "--replays", runs, "--json")
     assert result.exit_code == 1
     good, shut = (json.loads(line) for line in result.stdout.splitlines())
     assert (good["solvable"], good["runs"]["exit"]["ticks"]) == (True, WALK_END)
     assert (shut["solvable"], shut["runs"]["exit"]) == (None, None)
     assert [path.name for path in runs.iterdir()] == ["good.exit.replay.txt"]
-    result = command("check", tmp_path / "good.txt", "--ticks", "300000", "--jobs", "1")
+    result = command("check", tmp_path / "good.txt", "--ticks", TICKS, "--jobs", "1")
     assert result.exit_code == 0
     assert "solvable best   0.575 s" in result.stdout
 
 
 def check_both(level: Path, runs: Path, *words: str) -> str:
     """What `ninja-game check --gold both` says of a level whose runs are kept; all goals must be met."""
-    result = command("check", level, "--gold", "both", "--ticks", "300000", "--jobs", "1", "--replays", runs, *words)
+    result = command("check", level, "--gold", "both", "--ticks", TICKS, "--jobs", "1", "--replays", runs, *words)
     assert result.exit_code == 0, result.output
     return result.stdout
 
@@ -191,7 +194,7 @@ def test_a_run_that_is_kept_is_shortened_where_that_is_asked_for(tmp_path: Path)
     save_replay(runs / "level.exit.replay.txt", slow)
     said = command("check", level, "--replays", runs).stdout
     assert f"{WALK_END + 20} ticks" in said
-    said = command("check", level, "--ticks", "300000", "--jobs", "1", "--replays", runs, "--improve").stdout
+    said = command("check", level, "--ticks", TICKS, "--jobs", "1", "--replays", runs, "--improve").stdout
     assert f"{WALK_END} ticks" in said
     assert "shortened" in said
     assert load_replays(runs / "level.exit.replay.txt")[0].ticks == WALK_END + 1
@@ -222,15 +225,15 @@ def test_a_damaged_replay_is_named_and_not_replaced(tmp_path: Path) -> None:
 
 def test_missing_gold_is_told_and_does_not_fail_the_check(tmp_path: Path) -> None:
     level = level_file(tmp_path, WALLED_GOLD)
-    result = command("check", level, "--gold", "both", "--ticks", "300000", "--jobs", "1", "--json")
+    result = command("check", level, "--gold", "both", "--ticks", TICKS, "--jobs", "1", "--json")
     assert result.exit_code == 0
     assert json.loads(result.stdout)["runs"]["gold"] is None
-    result = command("check", level, "--gold", "both", "--ticks", "300000", "--jobs", "1")
+    result = command("check", level, "--gold", "both", "--ticks", TICKS, "--jobs", "1")
     assert (
         "all gold no run found: 1 at most were collected at once, never gold at 29,12 (700,300px, object 3)"
         in result.stdout
     )
-    assert command("check", level, "--gold", "all", "--ticks", "300000", "--jobs", "1").exit_code == 1
+    assert command("check", level, "--gold", "all", "--ticks", TICKS, "--jobs", "1").exit_code == 1
 
 
 def test_the_first_run_will_do_where_that_is_asked_for(tmp_path: Path) -> None:
@@ -244,7 +247,7 @@ def test_check_gives_every_certificate_a_name_of_its_own(tmp_path: Path) -> None
         (tmp_path / folder).mkdir()
         level_file(tmp_path / folder, WALK, name)
     command(
-        "check", *(tmp_path / part for part in "abc"), "--ticks", "300000", "--jobs", "1", "--replays", tmp_path / "out"
+        "check", *(tmp_path / part for part in "abc"), "--ticks", TICKS, "--jobs", "1", "--replays", tmp_path / "out"
     )
     names = ["X-3.exit.replay.txt", "x-2.exit.replay.txt", "x.exit.replay.txt"]
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == names
@@ -289,17 +292,17 @@ def test_a_run_without_a_name_is_called_after_its_level(tmp_path: Path, monkeypa
 def test_a_certificate_names_its_level_and_who_made_it(tmp_path: Path) -> None:
     level = tmp_path / "walk.txt"
     level.write_text(write_ascii_level(parse_level_string(WALK), name="A walk", author="Ann"))
-    assert command("check", level, "--ticks", "300000", "--jobs", "1", "--replays", tmp_path / "out").exit_code == 0
+    assert command("check", level, "--ticks", TICKS, "--jobs", "1", "--replays", tmp_path / "out").exit_code == 0
     (found,) = load_levels(tmp_path / "out" / "walk.exit.replay.txt")
     assert (found.name, found.author) == ("A walk", "Ann")
 
 
 def test_a_locked_door_that_the_run_does_not_open_is_told(tmp_path: Path) -> None:
     level = level_file(tmp_path, WALK + "!9^400,100,0,0,20,14,1,0,0")
-    result = command("check", level, "--ticks", "300000", "--jobs", "1")
+    result = command("check", level, "--ticks", TICKS, "--jobs", "1")
     assert "warning: locked door at 20,14 (object 3): the run does not open it" in result.stdout
     opened = level_file(tmp_path, WALK + "!9^120,566,0,0,20,14,1,0,0")
-    assert "does not open it" not in command("check", opened, "--ticks", "300000", "--jobs", "1").stdout
+    assert "does not open it" not in command("check", opened, "--ticks", TICKS, "--jobs", "1").stdout
 
 
 def test_a_level_without_a_ninja_is_an_error_of_check_and_the_others_are_checked(tmp_path: Path) -> None:
@@ -307,7 +310,7 @@ def test_a_level_without_a_ninja_is_an_error_of_check_and_the_others_are_checked
     folder.mkdir()
     level_file(folder, NO_NINJA, "a.txt")
     level_file(folder, WALK, "b.txt")
-    result = command("check", folder, "--ticks", "300000", "--jobs", "1")
+    result = command("check", folder, "--ticks", TICKS, "--jobs", "1")
     assert result.exit_code == 2
     assert f"{folder / 'a.txt'}:1: this level cannot be played: it has no ninja" in result.stderr
     assert "2 levels, 1 solvable, 0 not solved in the time, 1 cannot be played" in result.stdout
@@ -316,7 +319,7 @@ def test_a_level_without_a_ninja_is_an_error_of_check_and_the_others_are_checked
 def test_improving_keeps_name_and_author_and_says_when_nothing_was_found(tmp_path: Path) -> None:
     path = write_records(tmp_path / "walk.txt", ("Walk", WALK, running(WALK_END)))
     out = tmp_path / "out.replay.txt"
-    result = command("improve", path, "--ticks", "100000", "--jobs", "1", "-o", out)
+    result = command("improve", path, "--ticks", TICKS, "--jobs", "1", "-o", out)
     assert result.exit_code == 0, result.stderr
     assert "no shorter run was found" in result.stdout
     replay = parse_replay(out.read_text())

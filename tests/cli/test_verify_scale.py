@@ -14,8 +14,8 @@ from tests.support.samples import SPIKED, WALK, WALK_END, running, write_records
 
 
 def verify(*words: str | Path) -> Result:
-    """`ninja-game verify --memory plain WORDS…`."""
-    return CliRunner().invoke(cli, ["verify", "--memory", "plain", *map(str, words)])
+    """`ninja-game verify --memory plain --workers threads WORDS…`."""
+    return CliRunner().invoke(cli, ["verify", "--memory", "plain", "--workers", "threads", *map(str, words)])
 
 
 @pytest.fixture
@@ -48,7 +48,7 @@ def test_a_report_is_else_the_table_of_the_terminal(archive: Path, tmp_path: Pat
 
 def test_resuming_tells_the_same(archive: Path, tmp_path: Path) -> None:
     log = tmp_path / "log"
-    first = verify(archive, "--resume", log, "--jobs", "2", "--workers", "threads")
+    first = verify(archive, "--resume", log, "--jobs", "2")
     again = verify(archive, "--resume", log)
     assert first.stdout == again.stdout == verify(archive).stdout
     assert len(log.read_text().splitlines()) == 1 + 3

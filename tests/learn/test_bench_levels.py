@@ -41,6 +41,7 @@ def test_grades_take_turns_and_tell_how_long_a_known_run_is() -> None:
         assert found.grade == "hard" or len(found.inputs) <= {"easy": 120, "medium": 240}[found.grade]
 
 
+@pytest.mark.slow
 def test_no_level_of_the_test_is_one_to_learn_in() -> None:
     train, test = (_bases(split) for split in COUNTS)
     assert (len(train), len(test), len({*train, *test})) == (900, 100, BASES)

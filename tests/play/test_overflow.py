@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
+from itertools import product
 from pathlib import Path
 from unittest.mock import patch
 
@@ -37,32 +38,40 @@ def pack_of_long_names(folder: Path) -> Path:
 
 
 @pytest.mark.parametrize(
-    "steps, texts", [(tour, TEXT_SIZES), (tas_editor, {"normal": 100})], ids=["game", "tas-editor"]
+    "steps, shown",
+    [
+        pytest.param(tour, [(size, TEXT_SIZES["largest"]) for size in SIZES], id="game"),
+        pytest.param(tour, [*product(SIZES, TEXT_SIZES.values())], id="game-in-all-sizes", marks=pytest.mark.slow),
+        # It has a setting of its own for the size of its text.
+        pytest.param(tas_editor, [(size, TEXT_SIZES["normal"]) for size in SIZES], id="tas-editor"),
+    ],
 )
-def test_nothing_leaves_its_place_on_any_screen(tmp_path: Path, steps: Tour, texts: dict[str, int]) -> None:
-    """The TAS editor has a setting of its own for the size of its text."""
+def test_nothing_leaves_its_place_on_any_screen(
+    tmp_path: Path, steps: Tour, shown: list[tuple[tuple[int, int], int]]
+) -> None:
+    """``shown``: sizes of the window and of the text, percent."""
     found: set[str] = set()
     pack = pack_of_long_names(tmp_path) if steps is tour else PACK
 
     def show(driver: MenuDriver, name: str) -> None:
         app = driver.app
-        with patch.object(LevelView, "draw", lambda *_, **__: None):
-            for size in SIZES:
+        for size, percent in shown:
+            if size != pygame.display.get_window_size():
                 pygame.display.set_mode(size, pygame.RESIZABLE)
-                for words, percent in texts.items():
-                    # Written to no file: this is done a thousand times.
-                    app.player.settings = app.settings.changed(text_size=percent, name=LONGEST)
-                    app._lay_out()
-                    layouts.append(Layout())
-                    app.draw()
-                    where = f"{name}: {size[0]} x {size[1]}, {words}"
-                    found.update(f"{where}: {each}" for each in layouts.pop().problems(app))
+            # Written to no file: this is done a thousand times.
+            app.player.settings = app.settings.changed(text_size=percent, name=LONGEST)
+            app._lay_out()
+            layouts.append(Layout())
+            app.draw()
+            where = f"{name}: {size[0]} x {size[1]}, text of {percent} %"
+            found.update(f"{where}: {each}" for each in layouts.pop().problems(app))
         pygame.display.set_mode(SIZES[1], pygame.RESIZABLE)
         app._lay_out()
         driver.frames(1, ms=0)
 
     with (
         noted() as layouts,
+        patch.object(LevelView, "draw", lambda *_, **__: []),
         patch("tests.support.game_screens.instead_of_ours", lambda: patch.dict(CHECKOUT, levels=pack)),
     ):
         run_tour(tmp_path / "player", SIZES[1], show, steps)

@@ -39,6 +39,7 @@ def test_other_sounds_than_loops_die_away_before_they_end(name: str) -> None:
     assert heard[-RATE // 100 :].max() <= 0.3 * heard.max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*RECIPES, *TRACKS])
 def test_a_file_keeps_the_limits(name: str) -> None:
     found = measured(name)
@@ -56,6 +57,7 @@ def test_every_family_of_sounds_has_bright_ones() -> None:
     assert min(measured(name).edge for name in RECIPES if name.startswith(("step", "jump", "land", "wall"))) > 16_000
 
 
+@pytest.mark.slow
 def test_no_two_sounds_are_the_same() -> None:
     for one, two in combinations(sorted(RECIPES), 2):
         assert likeness(one, two) < 0.95, (one, two)
@@ -94,6 +96,7 @@ def test_all_files_together_are_small(root: Path) -> None:
     assert sum(path.stat().st_size for path in (root / "assets" / "sounds").rglob("*.ogg")) <= 4_000_000
 
 
+@pytest.mark.slow
 def test_the_page_has_what_is_measured() -> None:
     """Regenerate with `python3 tools/dev.py tool measure.sound_levels --write`."""
     table = PAGE.read_text("utf-8").split(HEADING)[1]

@@ -54,7 +54,8 @@ from tests.support.samples import (
     write_records,
 )
 
-verify_plainly = partial(verify_all, memory="plain")
+verify_plainly = partial(verify_all, memory="plain", processes=False)
+"""In threads: processes of its own would take longer than all that they are to do."""
 
 
 @pytest.fixture
@@ -105,13 +106,16 @@ def test_files_come_in_the_order_of_their_names_as_paths_have_it(archive: Path) 
     assert len(found) == 7
 
 
-@pytest.mark.parametrize("options", [{"jobs": 1}, {"jobs": 3}, {"jobs": 2, "processes": True}])
+@pytest.mark.parametrize("jobs, processes", [(1, False), (3, False), (2, None)])
 def test_results_do_not_depend_on_the_workers(
-    options: dict[str, int], archive: Path, monkeypatch: pytest.MonkeyPatch
+    jobs: int, processes: bool | None, archive: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """The plain memory runs on processes unless threads are asked for."""
     monkeypatch.setattr(archives, "JOB_WEIGHT", 2)
-    options = {"processes": False, **options}
-    assert list(verify_plainly([archive], **options)) == expected(archive)  # type: ignore[arg-type]
+    results = verify_plainly([archive], jobs=jobs, processes=processes)
+    first = next(results)
+    assert bool(active_children()) == (processes is None)
+    assert [first, *results] == expected(archive)
 
 
 def test_an_empty_folder_is_said(tmp_path: Path) -> None:
@@ -167,7 +171,7 @@ def test_a_journal_lets_a_stopped_run_go_on_where_it_was(
 ) -> None:
     monkeypatch.setattr(archives, "JOB_WEIGHT", 1)
     path = tmp_path / "log"
-    stopped = verify_plainly([archive], jobs=1, processes=False, resume=path)
+    stopped = verify_plainly([archive], jobs=1, resume=path)
     for _ in range(RECORDS + 3):
         next(stopped)
     stopped.close()  # type: ignore[attr-defined]
@@ -181,10 +185,10 @@ def test_a_journal_lets_a_stopped_run_go_on_where_it_was(
         return verify_chunk(chunk, *asked)
 
     monkeypatch.setattr(archives, "verify_chunk", spy)
-    assert list(verify_plainly([archive], jobs=1, processes=False, resume=path)) == expected(archive)
+    assert list(verify_plainly([archive], jobs=1, resume=path)) == expected(archive)
     assert len(ran) == 8 - done
     ran.clear()
-    assert list(verify_plainly([archive], jobs=1, processes=False, resume=path)) == expected(archive)
+    assert list(verify_plainly([archive], jobs=1, resume=path)) == expected(archive)
     assert not ran
 
 

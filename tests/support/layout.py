@@ -102,31 +102,32 @@ def _name(widget: Widget) -> str:
 
 @contextmanager
 def noted() -> Iterator[list[Layout]]:
-    """While it lasts what is drawn is noted in the last layout of the list."""
-    layouts = [Layout()]
+    """While it lasts what is drawn is noted in the last layout of the list, if there is one."""
+    layouts: list[Layout] = []
     draw_text, fill, window, fit = Lettering.draw, Canvas.fill_rect, Theme.window, Theme._fit
 
     def draw(self: Lettering, surface: pygame.Surface | None, text: str, *args: Any, **options: Any) -> pygame.Rect:
         rect = draw_text(self, surface, text, *args, **options)
-        if surface is not None and text and _is_of_window(surface):
+        if layouts and surface is not None and text and _is_of_window(surface):
             layouts[-1].write(text, rect, surface)
         return rect
 
     def fill_rect(self: Canvas, surface: pygame.Surface, colour: Any, *place: Any, **options: Any) -> pygame.Rect:
         rect = fill(self, surface, colour, *place, **options)
-        if pygame.Color(colour).a == 255 and place[2] >= SMALLEST_BOX[0] and place[3] >= SMALLEST_BOX[1]:
+        if layouts and pygame.Color(colour).a == 255 and place[2] >= SMALLEST_BOX[0] and place[3] >= SMALLEST_BOX[1]:
             layouts[-1].cover(rect, everything=False)
         return rect
 
     def fitted(self: Theme, text: str, *args: Any, **options: Any) -> str:
         drawn = fit(self, text, *args, **options)
-        if drawn != text and LONG_NAME not in text and "/" not in text:
+        if layouts and drawn != text and LONG_NAME not in text and "/" not in text:
             layouts[-1].shortened.add(drawn)
         return drawn
 
     def draw_window(self: Theme, surface: pygame.Surface, *place: float) -> pygame.Rect:
         rect = window(self, surface, *place)
-        layouts[-1].cover(rect, everything=True)
+        if layouts:
+            layouts[-1].cover(rect, everything=True)
         return rect
 
     def blank(self: StrokeFont, text: str, _: Any) -> pygame.Surface:
@@ -159,10 +160,10 @@ def _kinds(kind: type[Widget]) -> Iterator[type[Widget]]:
 
 def _owned(draw: Callable[..., None], layouts: list[Layout]) -> Callable[..., None]:
     def owned(widget: Widget, *args: Any, **options: Any) -> None:
-        layouts[-1].owners.append(widget)
-        try:
-            draw(widget, *args, **options)
-        finally:
+        if layouts:
+            layouts[-1].owners.append(widget)
+        draw(widget, *args, **options)
+        if layouts:
             layouts[-1].owners.pop()
 
     return owned

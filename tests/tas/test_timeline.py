@@ -168,16 +168,14 @@ def test_watched_values_are_those_of_a_search(name: str, memory: str) -> None:
             continue
         formulas += [f"object_x({id_}) + object_y({id_})"]
         formulas += [f"{what}({id_})" for what in FLAGS if kind in FLAGS[what]]
-    watched = {text: parse_watch(text).values(timeline) for text in formulas}
+    watches = {text: parse_watch(text) for text in formulas}
+    watched = {text: watch.values(timeline) for text, watch in watches.items()}
     batch = Batch(recording.level, 1, memory="plain")
     for tick, keys in enumerate(fit_inputs(inputs, len(timeline))):
         batch.run([[keys]])
         view = view_of(batch)
-        for text in formulas:
-            assert np.array_equal(watched[text][tick], parse_watch(text).formula.value(view)[0], equal_nan=True), (
-                text,
-                tick,
-            )
+        for text, watch in watches.items():
+            assert np.array_equal(watched[text][tick], watch.formula.value(view)[0], equal_nan=True), (text, tick)
     changed = [text for text in formulas if text.startswith(("opened", "taken")) and len(set(watched[text])) > 1]
     assert any(text.startswith("opened") for text in changed), "the exit's door opens"
 

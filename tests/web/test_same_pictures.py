@@ -15,6 +15,7 @@ from ninja_game.play.app import App, build_app
 from ninja_game.ui.audio.player import AudioOutput
 from ninja_game.ui.theme import PALETTES
 from tests.support.page_scenes import Scene, scenes, show_scene
+from tests.support.slow import the_rest_is_slow
 from tests.support.web_page import BUSY, SCENES, SIZE, run_in
 
 MOST = 1.6
@@ -72,7 +73,7 @@ def test_scenes_are_twenty_over_all_palettes() -> None:
     assert {palette for _, palette, _ in ALL} == set(PALETTES)
 
 
-@pytest.mark.parametrize("scene", ALL, ids=lambda scene: scene[0])
+@pytest.mark.parametrize("scene", the_rest_is_slow({scene[0]: scene for scene in ALL}, 10))
 def test_a_scene_looks_as_it_does_here(scene: Scene, app: App, page: Any) -> None:
     show_scene(app, scene)
     here = pixels(pygame.image.tobytes(app.surface, "RGBA"))

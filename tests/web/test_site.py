@@ -11,6 +11,7 @@ import threading
 import urllib.error
 import urllib.request
 from contextlib import nullcontext
+from functools import cache
 from http.server import ThreadingHTTPServer
 from pathlib import Path
 from unittest.mock import Mock
@@ -22,15 +23,25 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.files.user_folder import PACKAGE, bundled_replays, data_folder
+from ninja_game.web.pages.documents import Documents
 from ninja_game.web.site import build, game_archive
 from ninja_game.web.site.build import site_server
 from ninja_game.web.site.game_archive import LEFT_OUT
 from tests.support.slow import the_rest_is_slow
 
+DOCUMENTS = cache(lambda address: Documents(address).build())
+COMPRESS = gzip.compress
+
 
 @pytest.fixture
 def pyodide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with stand-ins for Pyodide's files, small ones, that count as the right version; no Node.js."""
+    """A folder with stand-ins for Pyodide's files, small ones, that count as the right version; no Node.js.
+
+    What takes long is made once for all sites, and compressed little.
+    """
+    monkeypatch.setattr(build, "Documents", lambda address: Mock(build=lambda: dict(DOCUMENTS(address))))
+    quick = "ninja_game.web.site.game_archive.gzip.compress"
+    monkeypatch.setattr(quick, lambda data, _, mtime: COMPRESS(data, 1, mtime=mtime))
     monkeypatch.setattr("ninja_game.web.site.game_archive.shutil.which", lambda _: None)
     folder = tmp_path / "pyodide"
     folder.mkdir()
@@ -65,6 +76,7 @@ def test_the_same_files_give_the_same_site_and_old_ones_go(pyodide: Path, tmp_pa
     (out / build.MARK).write_text(json.dumps(mark))
     (out / "old.js").write_text("of an earlier version")
     (tmp_path / "outside.txt").write_text("not in the folder")
+    DOCUMENTS.cache_clear()
     build.build_site(out, pyodide, tmp_path)
     assert {name: (out / name).read_bytes() for name in names} == before
     assert names_in(out) == names | {"mine.txt"}

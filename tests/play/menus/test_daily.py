@@ -66,7 +66,8 @@ def opened(driver: MenuDriver) -> DailyScreen:
     return screen
 
 
-def test_the_daily_level_is_made_once_played_and_in_the_list_of_levels(making: MenuDriver) -> None:
+def test_the_daily_level_is_made_once_beside_other_days_played_and_in_the_list_of_levels(making: MenuDriver) -> None:
+    assert PACKED(making.player.folder / "levels", date(2026, 11, 24))
     screen = opened(making)
     assert screen.entry is not None, screen.message
     assert screen.entry.pars is not None
@@ -79,6 +80,12 @@ def test_the_daily_level_is_made_once_played_and_in_the_list_of_levels(making: M
     making.press("escape")
     assert opened(making).entry is not None
     assert (screen.file.read_bytes(), screen.file.stat().st_mtime_ns) == before
+    pack = Pack(screen.file.parent)
+    assert len(pack.levels) == len(pack.pars) == 2
+    for file in pack.levels:
+        found = certificate(pack, file, "exit")
+        assert found is not None
+        assert found.problems == []
 
 
 def test_the_days_that_come_with_the_game_need_no_compiler(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -105,17 +112,6 @@ def test_a_hundred_weeks_of_days_come_with_the_game(tmp_path: Path) -> None:
     assert len(seen) == 4
     assert not daily.take_packed(tmp_path, daily.FIRST - timedelta(1))
     assert not daily.take_packed(tmp_path, last + timedelta(1))
-
-
-def test_a_second_day_joins_the_first(tmp_path: Path, making: MenuDriver) -> None:
-    assert PACKED(tmp_path, date(2026, 11, 24))
-    assert daily.make_daily(tmp_path, DAY, report=lambda _: None, stop=Event())
-    pack = Pack(tmp_path / DAILY)
-    assert len(pack.levels) == len(pack.pars) == 2
-    for file in pack.levels:
-        found = certificate(pack, file, "exit")
-        assert found is not None
-        assert found.problems == []
 
 
 def test_without_numba_it_is_said(making: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,7 +16,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.replays import FIRST_SECONDS, ReplaysScreen, _row_of_recording
 from ninja_game.play.rooms import room_level
 from ninja_game.player.player_data import PlayerData
-from tests.support.layout import noted
+from tests.support.layout import Layout, noted
 from tests.support.menu_driver import MenuDriver
 
 MANY = 10_000
@@ -114,6 +114,7 @@ def test_only_who_has_killed_is_named(driver: MenuDriver) -> None:
         if killer:
             driver.player.statistics.attempt_ended("x", killer=killer, passed=False, ticks=1, gold=0)
         with noted() as layouts:
+            layouts.append(Layout())
             driver.open("Records")
         texts = {each.text for each in layouts[-1].texts}
         assert texts & {"Mine", "Thwump", "Nothing so far"} == {seen}
