@@ -139,6 +139,7 @@ class TasScreen(WorkspaceScreen):
             self.session.timeline.simulate(self.session.ticks_per_frame)
         for part in (self.level, self.roll, *self.tabs):
             part.update(real_ms)
+        self.editor.preview = self.tab.preview
         self.follow_parts()
 
 

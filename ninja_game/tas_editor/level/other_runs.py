@@ -23,7 +23,6 @@ from ninja_game.player.records import SavedReplay
 from ninja_game.runs.run import run_level
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import runs_of_level, same_level, track_of
-from ninja_game.tas.timeline import Timeline
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.widgets import Button, Widget
@@ -100,11 +99,8 @@ def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
     if not same_level(recording, about):
         what = "body" if recording.body != about.body else "level"
         raise ReplayError(f"{recording.name or 'this run'} is a run with another {what} than the one in the TAS editor")
-    track = track_of(recording)
-    timeline = Timeline(about.level, track.inputs, body=about.body, memory=editor.session.timeline.memory)
-    timeline.simulate(len(timeline))
     name = _free_name(recording, about, {other.name for other in editor.others})
-    return OtherRun(name, track, timeline.trajectory(), Contributions.of(recording))
+    return editor.other_run(name, track_of(recording), Contributions.of(recording))
 
 
 def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:

@@ -11,7 +11,7 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.workspace import Commands
 from ninja_game.search.formula.language import FormulaError
-from ninja_game.tas_editor.editor import TasEditor, TasPart
+from ninja_game.tas_editor.editor import OtherRun, TasEditor, TasPart
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
@@ -28,6 +28,11 @@ class Tab(TasPart):
 
     slot = "tabs"
     name: ClassVar[str] = ""
+
+    @property
+    def preview(self) -> OtherRun | None:
+        """The run that is looked at in it."""
+        return None
 
     def place(self, area: Area) -> None:
         super().place(area)
@@ -111,12 +116,17 @@ class Rows(ListView):
 
     def __init__(
         self, draw_row: Callable[[pygame.Surface, Theme, int, Area, bool], None], choose: Callable[[int], object],
-        *, empty: str = "", hint: str = "", keeps: bool = True,
+        *, empty: str = "", hint: str = "", keeps: bool = True, opens: bool = False,
     ) -> None:  # fmt: skip
-        super().__init__(UNPLACED, ROW, self._draw_row, choose, empty=empty, hint=hint)
+        super().__init__(UNPLACED, ROW, self._draw_row, choose, empty=empty, hint=hint, opens=opens)
         self.over = -1
         self._keeps = keeps
         self._draw = draw_row
+
+    @property
+    def looked_at(self) -> int:
+        """The row under the mouse, else the one that was clicked last, or -1."""
+        return self.over if self.over >= 0 else self._clicked
 
     def draw_heads(
         self, surface: pygame.Surface, theme: Theme, first: str, heads: Sequence[str], places: Sequence[float]
