@@ -346,14 +346,11 @@ def film_colours(palette: Palette, ghosts: int = 0) -> list[int]:
 class FilmJob:
     """A film made in the background. ``done`` and then ``result``, a sentence for the player.
 
-    ``folder``: the player's; ``ghosts``: runs that go along.
+    ``folder``: the player's.
     """
 
-    def __init__(
-        self, run: Recording, settings: Settings, folder: Path, ghosts: Sequence[Recording] = ()
-    ) -> None:  # fmt: skip
-        self._film = Film(run, settings=settings, ghosts=tuple(ghosts))
-        self._folder = folder
+    def __init__(self, film: Film, folder: Path) -> None:
+        self._film, self._folder = film, folder
         self._count = 1
         self._made = 0
         self._wanted = True

@@ -250,12 +250,11 @@ class ReplayScreen(Screen):
 
     def start_export(self) -> None:
         if self.export is None:
-            from ninja_game.play.replay.film import FilmJob  # few replays are filmed
+            from ninja_game.play.replay.film import Film, FilmJob  # few replays are filmed
 
-            settings = self.app.settings
-            ghosts = self._beside if settings.show_ghost else ()
-            settings = settings.changed(palette=self.theme.palette.base.name)
-            self.export = FilmJob(self.run, settings, self.app.player.folder, ghosts)
+            settings = self.app.settings.changed(palette=self.theme.palette.base.name)
+            ghosts = tuple(self._beside) if settings.show_ghost else ()
+            self.export = FilmJob(Film(self.run, settings=settings, ghosts=ghosts), self.app.player.folder)
 
     def copy_link(self) -> None:
         copy_link(self.app, lambda: replay_link([_with_claims(self.run)]), title=self.run.title)
