@@ -31,13 +31,14 @@ Span = tuple[int, int]  # the first tick, and the first one behind the last
 class OtherRun:
     """A run that is shown beside the one under edit.
 
-    ``trajectory``: what its ninja does; ``made``: how, and by whom.
+    ``trajectory``: what its ninja does; ``made``: how, and by whom; ``ending``: its end in words.
     """
 
     name: str
     track: InputTrack
     trajectory: Trajectory = field(repr=False)
     made: Contributions = field(default_factory=Contributions)
+    ending: str = ""
 
     @property
     def positions(self) -> NDArray[np.float64]:
@@ -90,7 +91,7 @@ class TasEditor:
         about, memory = self.session.about, self.session.timeline.memory
         timeline = Timeline(about.level, track.inputs, body=about.body, memory=memory)
         timeline.simulate(len(timeline))
-        return OtherRun(name, track, timeline.trajectory(), made or Contributions())
+        return OtherRun(name, track, timeline.trajectory(), made or Contributions(), timeline.ending)
 
     @property
     def selection(self) -> Span:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
-from time import perf_counter
+from time import thread_time
 
 import numpy as np
 import pygame
@@ -37,7 +37,7 @@ AHEAD = 10
 QUICK = RUN_BUDGET // 100
 """Work that a run may cost only to be listed: 30 ms compiled, some ten times what a run of a minute costs."""
 LOOK_SECONDS = 0.3
-"""How long the files of a folder are looked into."""
+"""Processor time for which the files of a folder are looked into."""
 NONE_YET = "No other run is open: Ctrl+O opens one"
 
 
@@ -204,9 +204,9 @@ class RunFiles(MenuScreen):
 
     def _look(self) -> None:
         """List the folder; of its files those with runs of the level, as far as that is quickly seen."""
-        self.title, end = short_path(self.folder)[-40:], perf_counter() + LOOK_SECONDS
+        self.title, end = short_path(self.folder)[-40:], thread_time() + LOOK_SECONDS
         names = [name for name in files_in(self.folder) if name.lower().endswith(SUFFIXES)]
-        fitting = [name for name in names if perf_counter() > end or self._has_runs(self.folder / name)]
+        fitting = [name for name in names if thread_time() > end or self._has_runs(self.folder / name)]
         self.paths = [self.folder.parent, *_folders_in(self.folder), *map(self.folder.joinpath, fitting)]
         self.list.fill(self.paths)
 

@@ -36,7 +36,6 @@ from ninja_game.tas.goals import (
     pieces_of,
     whole_run,
 )
-from ninja_game.tas.timeline import Timeline
 from ninja_game.tas.tracks import InputTrack, first_difference
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
@@ -116,7 +115,7 @@ class SpanResults:
         self._fitting = [(task.inputs[:whole], (task.rest and task.behind) or task.last)]
         self.better: tuple[SpanResult, ...] = ()
         self._seen: tuple[SpanResult, ...] = ()
-        self._preview: tuple[SpanResult, OtherRun, str] | None = None
+        self._preview: tuple[SpanResult, OtherRun] | None = None
         self.search.start()
         self._started = monotonic()
         self.stopped = False
@@ -223,15 +222,10 @@ class SpanResults:
         ours, theirs = self.editor.track.inputs, found.inputs
         return first_difference(ours, theirs) == min(len(ours), len(theirs))
 
-    def looked_at(self, found: SpanResult) -> tuple[OtherRun, str]:
-        """A result as a run beside, and how it ends, in words."""
+    def looked_at(self, found: SpanResult) -> OtherRun:
         if self._preview is None or self._preview[0] is not found:
-            task = self.task
-            timeline = Timeline(task.level, found.inputs, body=task.body, memory=self.editor.session.timeline.memory)
-            timeline.simulate(len(found.inputs))
-            made = OtherRun("the result", InputTrack(found.inputs), timeline.trajectory())
-            self._preview = found, made, timeline.ending
-        return self._preview[1:]
+            self._preview = found, self.editor.other_run("the result", InputTrack(found.inputs))
+        return self._preview[1]
 
     # --- in words ---
 
@@ -258,7 +252,7 @@ class SpanResults:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
         own, words = self.search.own, score_text(self.task, found)
         if found.missed_by == 0.0:
-            words += f": {self.looked_at(found)[1] or 'it goes on'}"
+            words += f": {self.looked_at(found).ending or 'it goes on'}"
         if self._to_exit and found.missed_by is None and found.gold != self._gold:  # of the run as it was
             words += f", {abs(self._gold - found.gold)} gold {'fewer' if found.gold < self._gold else 'more'}"
         if self._others:
@@ -537,7 +531,7 @@ class SearchTab(Tab):
         if row is None or isinstance(row, RunPiece) or row[0].is_in_run(row[1]):
             return None  # of a result that was taken the change is what there is to be seen
         results, found = row
-        return results.looked_at(found)[0]
+        return results.looked_at(found)
 
     def _propose_pieces(self, results: SpanResults) -> None:
         """Once a search for something sooner has found nothing for a while: the pieces of its span.

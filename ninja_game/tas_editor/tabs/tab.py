@@ -92,7 +92,8 @@ class TabStrip(TasPart):
         super().__init__(editor)
         self.tabs, self._overlays = tabs, overlays
         names = [
-            LitButton(tab.name, partial(setattr, editor, "tab", tab.name), partial(self._is_shown, tab)) for tab in tabs
+            LitButton(tab.name, partial(setattr, editor, "tab", tab.name), partial(self._is_on, tab.name))
+            for tab in tabs
         ]
         switches = [
             LitButton(key, partial(overlays.toggle, name), partial(self._is_on, name), hint=f"{label}    {key}")
@@ -100,11 +101,8 @@ class TabStrip(TasPart):
         ]
         self.widgets = [*names, *switches]
 
-    def _is_shown(self, tab: Tab) -> bool:
-        return tab is self.shown
-
-    def _is_on(self, overlay: str) -> bool:
-        return overlay in self._overlays.on
+    def _is_on(self, name: str) -> bool:
+        return name == self.editor.tab or name in self._overlays.on
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         self.editor.hint = next((each.hint for each in self.widgets if each.contains(x, y)), "")
