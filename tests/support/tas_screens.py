@@ -25,8 +25,8 @@ from ninja_game.ui.lettering import Lettering
 from tests.support.draw_log import DrawLog, Note, px
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
+from tests.support.reference import ROOT
 from tests.support.tas_driver import TasDriver
-from tools import ROOT
 
 RUN = PACK / "certificates" / "00-4-locksmith.exit.replay.txt"
 

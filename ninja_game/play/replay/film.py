@@ -372,10 +372,9 @@ class FilmJob:
         return self._wanted
 
     def _make(self) -> None:
-        run, ghosts = self._film.run, self._film.ghosts
-        players = [] if run.file else [run.player]
-        title = " - ".join(filter(None, (run.title, *players, *names_of(ghosts))))
-        path = export_path(self._folder, title, ".gif")
+        film = self._film
+        names = dict.fromkeys((film.run.replay.name, *names_of([film.run, *film.ghosts])))
+        path = export_path(self._folder, " - ".join(filter(None, names)), ".gif")
         if write_film([self._film], path, self._report):
             self.result = f"Saved: {path}"
         self.done = True
