@@ -318,6 +318,7 @@ class SearchTab(Tab):
         self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal, str] | None = None
         self.found: tuple[SpanResult, ...] = ()
         self.earlier: list[tuple[SpanResults, SpanResult]] = []
+        self._rows: list[tuple[SpanResults, SpanResult] | RunPiece] = []
         self.pieces: tuple[RunPiece, ...] = ()
         self._in_pieces: Span | None = None
         self._cut: InputTrack | None = None
@@ -495,6 +496,7 @@ class SearchTab(Tab):
     def close(self) -> None:
         self._put_away()
         self.earlier.clear()
+        self._fill_list()
 
     def _put_away(self) -> None:
         """End the search; what it has found is among the results of earlier ones."""
@@ -504,7 +506,7 @@ class SearchTab(Tab):
             self.earlier[:0] = [(self.results, each) for each in found]
         self.results, self.found = None, ()
         self.pieces, self._in_pieces, self._cut = (), None, None
-        self.list.fill(())
+        self._fill_list()
 
     def update(self, real_ms: int) -> None:
         if not self.span[1]:
@@ -517,12 +519,12 @@ class SearchTab(Tab):
             self.found = results.better
             self._propose_pieces(results)
         self._forget.enabled, self._forget.text = bool(self.earlier), FORGET * bool(self.earlier)
-        self.list.fill(self._rows)
+        self._fill_list()
 
-    @property
-    def _rows(self) -> list[tuple[SpanResults, SpanResult] | RunPiece]:
+    def _fill_list(self) -> None:
         results = self.results
-        return [*((results, each) for each in self.found if results), *self.pieces, *self.earlier]
+        self._rows = [*((results, each) for each in self.found if results), *self.pieces, *self.earlier]
+        self.list.fill(self._rows)
 
     @property
     def preview(self) -> OtherRun | None:
