@@ -134,6 +134,7 @@ def tas(
     opened = open_run(file, record=record, level=options.load_level_option(level_path))
     others = [run for path in against for run in runs_of_level(path, opened.recording)]
     from ninja_game.play.main import run_app
+    from ninja_game.play.window import open_at_once
     from ninja_game.tas_editor.opening import OpeningScreen, open_tas_editor
     from ninja_game.tas_editor.screen import TasScreen
 
@@ -146,7 +147,8 @@ def tas(
         # So many pictures are pictures of the TAS editor.
         return editor(app) if window["frames"] else OpeningScreen(app, opened.recording, lambda: editor(app))
 
-    return run_app(opening, tas_editor=open_tas_editor, **window)
+    opened_window = open_at_once(window["size"], wide=True)
+    return run_app(opening, tas_editor=open_tas_editor, window=opened_window, **window)
 
 
 FIGURES = (

@@ -23,15 +23,17 @@ LOGO = "NINJA"
 
 _INVISIBLE = {"dummy", "offscreen", "evdev"}
 _ICON = 64
+WIDEST = 2200, 1300
+"""A window that nobody has made larger, px."""
 
 
 class Window:
-    """The one window. ``size``: px; by default what the settings say, as ``fitting_size`` has it.
+    """The one window. ``size``: px; by default what the settings say, as ``fitting_size`` has it with ``wide``.
 
     Raises NinjaGameError where there is no display, unless SDL_VIDEODRIVER asks for a driver without one.
     """
 
-    def __init__(self, size: tuple[int, int] | None, settings: Settings) -> None:
+    def __init__(self, size: tuple[int, int] | None, settings: Settings, *, wide: bool = False) -> None:
         prepare_sdl()
         pygame.display.init()
         if pygame.display.get_driver() in _INVISIBLE and not os.environ.get("SDL_VIDEODRIVER"):
@@ -42,7 +44,8 @@ class Window:
             # Where SDL shows pictures through a renderer, one is shown whole, as the display asks for it.
             os.environ.setdefault("SDL_RENDER_VSYNC", "1")
         pygame.display.set_icon(icon(_ICON))
-        pygame.display.set_mode(size or fitting_size((settings.window_width, settings.window_height)), pygame.RESIZABLE)
+        wished = settings.window_width, settings.window_height
+        pygame.display.set_mode(size or fitting_size(wished, wide=wide), pygame.RESIZABLE)
         pygame.display.set_caption(TITLE)
         self.fullscreen = False
         self._place: tuple[int, int] | None = None
@@ -88,14 +91,14 @@ class Window:
 
 
 @cache
-def open_at_once(size: tuple[int, int] | None) -> Window:
+def open_at_once(size: tuple[int, int] | None, *, wide: bool = False) -> Window:
     """The window with its first picture: the game's name, while the rest of the program is loaded; opened once.
 
-    ``size``: as of ``Window``. Raises NinjaGameError where there is no display.
+    ``size``, ``wide``: as of ``Window``. Raises NinjaGameError where there is no display.
     """
     settings = read_usable_settings(user_folder() / SETTINGS)
     try:
-        window = Window(size, settings)
+        window = Window(size, settings, wide=wide)
     except pygame.error as error:
         raise NinjaGameError(f"the window cannot be opened: {error}") from None
     pygame.font.init()
@@ -164,15 +167,18 @@ def _has_window_manager() -> bool:
     return supported
 
 
-def fitting_size(wished: tuple[int, int] = (0, 0)) -> tuple[int, int]:
+def fitting_size(wished: tuple[int, int] = (0, 0), *, wide: bool = False) -> tuple[int, int]:
     """A wished size, as far as the desktop has room; else the stage times the most halves that leave some.
 
-    On 1920 x 1080 that is 1188 x 900, in which the editor's palette can be used.
+    On 1920 x 1080 that is 1188 x 900, in which the editor's palette can be used. ``wide``: nearly all of the desktop,
+    1880 x 980 there, for the roll of the TAS editor beside its level.
     """
     sizes = pygame.display.get_desktop_sizes() or [(WIDTH, HEIGHT)]
     width, height = sizes[0]
     if all(wished):
         return min(wished[0], width), min(wished[1], height)
+    if wide:
+        return max(WIDTH, min(width - 40, WIDEST[0])), max(HEIGHT, min(height - 100, WIDEST[1]))
     halves = max(2, min(2 * (width - 20) // WIDTH, 2 * (height - 80) // HEIGHT))
     return WIDTH * halves // 2, HEIGHT * halves // 2
 

@@ -50,6 +50,7 @@ class Session:
         self._file_differs = False
         self._stroke_noted = False
         self._branches_noted = True
+        self._undone: Branch | None = None
         self.journal = Journal(folder, self._opened())
         self.timeline.simulate(self.ticks_per_frame)
 
@@ -120,6 +121,8 @@ class Session:
             return
         if not self.history.in_stroke:
             self._look_back()
+        if self._undone is not None and self.history.can_redo:
+            self._keep_undone(self._undone)
         began, opened = self.history.began, self._first.track
         edits = began.made.edits + (track.inputs != began.inputs)
         made = replace((NONE if whole else self.track.made) + (taken or NONE), edits=edits)
@@ -132,6 +135,9 @@ class Session:
         self._stroke_noted = False
 
     def undo(self) -> bool:
+        self.end()
+        if not self.history.can_redo:
+            self._undone = self._as_branch("undone") if self.timeline.complete else None
         return self._step(self.history.undo)
 
     def redo(self) -> bool:
@@ -180,12 +186,31 @@ class Session:
 
     def keep_branch(self, name: str) -> int:
         """Keep the input track as a branch; its number. What is not simulated yet is simulated first."""
+        self._change_branches({"keep": branch_as_json(self._as_branch(name))})
+        return len(self.branches) - 1
+
+    def keep_version(self, name: str) -> None:
+        """Keep the input track as a branch, unless one has its keys: then it goes on from that one."""
+        inputs = [each.track.inputs for each in self.branches.all]
+        if self.track.inputs not in inputs:
+            self.keep_branch(name)
+        else:
+            self._change_branches({"checkout": inputs.index(self.track.inputs)})
+
+    def _as_branch(self, name: str) -> Branch:
         self.timeline.simulate(len(self.timeline))
         end, outcome = self.timeline.end
         gold = self.timeline.column("gold")
-        reached = int(gold[end]) if len(gold) else 0
-        self._change_branches({"keep": branch_as_json(Branch(name, self.track, None, end, outcome, reached))})
-        return len(self.branches) - 1
+        return Branch(name, self.track, self.branches.current, end, outcome, int(gold[end]) if len(gold) else 0)
+
+    def _keep_undone(self, undone: Branch) -> None:
+        """Keep what redo leads to, before an edit takes that away: if neither the run nor a branch is as good."""
+        self._undone = None
+        known = [*self.branches.all, self._as_branch("")]
+        if undone.outcome == "exit" and not any(each.is_as_good_as(undone) for each in known):
+            kept = self.branches.as_json()
+            kept["branches"].append(branch_as_json(undone))
+            self._change_branches(kept)
 
     def checkout_branch(self, number: int) -> None:
         """Go on from a branch; undo brings back what was there before. Raises ArgumentError without such a one."""

@@ -129,6 +129,10 @@ class Branch:
     outcome: str = "running"
     gold: int = 0
 
+    def is_as_good_as(self, other: Branch) -> bool:
+        """Whether it is at the exit no later than another one, with no less gold."""
+        return self.outcome == "exit" and self.end <= other.end and self.gold >= other.gold
+
 
 class Branches:
     """The branches of a run, in the order in which they were kept. ``current``: the one from which the track comes.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from functools import partial
 from itertools import islice
 from pathlib import Path
@@ -78,7 +79,7 @@ class RunCommands(DocumentCommands):
             ("Open another run...", lambda: self._run("open_other"), f"Beside this one: {key['open_other']}"),
             ("New run on this level", self._begin_new, "Empty; Esc, Leave comes back to this one"),
             ("Not saved last time...", self.list_recovered, "Runs that were edited when the program ended"),
-            ("Watch", self.watch, "In the replay viewer, which makes films too"),
+            ("Watch", self.watch, "In the replay viewer, with the runs beside it; it makes films too"),
             ("Keep as a replay", self.keep, "Among yours"), ("Copy a link", self.copy_link, "Opens the run"),
             ("Help", self.help, key["help"]), ("Leave", self.leave, ""),
         ]  # fmt: skip
@@ -147,7 +148,10 @@ class RunCommands(DocumentCommands):
         copy_link(self.app, lambda: replay_link([replay_of_track(about, track)]), title=self.session.name)
 
     def watch(self) -> None:
-        self.app.push(ReplayScreen(self.app, [self.session.recording()], editable=False))
+        others = self.editor.others if self.editor.ghosts else ()
+        beside = [self.session.recording(each.track, each.name) for each in others]
+        beside = [replace(each, replay=replace(each.replay, author=each.replay.name)) for each in beside]
+        self.app.push(ReplayScreen(self.app, [self.session.recording(), *beside], editable=False))
 
     def offer_recovered(self) -> None:
         """Ask what to do with this run, if it was being edited when the program died; name others.

@@ -18,7 +18,7 @@ from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, Pane
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.session import Session
-from ninja_game.tas.timeline import Trajectory
+from ninja_game.tas.timeline import Timeline, Trajectory
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.ui.theme import Area, Theme
@@ -31,13 +31,14 @@ Span = tuple[int, int]  # the first tick, and the first one behind the last
 class OtherRun:
     """A run that is shown beside the one under edit.
 
-    ``trajectory``: what its ninja does; ``made``: how, and by whom.
+    ``trajectory``: what its ninja does; ``made``: how, and by whom; ``ending``: its end in words.
     """
 
     name: str
     track: InputTrack
     trajectory: Trajectory = field(repr=False)
     made: Contributions = field(default_factory=Contributions)
+    ending: str = ""
 
     @property
     def positions(self) -> NDArray[np.float64]:
@@ -51,7 +52,7 @@ class TasEditor:
     ``cursor``: the tick whose row is the present one; the level is shown as it is after that tick.
     ``anchor``: where a selection began; None: only the tick under the cursor is selected. ``others``: runs that were
     opened beside this one; ``chosen``: the number of the one that parts are taken from, where there are any.
-    ``preview``: a result of a search that is looked at. ``tab``: the name of the tab that is to be shown.
+    ``preview``: a result of a search, or a branch, that is looked at. ``tab``: the name of the tab that is to be shown.
     ``against``: the run that the lead is told over; None: the chosen other one, else the run as it was opened.
     ``theme``: the look of all parts, in the TAS editor's own logical px, which are not those of other screens.
     ``places``: cursor and anchor when a run was edited or taken over, for undo.
@@ -84,6 +85,13 @@ class TasEditor:
     @property
     def beside(self) -> OtherRun | None:
         return self.others[self.chosen % len(self.others)] if self.others else None
+
+    def other_run(self, name: str, track: InputTrack, made: Contributions | None = None) -> OtherRun:
+        """An input track on the level of the run, to be shown beside it."""
+        about, memory = self.session.about, self.session.timeline.memory
+        timeline = Timeline(about.level, track.inputs, body=about.body, memory=memory)
+        timeline.simulate(len(timeline))
+        return OtherRun(name, track, timeline.trajectory(), made or Contributions(), timeline.ending)
 
     @property
     def selection(self) -> Span:

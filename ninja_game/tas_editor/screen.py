@@ -51,7 +51,7 @@ class TasScreen(WorkspaceScreen):
         values = ValuesTab(self.editor)
         self.tabs: list[Tab] = [values, *(tab(self.editor) for tab in (BranchesTab, LeadTab, SearchTab, TextTab))]
         self.level, self.roll = LevelPart(self.editor, values.ask), Roll(self.editor)
-        self.strip = TabStrip(self.editor, self.tabs)
+        self.strip = TabStrip(self.editor, self.tabs, self.level.picture.overlays)
         self.head, self.foot_line = Head(self.editor), Foot(self.editor)
         self.files = RunCommands(app, self.editor, self.run, self._recover, self._begin_new)
         self.level.others.open(others)
@@ -139,6 +139,7 @@ class TasScreen(WorkspaceScreen):
             self.session.timeline.simulate(self.session.ticks_per_frame)
         for part in (self.level, self.roll, *self.tabs):
             part.update(real_ms)
+        self.editor.preview = self.tab.preview
         self.follow_parts()
 
 

@@ -21,7 +21,7 @@ from ninja_game.formats.replay.text import Replay, parse_replay, write_episode
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay import film
 from ninja_game.play.replay.film import Film, section_of
-from ninja_game.play.replay.playback import Playback
+from ninja_game.play.replay.playback import Playback, names_of
 from ninja_game.runs.compare import RunSplits, run_splits
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import Demo
@@ -196,7 +196,7 @@ def test_names_of_runs_are_not_cut_within_a_word(tmp_path: Path) -> None:
     level = parse_level_string(WALK)
     names = ("04-2.tas.speedrun", "x" * 40)
     runs = [Recording(level, Replay.of_inputs(b"\0", level), file=f"{name}.txt") for name in names]
-    assert film._called(runs) == ["04-2.tas.speedrun.txt", f"{'x' * 25}..."]
+    assert names_of(runs) == ["04-2.tas.speedrun.txt", f"{'x' * 25}..."]
 
 
 def test_splits_say_by_how_much_others_are_later(tmp_path: Path) -> None:
@@ -215,7 +215,7 @@ def test_runs_with_one_title_have_their_files_above_them(tmp_path: Path) -> None
     file = write_records(tmp_path / "two.txt", *[("Walk", WALK, running(24))] * 2, ("Other", WALK, running(24)))
     first, *others = load_replays(file)
     assert [each.title for each in (first, *others)] == ["Walk - two.txt", "Walk - two.txt 1", "Other - two.txt 2"]
-    assert film._called([first, *others]) == ["two.txt", "two.txt 1", "two.txt 2"]
+    assert names_of([first, *others]) == ["two.txt", "two.txt 1", "two.txt 2"]
     first, *others = (
         replace(each, replay=replace(each.replay, made=Provenance(played=True))) for each in (first, *others)
     )

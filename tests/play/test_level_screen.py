@@ -324,4 +324,4 @@ def test_keys_of_practice_are_named_where_they_work(app: App, recording: Recordi
 def test_a_panel_hides_what_is_within_16_px_of_it(point: tuple[float, float], away: float, hides: bool) -> None:
     panel = 100, 100, 100, 40
     assert away_from(point, *panel) == away
-    assert [*hidden_by([(*point, 7)], *panel)] == [7] * hides
+    assert [*hidden_by(((*point, 7),), *panel)] == [7] * hides

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import pygame
 import pytest
@@ -273,6 +275,40 @@ def test_no_turn_of_the_costliest_run_is_longer_than_others(
         frames(app, 3)
         # A tick of each of the worlds is the least that there can be beside it.
         assert max(turns) <= TURN_WORK + 4 * tick_cost(run.level)
+
+
+def test_ghosts_have_names_and_colours_and_are_in_the_film(monkeypatch: pytest.MonkeyPatch) -> None:
+    others = [replace(RUN, file="", replay=replace(RUN.replay, author=name)) for name in ("Ann", "Cy")]
+    with viewer(RUN, *others) as (app, screen):
+        assert [ghost.name for ghost in screen.ghosts] == ["Ann", "Cy"]
+        assert screen.ghosts[0].shade != screen.ghosts[1].shade
+        drawn: list[str] = []
+        write = Theme.text
+
+        def noted(theme: Theme, surface: pygame.Surface, text: str, *rest: Any, **more: Any) -> pygame.Rect:
+            drawn.append(text)
+            return write(theme, surface, text, *rest, **more)
+
+        monkeypatch.setattr(Theme, "text", noted)
+        frames(app, 2)
+        assert {"Ann", "Cy"} <= set(drawn)
+        app.change_settings(show_ghost=False)
+        drawn.clear()
+        frames(app, 2)
+        assert "Ann" not in drawn
+        app.change_settings(show_ghost=True)
+        made: list[Film] = []
+
+        def written(films: Sequence[Film], *_: object) -> bool:
+            made.extend(films)
+            return True
+
+        monkeypatch.setattr("ninja_game.play.replay.film.write_film", written)
+        screen.start_export()
+        while screen.export is not None:
+            frames(app, 1)
+        assert made[0].ghosts == (*others,)
+        assert "-ann-cy-1.gif" in app.notice
 
 
 def test_ghosts_catch_up_after_a_leap_in_turns() -> None:

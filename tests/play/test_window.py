@@ -158,6 +158,17 @@ def test_the_first_size_is_a_multiple_of_half_the_stage(
     assert fitting_size() == first
 
 
+@pytest.mark.parametrize(
+    "desktop, first", [((800, 600), (792, 600)), ((1366, 768), (1326, 668)), ((1920, 1080), (1880, 980))]
+)
+def test_the_window_of_the_tas_editor_has_nearly_all_of_the_desktop(
+    desktop: tuple[int, int], first: tuple[int, int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: [desktop])
+    assert fitting_size(wide=True) == first
+    assert fitting_size((700, 500), wide=True) == (700, 500), "as large as it was made"
+
+
 def test_the_window_opens_as_large_as_it_was(tmp_path: Path) -> None:
     def closed(size: tuple[int, int] | None, made: tuple[int, int] | None) -> tuple[int, int]:
         """Open the game, make the window so large, close it; the size that it had at first."""

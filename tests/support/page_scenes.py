@@ -16,7 +16,7 @@ from ninja_game.levels.episodes import Entry
 from ninja_game.play.app import App, BossScreen, Screen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
-from ninja_game.play.level import play
+from ninja_game.play.level import level_play
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
@@ -121,7 +121,7 @@ def show_scene(app: App, scene: Scene) -> None:
     """Show one, by itself, without chance."""
     _, palette, show = scene
     random.seed(1)
-    kept, play.Random = play.Random, lambda seed=None: Random(seed or 1)  # type: ignore[assignment,attr-defined]
+    kept, level_play.Random = level_play.Random, lambda seed=None: Random(seed or 1)  # type: ignore[assignment,attr-defined]
     poll = app.controls.poll
     try:
         app.stack.clear()
@@ -129,4 +129,4 @@ def show_scene(app: App, scene: Scene) -> None:
         app.change_settings(palette=palette)
         show(app)
     finally:
-        play.Random, app.controls.poll = kept, poll  # type: ignore[attr-defined,method-assign]
+        level_play.Random, app.controls.poll = kept, poll  # type: ignore[attr-defined,method-assign]

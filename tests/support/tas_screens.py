@@ -12,9 +12,11 @@ from unittest.mock import Mock, patch
 import numpy as np
 import pygame
 
+from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.search.formula.task import SpanResult, SpanTask
 from ninja_game.tas.goals import RunPiece, SpanGoal
 from ninja_game.tas_editor.level import paths
+from ninja_game.tas_editor.level.other_runs import RunFiles
 from ninja_game.tas_editor.level.part import LevelPart
 from ninja_game.tas_editor.opening import OpeningScreen
 from ninja_game.tas_editor.roll.rows import Digits, RowSheet
@@ -23,6 +25,7 @@ from ninja_game.ui.lettering import Lettering
 from tests.support.draw_log import DrawLog, Note, px
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
+from tests.support.reference import ROOT
 from tests.support.tas_driver import TasDriver
 
 RUN = PACK / "certificates" / "00-4-locksmith.exit.replay.txt"
@@ -339,4 +342,18 @@ def _panels(at: TasDriver) -> Iterator[str]:
     at.app.notify("")  # what was undone before
     at.frames(2)
     yield "tas-other-runs"
+    at.choose("From a file ...")
+    files = at.shown(RunFiles)
+    files.title, files.folder = "~/runs", ROOT
+    files.paths = [ROOT.parent, ROOT / "levels", ROOT / "theirs.replay.txt"]
+    files.list.fill(files.paths)
+    files.redraw = True
+    yield "tas-runs-from-a-file"
+    at.press("escape", "escape")
+    at.choose_in_menu("Watch")
+    viewer = at.shown(ReplayScreen)
+    viewer.toggle_pause()
+    viewer.seek(20)
+    at.frames(2)
+    yield "tas-watched-beside-another"
     at.press("escape")

@@ -20,7 +20,7 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.replay.playback import Ghost, Playback
+from ninja_game.play.replay.playback import Ghost, Playback, draw_names, ghosts_of, names_of
 from ninja_game.play.window import png_of
 from ninja_game.player.settings import Settings
 from ninja_game.runtime import require_desktop, run_in_background
@@ -28,7 +28,6 @@ from ninja_game.sim.rules import GOLD_BONUS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.theme import GROUND_ROLES, ROLES, RUN_COLOURS, Palette, mixed, palette_named
 from ninja_game.view.level_view import LevelView, OffscreenContext
-from ninja_game.view.sprites.drawing import is_near
 from ninja_game.view.sprites.light import EXIT_OPEN, STYLES
 
 if TYPE_CHECKING:
@@ -42,7 +41,6 @@ MOST_PICTURES = 20_000
 
 
 SHOWN_SPLITS = 3  # the last ones of a run, at most
-LONGEST_NAME = 28  # letters of a run's name among its splits
 LETTERS = 12.0  # the least size of what is written above and below the level, px: films are small
 MOST_LETTERS = 18.0  # the greatest, for which there is room in the border, px of the level
 
@@ -137,14 +135,10 @@ class _Panel:
         self.view = LevelView(context, self.playback.simulation)
         self.hud = Hud(context.theme)
         self.letters = min(MOST_LETTERS, LETTERS / context.canvas.scale)
-        self.ghosts: list[tuple[str, Ghost]] = []
+        self.ghosts: list[Ghost] = []
 
     def follow(self, runs: Sequence[Recording]) -> None:
-        """Let runs go along, each in a colour of its own with a name above it."""
-        for number, (run, name) in enumerate(zip(runs, _called(runs), strict=True)):
-            shade = RUN_COLOURS[number % len(RUN_COLOURS)]
-            self.ghosts.append((name, Ghost(run.inputs, run.level, run.body, shade=shade)))
-        self.view.ghosts = [ghost for _, ghost in self.ghosts]
+        self.view.ghosts = self.ghosts = ghosts_of(runs)
 
     def step(self) -> None:
         self.playback.step()
@@ -166,12 +160,8 @@ class _Panel:
             while len(texts) > 1 and hud.theme.width("; ".join([*words, *texts]), self.letters) > room:
                 texts.pop(0)
             words += texts
-        size = 0.8 * self.letters
-        for name, ghost in self.ghosts if self.view.context.settings.show_ghost else ():
-            x, y = ghost.place(1.0)
-            if is_near(x, y):
-                above = y - 15 - size
-                covered.append(hud.theme.text(surface, name, x, above, size=size, colour=ghost.shade, align="centre"))
+        if self.view.context.settings.show_ghost:
+            covered += draw_names(surface, hud.theme, self.ghosts, 1.0, 0.8 * self.letters)
         covered += hud.foot(surface, hud.theme.fit("; ".join(words), room, self.letters), "", self.letters)
         if self.film.keys:
             covered.append(hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))
@@ -179,16 +169,9 @@ class _Panel:
             self.view.also_covered(rect)
 
 
-def _called(runs: Sequence[Recording]) -> list[str]:
-    """The label of each run: its player; of several by one player the file."""
-    names = [run.whose for run in runs]
-    called = [run.place or name if names.count(name) > 1 else name for run, name in zip(runs, names, strict=True)]
-    return [name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 3]}..." for name in called]
-
-
 def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
     """Tick and text of each split of a run: how many ticks later (+) or earlier (-) the others have it."""
-    texts, names = [], _called([run.recording for run in (own, *others)])[1:]
+    texts, names = [], names_of([run.recording for run in (own, *others)])[1:]
     for split in own.splits:
         words = [split.name]
         for other, name in zip(others, names, strict=True):
@@ -371,10 +354,8 @@ class FilmJob:
     ``folder``: the player's.
     """
 
-    def __init__(self, run: Recording, settings: Settings, folder: Path) -> None:
-        self._run = run
-        self._settings = settings
-        self._folder = folder
+    def __init__(self, film: Film, folder: Path) -> None:
+        self._film, self._folder = film, folder
         self._count = 1
         self._made = 0
         self._wanted = True
@@ -396,8 +377,10 @@ class FilmJob:
         return self._wanted
 
     def _make(self) -> None:
-        path = export_path(self._folder, self._run.title, ".gif")
-        if write_film([Film(self._run, settings=self._settings)], path, self._report):
+        film = self._film
+        names = dict.fromkeys((film.run.replay.name, *names_of([film.run, *film.ghosts])))
+        path = export_path(self._folder, " - ".join(filter(None, names)), ".gif")
+        if write_film([self._film], path, self._report):
             self.result = f"Saved: {path}"
         self.done = True
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from random import Random
 
 import pygame
 
 from ninja_game.budget import TURN_WORK, tick_cost
+from ninja_game.formats.recording import Recording
 from ninja_game.runs.save_states import SPACING, SaveStates
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Body, Level
@@ -14,8 +16,9 @@ from ninja_game.sim.rules import TICK_MS
 from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import SaveState, Simulation
 from ninja_game.ui.canvas import Point
-from ninja_game.ui.theme import Palette
+from ninja_game.ui.theme import RUN_COLOURS, Palette, Theme
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation
+from ninja_game.view.sprites.drawing import is_near
 
 
 class Playback:
@@ -96,7 +99,7 @@ class Ghost:
 
     ``behind``: ticks that it lags behind after a leap: it catches up by the work of a turn with each tick. Not
     ``alone``: only when it is told to. ``pace``: its ticks for each tick of the clock. ``shade``: its colour, None: the
-    palette's for ghosts.
+    palette's for ghosts; ``name``: stands above it.
     """
 
     def __init__(
@@ -108,8 +111,10 @@ class Ghost:
         alone: bool = True,
         pace: float = 1.0,
         shade: pygame.Color | None = None,
+        name: str = "",
     ) -> None:
         self.inputs = inputs
+        self.name = name
         self.shade = shade
         self.pace = pace
         self._due = 0.0
@@ -170,6 +175,36 @@ class Ghost:
 
     def colour(self, palette: Palette) -> pygame.Color:
         return self.shade or palette.ghost
+
+
+LONGEST_NAME = 28  # letters of a run's name among others
+
+
+def names_of(runs: Sequence[Recording]) -> list[str]:
+    """The label of each run: its player; of several by one player the file."""
+    names = [run.whose for run in runs]
+    labels = [run.place or name if names.count(name) > 1 else name for run, name in zip(runs, names, strict=True)]
+    return [name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 3]}..." for name in labels]
+
+
+def ghosts_of(runs: Sequence[Recording], *, alone: bool = True) -> list[Ghost]:
+    """Runs that go along, each in a colour of its own with a name; ``alone``: as of Ghost."""
+    return [
+        Ghost(run.inputs, run.level, run.body, alone=alone, shade=RUN_COLOURS[number % len(RUN_COLOURS)], name=name)
+        for number, (run, name) in enumerate(zip(runs, names_of(runs), strict=True))
+    ]
+
+
+def draw_names(
+    surface: pygame.Surface, theme: Theme, ghosts: Iterable[Ghost], fraction: float, size: float = 8.0
+) -> list[pygame.Rect]:
+    """Draw the names of ghosts above them; where, px. ``size``: of the letters, px of the level."""
+    return [
+        theme.text(surface, ghost.name, x, y - 15 - size, size=size, colour=ghost.shade, align="centre")
+        for ghost in ghosts
+        for x, y in [ghost.place(fraction)]
+        if is_near(x, y)
+    ]
 
 
 LONGEST_MS = 2000

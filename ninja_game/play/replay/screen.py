@@ -17,7 +17,7 @@ from ninja_game.levels.episodes import Mood
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.replay.playback import Ghost, Playback, RunClock
+from ninja_game.play.replay.playback import Playback, RunClock, draw_names, ghosts_of
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
@@ -83,8 +83,8 @@ class ReplayScreen(Screen):
         self.view = LevelView(self.app, self.playback.simulation)
         self.view.overlays = self.overlays
         others = [other for other in self.runs if other is not run and other.level == run.level]
-        self.ghosts = [Ghost(other.inputs, other.level, other.body, alone=False) for other in others[:8]]
-        self.view.ghosts = self.ghosts
+        self._beside = others[:8]
+        self.view.ghosts = self.ghosts = ghosts_of(self._beside, alone=False)
         self.paused = False
         self.still_ms = _STILL_MS
         self.export: FilmJob | None = None
@@ -250,11 +250,11 @@ class ReplayScreen(Screen):
 
     def start_export(self) -> None:
         if self.export is None:
-            from ninja_game.play.replay.film import FilmJob  # few replays are filmed
+            from ninja_game.play.replay.film import Film, FilmJob  # few replays are filmed
 
-            self.export = FilmJob(
-                self.run, self.app.settings.changed(palette=self.theme.palette.base.name), self.app.player.folder
-            )
+            settings = self.app.settings.changed(palette=self.theme.palette.base.name)
+            ghosts = tuple(self._beside) if settings.show_ghost else ()
+            self.export = FilmJob(Film(self.run, settings=settings, ghosts=ghosts), self.app.player.folder)
 
     def copy_link(self) -> None:
         copy_link(self.app, lambda: replay_link([_with_claims(self.run)]), title=self.run.title)
@@ -270,7 +270,8 @@ class ReplayScreen(Screen):
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         still = self.paused or self.bar.dragging or self.still_ms > 0
-        changed = self.view.draw(surface, 1.0 if still else self.clock.fraction, whole=self.redraw)
+        fraction = 1.0 if still else self.clock.fraction
+        changed = self.view.draw(surface, fraction, whole=self.redraw)
         theme, bar = self.app.theme, self.bar
         hud = Hud(theme)
         written = [
@@ -278,6 +279,7 @@ class ReplayScreen(Screen):
             bar.write(surface, theme, self.tick, self.end, f"x {SPEEDS[self.speed]:g}", still=still),
             *hud.head(surface, self.run.title, self._hint()),
             hud.keys(surface, self.playback.keys_at(self.tick - 1), 444),
+            *(draw_names(surface, theme, self.ghosts, fraction) if self.app.settings.show_ghost else ()),
         ]
         for rect in written:
             self.view.also_covered(rect)

@@ -5,33 +5,39 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
+from time import thread_time
 
 import numpy as np
+import pygame
 
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.files.reading import SUFFIXES, Skipped, files_in
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.user_folder import bundled_replays, short_path
 from ninja_game.formats.links import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import MenuScreen, ask_text
+from ninja_game.play.menus.menu_screen import Action, MenuScreen
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen, result_of
 from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay
 from ninja_game.runs.run import run_level
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import runs_of_level, same_level, track_of
-from ninja_game.tas.timeline import Timeline
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
+from ninja_game.tas_editor.tabs.tab import EntryField
 from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget
 
 AHEAD = 10
 """Ticks for which two ninjas that are joined are thought to go on at their speeds. Not tuned."""
 QUICK = RUN_BUDGET // 100
 """Work that a run may cost only to be listed: 30 ms compiled, some ten times what a run of a minute costs."""
+LOOK_SECONDS = 0.3
+"""Processor time for which the files of a folder are looked into."""
 NONE_YET = "No other run is open: Ctrl+O opens one"
 
 
@@ -100,11 +106,8 @@ def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
     if not same_level(recording, about):
         what = "body" if recording.body != about.body else "level"
         raise ReplayError(f"{recording.name or 'this run'} is a run with another {what} than the one in the TAS editor")
-    track = track_of(recording)
-    timeline = Timeline(about.level, track.inputs, body=about.body, memory=editor.session.timeline.memory)
-    timeline.simulate(len(timeline))
     name = _free_name(recording, about, {other.name for other in editor.others})
-    return OtherRun(name, track, timeline.trajectory(), Contributions.of(recording))
+    return editor.other_run(name, track_of(recording), Contributions.of(recording))
 
 
 def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
@@ -162,16 +165,7 @@ class OtherRunScreen(ReplaysScreen):
         MenuScreen.act(self, action, held=held)
 
     def _ask(self) -> None:
-        ask_text(self.app, "Runs from a file", "path of a file, or a link", "", "Show them", self.open_file, 200)
-
-    def open_file(self, text: str) -> None:
-        """Show the runs of a file or a link; a file is looked for beside that of the run in the TAS editor too."""
-        about = self.others.editor.session.about
-        path = Path(text) if is_link(text) else Path(text).expanduser()
-        path_there = Path(about.file).parent / path
-        path = path_there if not is_link(path) and not path.exists() and path_there.exists() else path
-        if self.others.editor.attempt(lambda: self.others.open(runs_of_level(path, about))):
-            self.app.pop()
+        self.app.push(RunFiles(self.app, self.others, self.app.pop))
 
     def choose(self, source: SavedReplay | Recording) -> None:
         if not isinstance(source, Recording):
@@ -183,6 +177,71 @@ class OtherRunScreen(ReplaysScreen):
         recording = source
         if self.others.editor.attempt(lambda: self.others.open([recording])):
             self.app.pop()
+
+
+class RunFiles(MenuScreen):
+    """The folders and files beside the file of the run, then elsewhere: those with runs of its level.
+
+    ``done``: called once the runs of one are beside it.
+    """
+
+    foot = "Enter opens a folder, or shows the runs of a file; Esc goes back"
+
+    def __init__(self, app: App, others: OtherRuns, done: Action) -> None:
+        super().__init__(app)
+        self.others, self._done = others, done
+        self._about = others.editor.session.about
+        file = others.editor.session.file.path or Path(self._about.file)
+        self.folder = file.absolute().parent if file.is_file() else Path.cwd()
+        self.paths: list[Path] = []
+        self.field = EntryField("Path or link", lambda: self.open_file(self.field.text), longest=2000)
+        self.field.area = 44, 62, 712, 28
+        self.list = ListView((44, 104, 712, 442), 26, self._draw_row, self._choose, opens=True)
+
+    def build(self) -> Sequence[Widget]:
+        self._look()
+        return [self.field, self.list]
+
+    def _look(self) -> None:
+        """List the folder; of its files those with runs of the level, as far as that is quickly seen."""
+        self.title, end = short_path(self.folder)[-40:], thread_time() + LOOK_SECONDS
+        names = [name for name in files_in(self.folder) if name.lower().endswith(SUFFIXES)]
+        fitting = [name for name in names if thread_time() > end or self._has_runs(self.folder / name)]
+        self.paths = [self.folder.parent, *_folders_in(self.folder), *map(self.folder.joinpath, fitting)]
+        self.list.fill(self.paths)
+
+    def _has_runs(self, file: Path) -> bool:
+        try:
+            return bool(runs_of_level(file, self._about))
+        except (NinjaGameError, OSError):
+            return False
+
+    def open_file(self, text: str) -> None:
+        """Show the runs of a file or a link, or what is in a folder; a path may begin in the folder that is shown."""
+        path = Path(text) if is_link(text) else self.folder / Path(text).expanduser()
+        if not is_link(path) and path.is_dir():
+            self.folder, self.list.index, self.redraw = path.resolve(), 0, True
+            self._look()
+        elif self.others.editor.attempt(lambda: self.others.open(runs_of_level(path, self._about))):
+            self.app.pop()
+            self._done()
+
+    def _choose(self, index: int) -> None:
+        self.open_file(str(self.paths[index]))
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        path, (x, y, w, h) = self.paths[index], area
+        theme.row(surface, (x, y + 1, w, h - 2), chosen=index == self.list.index, focused=focused, radius=3)
+        up, folder = path == self.folder.parent, path.is_dir()
+        name = "..  the folder above" if up else f"{path.name}/" if folder else path.name
+        theme.text(surface, name, x + 10, y + 6, size=11, bold=folder, width=w - 20)
+
+
+def _folders_in(folder: Path) -> list[Path]:
+    try:
+        return sorted(each for each in folder.iterdir() if each.is_dir() and not each.name.startswith("."))
+    except OSError:
+        return []
 
 
 def _named(row: ReplayRow) -> ReplayRow:

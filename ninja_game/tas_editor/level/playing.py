@@ -112,7 +112,7 @@ class TakeOver:
         self.still = False
         self.tick = editor.cursor
         editor.go(self.tick)
-        self._held_before = editor.app.controls.poll()
+        self._held_before = self._keys()
 
     def end(self) -> None:
         if self.on:
@@ -145,6 +145,11 @@ class TakeOver:
         self.editor.go(tick)
         self.playing.picture.show(tick, audible=audible)
 
+    def _keys(self) -> int:
+        """The keys that are down now, to be recorded: Space, which pauses, is no jump."""
+        controls = self.editor.app.controls
+        return controls.poll() & ~controls.choosing(pads=False)
+
     def _ended(self, tick: int, after: int = 0) -> bool:
         end = self.editor.session.timeline.end[0]
         return 0 <= end <= tick - after
@@ -153,8 +158,8 @@ class TakeOver:
         editor, tick = self.editor, self.tick + 1
         session = editor.session
         if not self._ended(self.tick):
-            keys = editor.app.controls.poll() & ~editor.app.controls.choosing(pads=False)
-            if not editor.attempt(lambda: session.change(editor.track.replaced(tick, tick + 1, [keys]), ticks=0)):
+            keys = [self._keys()]
+            if not editor.attempt(lambda: session.change(editor.track.replaced(tick, tick + 1, keys), ticks=0)):
                 self.end()
                 return
         session.timeline.ensure(tick)
@@ -167,7 +172,7 @@ class TakeOver:
             return
         if self.waiting:
             # Keys that were down before do not count until they are pressed again.
-            held = self.editor.app.controls.poll()
+            held = self._keys()
             self._held_before &= held
             self.waiting = not held & ~self._held_before
             self.playing.clock.reset()

@@ -38,14 +38,14 @@ class Compared(NamedTuple):
 
 
 def compared(editor: TasEditor) -> Compared | None:
-    """The result of a search that is looked at, else the chosen other run, else the run before the last edit.
+    """The result or branch that is looked at, else the chosen other run, else the run before the last edit.
 
     None where other runs are not shown.
     """
     if not editor.ghosts:
         return None
     if editor.preview is not None:
-        return Compared(editor.preview.track, "the result", PREVIEW)
+        return Compared(editor.preview.track, editor.preview.name, PREVIEW)
     if editor.others:
         number = editor.chosen % len(editor.others)
         return Compared(editor.others[number].track, editor.others[number].name, number)

@@ -1,4 +1,4 @@
-"""Branches: input tracks that are kept, as a tree."""
+"""Branches: input tracks that are kept, by hand or when a result of a search is taken, as a tree."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import pygame
 from ninja_game.play.menus.menu_screen import Question, ask_text
 from ninja_game.play.workspace import Commands
 from ninja_game.tas.tracks import Branch, Branches
-from ninja_game.tas_editor.editor import TasEditor
+from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
@@ -25,7 +25,11 @@ class BranchesTab(Tab):
     def __init__(self, editor: TasEditor) -> None:
         super().__init__(editor)
         self.tree: list[tuple[int, int]] = []
-        self.list = Rows(self._draw_row, lambda _: None, empty="B keeps the run as a branch")
+        self._looked_at: OtherRun | None = None
+        self.list = Rows(
+            self._draw_row, lambda _: self.checkout(), empty="B keeps the run as a branch", opens=True,
+            hint="Under the mouse, or clicked: shown in level and roll; a second click goes to it",
+        )  # fmt: skip
         actions = [
             ("Keep", self.keep, "B: keep the run as it is now, as a child of the marked branch"),
             ("Go to it", self.checkout, "The run becomes the chosen branch; undo brings back what was there"),
@@ -51,6 +55,18 @@ class BranchesTab(Tab):
     @property
     def chosen(self) -> int | None:
         return self.tree[self.list.index][0] if self.list.index < len(self.tree) else None
+
+    @property
+    def preview(self) -> OtherRun | None:
+        at = self.list.looked_at
+        if not 0 <= at < len(self.tree):
+            return None
+        branch = self.branches.all[self.tree[at][0]]
+        if branch.track.inputs == self.editor.track.inputs:
+            return None
+        if self._looked_at is None or (self._looked_at.name, self._looked_at.track) != (branch.name, branch.track):
+            self._looked_at = self.editor.other_run(branch.name, branch.track)
+        return self._looked_at
 
     def keep(self) -> None:
         self.editor.tab = self.name
@@ -93,8 +109,10 @@ class BranchesTab(Tab):
             app.push(Question(app, title, "Drop it", lambda: session.drop_branch(number)))
 
     def refresh(self) -> None:
-        self.tree = list(self.branches.in_tree())
-        self.list.fill(self.tree)
+        tree = list(self.branches.in_tree())
+        if tree != self.tree:
+            self.tree = tree
+            self.list.fill(tree)
         for button in self._for_one:
             button.enabled = bool(self.tree)
 

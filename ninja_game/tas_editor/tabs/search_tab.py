@@ -36,7 +36,6 @@ from ninja_game.tas.goals import (
     pieces_of,
     whole_run,
 )
-from ninja_game.tas.timeline import Timeline
 from ninja_game.tas.tracks import InputTrack, first_difference
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
@@ -54,10 +53,12 @@ COMPILING = (
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet."
 PATIENCE = 5.0  # seconds of a search after which pieces of its span are proposed
+FORGET = "Forget earlier"
 PIECES = "Nothing better so far. A click searches one of these:"
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
 
 LONGEST = 300  # characters of a formula that one can type
+LONGEST_TITLE = 30  # characters of it in the name of a branch
 
 EARLIEST, GREATEST, SMALLEST = "earliest", "greatest", "smallest"
 _METHODS = (
@@ -89,12 +90,14 @@ class SpanResults:
 
     ``better``: the results that bring more than the run's own keys, best first; of those that go one way the best one.
     While nothing has reached the goal, what comes nearest. ``every``: as of SpanSearch; None: search the whole run.
-    Raises what SpanSearch does.
+    ``title``: what is searched, in a few words; ``stopped``: it did not end by itself. Raises what SpanSearch does.
     """
 
-    def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int | None) -> None:
+    def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int | None, title: str) -> None:
         self.editor = editor
         self.task = task
+        self.title = title
+        self._begun = editor.track
         timeline, jobs = editor.session.timeline, max(1, cores() - 1)
         self._to_exit = task.rest or task.goal == "won"
         timeline.simulate(len(timeline) if self._to_exit else 0)
@@ -112,9 +115,10 @@ class SpanResults:
         self._fitting = [(task.inputs[:whole], (task.rest and task.behind) or task.last)]
         self.better: tuple[SpanResult, ...] = ()
         self._seen: tuple[SpanResult, ...] = ()
-        self._preview: tuple[SpanResult, OtherRun, str] | None = None
+        self._preview: tuple[SpanResult, OtherRun] | None = None
         self.search.start()
         self._started = monotonic()
+        self.stopped = False
 
     def _whole(self, method: str, jobs: int) -> RunSearch:
         gold = self._gold if method == IMPROVE_GOLD else 0
@@ -125,10 +129,11 @@ class SpanResults:
         return not self.search.done
 
     def stop(self) -> None:
+        self.stopped = True
         self.search.cancel()
 
     def close(self) -> None:
-        self.search.cancel()
+        self.stop()
         self.search.finish(CLOSING_SECONDS)
 
     @property
@@ -144,19 +149,27 @@ class SpanResults:
         return None
 
     def put(self, result: SpanResult) -> bool:
-        """Put a result into the run, as one edit; whether that was possible.
+        """Put a result into the run, as one edit; whether that was possible. Branches keep what was there, and it.
 
+        Into a run that was changed so that it does not fit, it is not put: that becomes as it was searched, with it.
         Cursor and selection keep their ticks; behind the span they go with what follows it.
         """
-        behind = self.behind
-        if behind is None:
-            self.editor.app.notify("The run was changed: search again")
-            return False
         editor, end = self.editor, self.task.first + result.ticks
+        behind, track, taken = self.behind, editor.track, self._taken(result)
+        old = behind is None
+        if behind is None:
+            track, behind, taken = self._begun, self._fitting[0][1], self._begun.made + taken
         cursor, anchor = editor.cursor, editor.anchor
-        made = self._made(editor.track, result, behind)
-        if not editor.edit_selected(lambda _: made, self._taken(result)):
+        made = self._made(track, result, behind)
+        if made.inputs == editor.track.inputs:
+            return True
+        editor.session.keep_version(f"before {self.title}")
+        editor.places[editor.track] = cursor, anchor
+        if not editor.attempt(lambda: editor.session.change(made, taken=taken, whole=old)):
             return False
+        editor.session.keep_version(self.title)
+        if old:
+            editor.app.notify("The run as it was searched, with this result. Undo, or Branches, has yours")
         self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
         if not isinstance(self.search, RunSearch):  # of a whole run all ticks stay what they are
 
@@ -209,15 +222,10 @@ class SpanResults:
         ours, theirs = self.editor.track.inputs, result.inputs
         return first_difference(ours, theirs) == min(len(ours), len(theirs))
 
-    def looked_at(self, result: SpanResult) -> tuple[OtherRun, str]:
-        """A result as a run beside, and how it ends, in words."""
+    def looked_at(self, result: SpanResult) -> OtherRun:
         if self._preview is None or self._preview[0] is not result:
-            task = self.task
-            timeline = Timeline(task.level, result.inputs, body=task.body, memory=self.editor.session.timeline.memory)
-            timeline.simulate(len(result.inputs))
-            made = OtherRun("result", InputTrack(result.inputs), timeline.trajectory())
-            self._preview = result, made, timeline.ending
-        return self._preview[1:]
+            self._preview = result, self.editor.other_run("the result", InputTrack(result.inputs))
+        return self._preview[1]
 
     # --- in words ---
 
@@ -244,7 +252,7 @@ class SpanResults:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
         own, words = self.search.own, score_text(self.task, result)
         if result.missed_by == 0.0:
-            words += f": {self.looked_at(result)[1] or 'it goes on'}"
+            words += f": {self.looked_at(result).ending or 'it goes on'}"
         if self._to_exit and result.missed_by is None and result.gold != self._gold:  # of the run as it was
             words += f", {abs(self._gold - result.gold)} gold {'fewer' if result.gold < self._gold else 'more'}"
         if self._others:
@@ -307,8 +315,10 @@ class SearchTab(Tab):
         self.rest = False
         self.method = "auto"
         self.results: SpanResults | None = None
-        self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal] | None = None
+        self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal, str] | None = None
         self.found: tuple[SpanResult, ...] = ()
+        self.earlier: list[tuple[SpanResults, SpanResult]] = []
+        self._rows: list[tuple[SpanResults, SpanResult] | RunPiece] = []
         self.pieces: tuple[RunPiece, ...] = ()
         self._in_pieces: Span | None = None
         self._cut: InputTrack | None = None
@@ -319,6 +329,7 @@ class SearchTab(Tab):
             EntryField(prompt, self.start, longest=LONGEST, hint=_NAMES, put=self._typed) for prompt in fields
         )
         self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
+        self._forget = Button(UNPLACED, "", self.earlier.clear, size=8, hint="The results of earlier searches")
         self.list = Rows(
             self._draw_row,
             self._put,
@@ -337,6 +348,7 @@ class SearchTab(Tab):
             Choice(UNPLACED, "", _METHODS, lambda: self.method, self._put_method,
                    hint="Beam: many states at once; small changes: of the keys there; all keys: short spans only"),
             self._button,
+            self._forget,
             self.list,
         ]  # fmt: skip
 
@@ -344,7 +356,8 @@ class SearchTab(Tab):
         areas = (
             (x + w - 182, y + 4, 96, 18), (x + w - 82, y + 4, 78, 18), (x + 40, y + 25, w - 44, 18),
             (x + 4, y + 46, 118, 18), (x + 126, y + 46, w - 280, 18), (x + w - 150, y + 46, 146, 18),
-            (x + 4, y + 67, 150, 18), (x + 158, y + 67, 58, 18), (x + 4, y + 99, w - 8, h - 101),
+            (x + 4, y + 67, 150, 18), (x + 158, y + 67, 58, 18), (x + w - 80, y + 86, 76, 13),
+            (x + 4, y + 99, w - 8, h - 101),
         )  # fmt: skip
         for widget, area in zip(self.widgets, areas, strict=True):
             widget.area = area
@@ -377,25 +390,31 @@ class SearchTab(Tab):
         if before == (self.span, ""):
             return
         if self.results is not None and not self.results.running:
-            self.close()
-        if self._preset is not None and (self.goal.text, self.measure.text) == self._preset[1][:2]:
-            self._fill(self._preset[0] if self.goal.text != "won" else lambda _: SpanGoal())
+            self._put_away()
+        if self._preset is not None and self._is_from_menu:
+            make, _, name = self._preset
+            self._fill(name, make if self.goal.text != "won" else lambda _: SpanGoal())
 
     def propose(self) -> None:
         """Open a menu of common goals for the selected ticks; a choice fills the fields and starts."""
         self._follow_selection()
         first, last = self.span
         fill = partial(self._fill, start=True)
-        rows = [(name, partial(fill, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
+        rows = [(name, partial(fill, name, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
         self.editor.app.push(PresetMenu(self.editor.app, f"Presets for ticks {first} to {last - 1}", rows))
 
-    def _fill(self, make: Callable[[SearchedSpan], SpanGoal], *, start: bool = False) -> None:
+    @property
+    def _is_from_menu(self) -> bool:
+        """Whether the fields are as a choice from the menu, or of a piece, has filled them."""
+        return self._preset is not None and (self.goal.text, self.measure.text) == self._preset[1][:2]
+
+    def _fill(self, name: str, make: Callable[[SearchedSpan], SpanGoal], *, start: bool = False) -> None:
         try:
             goal = make(SearchedSpan(self.editor.session, *self.span))
         except NinjaGameError as error:
             self.editor.app.notify(str(error))
             return
-        self._preset = make, goal
+        self._preset = make, goal, name
         self.goal.show(goal.goal)
         self.measure.show(goal.measure)
         self.order = EARLIEST if not goal.measure else SMALLEST if goal.least else GREATEST
@@ -448,7 +467,7 @@ class SearchTab(Tab):
 
     def start(self) -> None:
         """Search; a search that is going on ends. What is wrong is reported."""
-        self.close()
+        self._put_away()
         self.list.over = -1
         try:
             whole = self.method in IMPROVES
@@ -456,11 +475,17 @@ class SearchTab(Tab):
             if not (task.goal or task.measure or task.rest):
                 raise ArgumentError("Say what for: a goal, or a value that is to be the greatest or smallest")
             every = None if whole else fewest_ticks(task.length) if self.method == "exhaustive" else 1
-            self.results = SpanResults(self.editor, task, self.method, every)
+            self.results = SpanResults(self.editor, task, self.method, every, self._title(task))
         except NinjaGameError as error:
             self.editor.refuse(what_is_wrong(error))
         else:
             self.editor.accept()
+
+    def _title(self, task: SpanTask) -> str:
+        if self.method in IMPROVES:
+            return "Whole run"
+        wanted = self._preset[2] if self._preset and self._is_from_menu else task.measure or task.goal
+        return f"{task.first}-{task.last - 1} {wanted[:LONGEST_TITLE]}"
 
     def _start_or_stop(self) -> None:
         if not self.stop():
@@ -473,38 +498,62 @@ class SearchTab(Tab):
         return True
 
     def close(self) -> None:
+        self._put_away()
+        self.earlier.clear()
+        self._fill_list()
+
+    def _put_away(self) -> None:
+        """End the search; what it has found is among the results of earlier ones."""
         if self.results is not None:
             self.results.close()
-        self.results, self.found, self.editor.preview = None, (), None
+            found = [each for each in self.results.better if each.missed_by is None]
+            self.earlier[:0] = [(self.results, each) for each in found]
+        self.results, self.found = None, ()
         self.pieces, self._in_pieces, self._cut = (), None, None
-        self.list.fill(())
+        self._fill_list()
 
     def update(self, real_ms: int) -> None:
         if not self.span[1]:
             self.use_selection()
         results = self.results
-        if results is None:
-            return
-        if results.behind is None and results.running:
-            results.stop()
-        results.refresh()
-        self.found = results.better
-        self._propose_pieces(results)
-        self.list.fill((*self.found, *self.pieces))
-        over = self.list.over if results.behind is not None and self.editor.tab == self.name else -1
-        looked_at = self.found[over] if 0 <= over < len(self.found) else None
-        taken = looked_at is not None and results.is_in_run(looked_at)  # then the change is what there is to be seen
-        self.editor.preview = None if looked_at is None or taken else results.looked_at(looked_at)[0]
+        if results is not None:
+            if results.behind is None and results.running:
+                results.stop()
+            results.refresh()
+            self.found = results.better
+            self._propose_pieces(results)
+        self._forget.enabled, self._forget.text = bool(self.earlier), FORGET * bool(self.earlier)
+        self._fill_list()
+
+    def _fill_list(self) -> None:
+        results = self.results
+        self._rows = [*((results, each) for each in self.found if results), *self.pieces, *self.earlier]
+        self.list.fill(self._rows)
+
+    @property
+    def preview(self) -> OtherRun | None:
+        over, rows = self.list.over, self._rows
+        row = rows[over] if 0 <= over < len(rows) else None
+        if row is None or isinstance(row, RunPiece) or row[0].is_in_run(row[1]):
+            return None  # of a result that was taken the change is what there is to be seen
+        results, found = row
+        return results.looked_at(found)
 
     def _propose_pieces(self, results: SpanResults) -> None:
-        """Once a search of a span has found nothing for a while: its pieces, of the run as it is now."""
-        late = results.search.ticks_run and (results.search.seconds > PATIENCE or not results.running)
+        """Once a search for something sooner has found nothing for a while: the pieces of its span.
+
+        They are those of the run as it is now.
+        """
+        search, task, whole = results.search, results.task, self.method in IMPROVES
+        late = search.ticks_run and (search.seconds > PATIENCE or not (results.running or results.stopped))
         nothing = late and all(run.missed_by is not None for run in self.found)
-        if self._in_pieces is None and nothing and self.method not in IMPROVES:
+        sooner = not task.measure and (search.own is not None or task.rest or "won" in task.goal)
+        if self._in_pieces is None and nothing and sooner and not whole and results.behind is not None:
             self._in_pieces = self.span
         session, track, known = self.editor.session, self.editor.track, self._splits.result
         if self._in_pieces is None or self._cut is track:
             return
+        self.pieces = ()
         if known is not None and known[0] is track:
             self._cut, self.pieces = track, tuple(pieces_of(SearchedSpan(session, *self._in_pieces), known[1]))
         elif self._asked is not track:
@@ -513,13 +562,15 @@ class SearchTab(Tab):
 
     def _put(self, index: int) -> None:
         """Take a result, or search a piece; the others stay, for later."""
-        if self.results is not None and index < len(self.found):
-            self.results.put(self.found[index])
-        elif index < len(self.found) + len(self.pieces):
-            piece, kept = self.pieces[index - len(self.found)], (self._in_pieces, self._cut, self.pieces)
-            self.span = piece.first, piece.last
-            self._fill(lambda _: piece.wanted, start=True)
+        row = self._rows[index]
+        if isinstance(row, RunPiece):
+            kept = self._in_pieces, self._cut, self.pieces
+            self.span = row.first, row.last
+            self._fill(row.name, lambda _: row.wanted, start=True)
             self._in_pieces, self._cut, self.pieces = kept
+        else:
+            results, found = row
+            results.put(found)
 
     # --- picture ---
 
@@ -528,6 +579,7 @@ class SearchTab(Tab):
         if results:
             track = self.editor.track
             state = (results.status, results.running, results.behind, track, self.pieces, *map(id, self.found))
+        state += (len(self.earlier), self.editor.track)
         wanted = self.order, self.rest, self.goal.text
         return self.span, self._why, self.editor.selection, *wanted, self.list.over, state
 
@@ -545,15 +597,15 @@ class SearchTab(Tab):
         if results is not None:
             status, colour = results.status, palette.bad if results.search.problem else palette.text
             if results.behind is None:
-                status, colour = "the run was changed: search again", palette.bad
+                status, colour = "edited since: a click takes it as it was", palette.bad
         theme.text(surface, status, x + 222, y + 72, size=SMALL, colour=colour, width=w - 226)
-        note = results.note if results and not self.pieces else "" if results else _EXPLAINED
+        note = PIECES if self.pieces else results.note if results else "" if self.earlier else _EXPLAINED
         if self.found:
             for at, head in zip(self._cells(self.list.row_area(0)), _HEADS, strict=True):
                 theme.text(surface, head, at, y + 88, size=8, colour=palette.faint)
-        elif self.pieces:
-            theme.text(surface, PIECES, x + _LEFT + 4, y + 88, size=8, colour=palette.faint)
-        for k, line in enumerate(wrapped(theme, note, w - 28, 10)):
+        elif self.list.count:
+            theme.text(surface, note, x + _LEFT + 4, y + 88, size=8, colour=palette.faint, width=w - 104)
+        for k, line in enumerate(() if self.list.count else wrapped(theme, note, w - 28, 10)):
             theme.text(surface, line, x + 10, y + 97 + 15 * k, size=10, colour=palette.faint)
 
     @staticmethod
@@ -562,15 +614,18 @@ class SearchTab(Tab):
         return x + _LEFT, *(x + w - at for at in _COLUMNS)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
-        if self.results is None or index >= len(self.found):
-            for piece in self.pieces[index - len(self.found) :][:1]:
-                self._draw_piece(surface, theme, piece, area)
+        row = self._rows[index]
+        if isinstance(row, RunPiece):
+            self._draw_piece(surface, theme, row, area)
             return
         x, y, w, _h = area
-        widths = w - _LEFT - _COLUMNS[0] - 4, *_WIDTHS
-        palette, fits = theme.palette, self.results.behind is not None
-        *cells, gain = self.results.words(self.found[index])
-        for at, cell, width in zip(self._cells(area), cells, widths, strict=True):
+        results, found = row
+        widths: tuple[float, ...] = (w - _LEFT - _COLUMNS[0] - 4, *_WIDTHS)
+        palette, fits = theme.palette, results.behind is not None
+        *cells, gain = results.words(found)
+        if results is not self.results:
+            cells, widths = [f"earlier: {results.title}: {cells[0]}"], (w - _LEFT - 90,)
+        for at, cell, width in zip(self._cells(area), cells, widths, strict=False):
             theme.text(
                 surface, cell, at, y + 3, size=SMALL, width=width, colour=palette.text if fits else palette.faint
             )

@@ -11,11 +11,13 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.workspace import Commands
 from ninja_game.search.formula.language import FormulaError
-from ninja_game.tas_editor.editor import TasEditor, TasPart
+from ninja_game.tas_editor.editor import OtherRun, TasEditor, TasPart
+from ninja_game.ui.input.bindings import ACTIONS
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, following
+from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays
 
 SMALL = 9.0  # size of the text in lists and buttons, px
 ROW = 16  # height of a row of a list, px
@@ -28,6 +30,11 @@ class Tab(TasPart):
 
     slot = "tabs"
     name: ClassVar[str] = ""
+
+    @property
+    def preview(self) -> OtherRun | None:
+        """The run that is looked at in it."""
+        return None
 
     def place(self, area: Area) -> None:
         super().place(area)
@@ -62,22 +69,44 @@ class Tab(TasPart):
         """Stop running work: the TAS editor is left."""
 
 
-class TabName(Button):
-    def __init__(self, tab: Tab) -> None:
-        super().__init__(UNPLACED, tab.name, partial(setattr, tab.editor, "tab", tab.name), size=SMALL)
-        self._editor = tab.editor
+class LitButton(Button):
+    def __init__(self, text: str, action: Callable[[], object], is_lit: Callable[[], bool], *, hint: str = "") -> None:
+        super().__init__(UNPLACED, text, action, size=SMALL, hint=hint)
+        self.is_lit = is_lit
 
-    def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        theme.row(surface, self.area, chosen=focused or self.text == self._editor.tab, focused=focused)
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        lit, (x, y) = focused or self.is_lit(), self.centre
+        theme.row(surface, self.area, chosen=lit, focused=focused)
+        theme.text(surface, self.text, x, y - SMALL / 2, size=SMALL, align="centre", bold=lit, width=self.area[2])
+
+
+_OVERLAY = 16.0  # width of the button of an overlay, px
 
 
 class TabStrip(TasPart):
+    """The names of the tabs, and a button for each overlay of the level."""
+
     slot = "strip"
 
-    def __init__(self, editor: TasEditor, tabs: Sequence[Tab]) -> None:
+    def __init__(self, editor: TasEditor, tabs: Sequence[Tab], overlays: Overlays) -> None:
         super().__init__(editor)
-        self.tabs = tabs
-        self.widgets = [TabName(tab) for tab in tabs]
+        self.tabs, self._overlays = tabs, overlays
+        names = [
+            LitButton(tab.name, partial(setattr, editor, "tab", tab.name), partial(self._is_on, tab.name))
+            for tab in tabs
+        ]
+        switches = [
+            LitButton(key, partial(overlays.toggle, name), partial(self._is_on, name), hint=f"{label}    {key}")
+            for name, label, key in ((each, ACTIONS[each].label, ACTIONS[each].keys[0]) for each in OVERLAY_ACTIONS)
+        ]
+        self.widgets = [*names, *switches]
+
+    def _is_on(self, name: str) -> bool:
+        return name == self.editor.tab or name in self._overlays.on
+
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        self.editor.hint = next((each.hint for each in self.widgets if each.contains(x, y)), "")
+        return False
 
     def commands(self) -> Commands:
         return {"next_tab": self.show_next}
@@ -92,12 +121,15 @@ class TabStrip(TasPart):
     def place(self, area: Area) -> None:
         super().place(area)
         x, y, w, h = area
-        width = w / len(self.widgets)
-        for number, name in enumerate(self.widgets):
+        tabs, switches = self.widgets[: len(self.tabs)], self.widgets[len(self.tabs) :]
+        width = (w - _OVERLAY * len(switches)) / len(tabs)
+        for number, name in enumerate(tabs):
             name.area = x + number * width, y, width - 4, h
+        for number, switch in enumerate(switches):
+            switch.area = x + len(tabs) * width + number * _OVERLAY, y, _OVERLAY - 2, h
 
     def render_key(self) -> tuple[object, ...]:
-        return (self.editor.tab,)
+        return self.editor.tab, frozenset(self._overlays.on)
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         theme.canvas.fill_rect(surface, theme.palette.tile, *self.area)
@@ -117,11 +149,17 @@ class Rows(ListView):
         empty: str = "",
         hint: str = "",
         keeps: bool = True,
+        opens: bool = False,
     ) -> None:
-        super().__init__(UNPLACED, ROW, self._draw_row, choose, empty=empty, hint=hint)
+        super().__init__(UNPLACED, ROW, self._draw_row, choose, empty=empty, hint=hint, opens=opens)
         self.over = -1
         self._keeps = keeps
         self._draw = draw_row
+
+    @property
+    def looked_at(self) -> int:
+        """The row under the mouse, else the one that was clicked last, or -1."""
+        return self.over if self.over >= 0 else self._clicked
 
     def draw_heads(
         self, surface: pygame.Surface, theme: Theme, first: str, heads: Sequence[str], places: Sequence[float]

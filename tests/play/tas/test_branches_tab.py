@@ -60,6 +60,43 @@ def test_going_to_a_branch_is_an_edit(at: TasDriver, tab: BranchesTab) -> None:
     assert at.editor.track == second
 
 
+def test_a_branch_is_looked_at_and_a_second_click_goes_to_it(at: TasDriver, tab: BranchesTab) -> None:
+    first = at.editor.track
+    keep(at, "start")
+    at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
+    second = at.editor.track
+    row(at, tab, 0)
+    at.mouse(300, 100, click=False)
+    at.frames()
+    preview = at.editor.preview
+    assert preview is not None
+    assert (preview.name, preview.track) == ("start", first), "also when the mouse is elsewhere"
+    at.choose("Values")
+    assert at.editor.preview is None
+    at.choose("Branches")
+    row(at, tab, 0)
+    row(at, tab, 0)
+    at.frames()
+    assert (at.editor.track, at.editor.preview) == (first, None)
+    at.session.undo()
+    assert at.editor.track == second
+
+
+def test_an_edit_after_undo_keeps_what_was_better(at: TasDriver, tab: BranchesTab) -> None:
+    at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
+    at.editor.edit(lambda track: track.replaced(0, 2, []))
+    better, parent = at.editor.track, at.session.branches.current
+    at.session.undo()
+    at.editor.edit(lambda track: track.with_key(0, 1, Input.LEFT, down=True))
+    (branch,) = at.session.branches.all
+    assert (branch.name, branch.track.inputs) == ("undone", better.inputs)
+    assert at.session.branches.current == parent, "the run does not come from it"
+    for _ in range(2):
+        at.session.undo()
+        at.editor.edit(lambda track: track.replaced(0, 0, [0] * 9))
+    assert at.session.branches.all == [branch], "what is no better is not kept"
+
+
 def test_a_branch_is_renamed_and_dropped_after_a_question(at: TasDriver, tab: BranchesTab) -> None:
     keep(at, "")
     at.choose("Rename")

@@ -18,15 +18,16 @@ from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.menus.menu_screen import FormPanel
-from ninja_game.play.replay.screen import SPEEDS
+from ninja_game.play.replay.screen import SPEEDS, ReplayScreen
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas.tracks import InputTrack
-from ninja_game.tas_editor.level.other_runs import AHEAD, OtherRunScreen
+from ninja_game.tas_editor.level.other_runs import AHEAD, OtherRunScreen, RunFiles
 from ninja_game.tas_editor.level.part import nearest_tick, object_at
 from ninja_game.tas_editor.level.paths import shown_span
 from ninja_game.tas_editor.screen import TasScreen
+from ninja_game.tas_editor.tabs.tab import LitButton
 from ninja_game.tas_editor.tabs.values_tab import ValuesTab
 from tests.support.own_pack import PACK
 from tests.support.samples import WALK, WALK_END, running, write_records
@@ -341,15 +342,48 @@ def test_other_runs_come_from_any_file(at: TasDriver, tmp_path: Path) -> None:
     at.press("e", "c", "delete")
     assert at.top() is listed
     assert set(tmp_path.rglob("*")) == files, "nothing is written here"
-    for name in ("no such file", "notes.txt", "elsewhere.replay.txt"):
-        listed.open_file(name)
-        assert at.top() is listed
-        assert at.app.notice
     at.choose("From a file ...")
+    files_shown = at.shown(RunFiles)
+    assert [path.name for path in files_shown.paths[1:]] == ["player", "other.replay.txt", "run.replay.txt"]
+    for name in ("no such file", "notes.txt", "elsewhere.replay.txt"):
+        files_shown.open_file(name)
+        assert at.top() is files_shown
+        assert at.app.notice
+    at.press("down", "down", "return")
+    assert files_shown.folder == tmp_path / "player"
+    at.press("home", "return", "up")
     at.write("other.replay.txt")
     at.press("return")
     assert at.top() is at.screen
     assert [run.name for run in at.editor.others] == ["other"]
+
+
+def test_buttons_beside_the_tabs_show_which_overlays_are_on(at: TasDriver) -> None:
+    overlays = at.screen.level.picture.overlays
+    at.press("3")
+    buttons = [each for each in at.screen.strip.widgets if isinstance(each, LitButton)]
+    assert [each.text for each in buttons if each.is_lit()] == ["Values", "3"]
+    at.choose("3")
+    at.choose("1")
+    assert overlays.on == {"overlay_hitboxes"}
+    at.mouse(*at.button("1").centre, click=False)
+    assert at.editor.hint.startswith("Show hit boxes")
+
+
+def test_the_run_is_watched_with_those_beside_it(at: TasDriver) -> None:
+    at.screen.level.others.open(runs_of_level(RUN, at.session.about))
+    at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
+    at.press("escape")
+    at.choose("Watch")
+    viewer = at.shown(ReplayScreen)
+    assert viewer.run.inputs == at.editor.track.inputs
+    assert [(ghost.name, ghost.inputs) for ghost in viewer.ghosts] == [
+        (other.name, other.track.inputs) for other in at.editor.others
+    ]
+    at.press("escape")
+    at.press("g", "escape")
+    at.choose("Watch")
+    assert not at.shown(ReplayScreen).ghosts, "other runs are off"
 
 
 def test_of_a_long_run_the_way_near_the_cursor_is_shown(at: TasDriver) -> None:

@@ -314,20 +314,86 @@ def test_the_result_under_the_mouse_is_looked_at(at: TasDriver, tab: SearchTab) 
     assert at.editor.preview is None
 
 
-def test_results_that_do_not_fit_any_more_are_refused(at: TasDriver, tab: SearchTab) -> None:
+def test_a_result_that_does_not_fit_any_more_brings_its_run_back(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
     results = searched(at, tab)
     down = not at.editor.track.keys_at(50) & Input.LEFT
     at.editor.edit(lambda track: track.with_key(50, 51, Input.LEFT, down=down))
-    changed = at.editor.track
+    changed, found = at.editor.track, tab.found[0]
+    at.frames(2)
     row(at, tab, 0)
+    assert is_in(at, results, found), "the run as it was searched, with the result"
+    assert "as it was searched" in at.app.notice
+    assert changed.inputs in [branch.track.inputs for branch in at.session.branches.all], "nothing is lost"
+    at.session.undo()
     assert at.editor.track == changed
-    assert "search again" in at.app.notice
     at.session.undo()
     assert results.behind == 130
     at.editor.edit(lambda track: track.with_key(200, 210, Input.LEFT, down=True))
     row(at, tab, 0)
     assert is_in(at, results, tab.found[0]), "what is behind the span does not matter"
+
+
+def test_results_of_earlier_searches_stay_listed_until_they_are_forgotten(at: TasDriver, tab: SearchTab) -> None:
+    wish(at, "Greatest speed")
+    results = searched(at, tab)
+    best, before = tab.found[0], at.editor.track
+    at.editor.select(50, 90)
+    tab.use_selection()
+    at.frames(2)
+    assert tab.results is None
+    assert tab.list.count == len(tab.earlier) > 0
+    tab.goal.show("x > 400")
+    tab.start()
+    results_of(tab).stop()
+    at.wait(lambda: not results_of(tab).running, "the end")
+    at.frames(2)
+    first = len(tab.found)
+    row(at, tab, first, click=False)
+    at.frames()
+    assert at.editor.preview is not None
+    assert at.editor.preview.track.inputs == best.inputs
+    row(at, tab, first)
+    assert is_in(at, results, best)
+    names = [(branch.name, branch.track.inputs) for branch in at.session.branches.all]
+    title = "100-129 Greatest speed"
+    assert names == [(f"before {title}", before.inputs), (title, at.editor.track.inputs)]
+    row(at, tab, first + 1)
+    at.session.undo()
+    row(at, tab, first)
+    kept = [branch.track.inputs for branch in at.session.branches.all]
+    assert len(kept) == len({*kept}), "none is kept twice"
+    at.choose("Forget earlier")
+    at.frames(2)
+    assert tab.list.count == len(tab.found)
+
+
+def test_old_pieces_are_no_rows_after_an_edit(at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
+    wish(at, "Same end, sooner")
+    at.wait(lambda: bool(tab.pieces), "pieces")
+    monkeypatch.setattr(tab._splits, "ask", lambda _: None)
+    at.editor.edit(lambda track: track.up_to(110))
+    at.frames(2)
+    assert not tab.pieces
+    monkeypatch.undo()
+    tab._asked = None
+    at.wait(lambda: tab._cut is at.editor.track, "the pieces of the run as it is")
+    assert [piece[:3] for piece in tab.pieces] == [(0, 110, "Whole run")], "it ends before the span"
+
+
+def test_no_pieces_are_proposed_for_what_is_not_to_be_sooner(
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
+    for goal in ("taken(3)", "speed > 90"):
+        tab.goal.show(goal)
+        tab.start()
+        at.wait(lambda: not results_of(tab).running, "the end")
+        at.frames(2)
+        assert tab._in_pieces is None, goal
 
 
 def test_an_edit_in_front_ends_the_search(at: TasDriver, tab: SearchTab) -> None:

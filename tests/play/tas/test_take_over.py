@@ -66,6 +66,14 @@ def test_keys_that_are_down_already_begin_when_pressed_again(at: TasDriver) -> N
     assert at.editor.cursor == START + 1
 
 
+def test_space_that_also_jumps_begins_nothing(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    before, taken = at.editor.track, take_over(at)
+    monkeypatch.setattr(at.keys, "choosing", lambda **_: 4)
+    at.keys.script = [0, 4, 4]
+    at.frames(4)
+    assert (at.editor.cursor, at.editor.track, taken.waiting) == (START, before, True)
+
+
 def test_before_the_first_key_space_begins_nothing(at: TasDriver) -> None:
     before, taken = at.editor.track, take_over(at)
     at.press("space")
