@@ -122,10 +122,14 @@ class EditorTools:
         """Whether anything is being drawn or dragged."""
         return bool(self._doing)
 
-    def load(self, draft: Draft) -> None:
-        """Work on another level: the first tile is in hand again, and what is drawn has no images."""
+    def load(self, draft: Draft, history: History[Draft] | None = None) -> None:
+        """Work on another level: the first tile is in hand again, and what is drawn has no images.
+
+        ``history``: of the level when it was last worked on.
+        """
         self.finish()
-        self.history, self.selection = History(draft), stamps.Selection()
+        self.history, self.selection = history or History(draft), stamps.Selection()
+        self.history.change(draft)
         self._take_first()
 
     def move(self, x: float, y: float) -> None:
