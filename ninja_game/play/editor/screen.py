@@ -133,7 +133,7 @@ class EditorScreen(WorkspaceScreen):
             return True
         if self._change_by_key(key):
             return True
-        what = entry_of_key(tools, key)
+        what = entry_of_key(tools, key, ())
         if what is None:
             return False
         tools.selection = Selection()

@@ -25,7 +25,7 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.commands import TABLE, TryScreen
-from ninja_game.play.editor.palette_view import entry_of_key
+from ninja_game.play.editor.palette_view import entry_of_key, live_changes
 from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.view import LAYOUT
@@ -802,7 +802,8 @@ def test_the_palette_tells_which_keys_take_what_now(room: Maker) -> None:
     for in_hand in (1, 6, object_of_type("gold"), drone, door):
         for key in (*"1234567890qwasednopi", "minus", "equals"):
             tools.pick_up(in_hand)
-            claimed, before = entry_of_key(tools, key), (tools.objects, tools.tile, object_type_of(tools.spec))
+            taken = set[str]().union(*live_changes(tools).values())
+            claimed, before = entry_of_key(tools, key, taken), (tools.objects, tools.tile, object_type_of(tools.spec))
             room.press(key)
             if claimed is None:
                 assert (tools.objects, tools.tile, object_type_of(tools.spec)) == before
