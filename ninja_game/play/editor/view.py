@@ -247,8 +247,8 @@ class EditorView(Pane):
             self.sheet = LevelSheet(seen, self.app.theme.palette)
             self.sheet.show(self.session.draft)
         self.overlay = Overlay(self.sheet, self._rect.topleft)
-        self.sheet.show_grid(self.grid.lines())
         if before[:3] != self._laid_out[:3]:
+            self.sheet.show_grid(self.grid.lines())
             self._marked = ()
 
     def _point(self) -> None:
@@ -392,7 +392,7 @@ class EditorView(Pane):
         routes: list[tuple[Route, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(
-            self.sheet.canvas, palette, session.draft, self.sheet.marks, lines=self.lines, signs=self._signs(),
+            self.sheet.flat, palette, session.draft, self.sheet.marks, lines=self.lines, signs=self._signs(),
             said=said_places(session.draft.says),
             routes=routes if self.paths else (), tests=(self.tests and session.test_map) or NO_TESTS,
             axes=_AXES.get(session.tools.symmetry, ()),
