@@ -23,6 +23,8 @@ from ninja_game.sim.rules import CELL, WORLD_HEIGHT, WORLD_WIDTH
 CURVES = ("line", "ellipse")
 SHAPES = ("rectangle", *CURVES)
 TOOLS = ("brush", *SHAPES, "fill", "select", "pick")
+TAKES = ("both", "tiles", "objects")
+"""What Select takes."""
 SPACINGS = (12.0, 16.0, 20.0, 24.0, 36.0, 48.0, 72.0)
 BEND = 12.0
 """Px by which one step bends a line."""
@@ -61,7 +63,8 @@ class EditorTools:
     """A draft with its history, the pointer, the tool in hand and what it draws, what is selected and copied.
 
     ``tile`` and ``spec``: what the brush draws, ``objects`` which of them. ``snap``, ``symmetry``: by name.
-    ``tool``: one of TOOLS; ``marquee``: the corners of the frame that is being drawn around what to select.
+    ``tool``: one of TOOLS; ``marquee``: the corners of the frame that is being drawn around what to select. ``takes``:
+    of TAKES.
     ``spacing``: of objects along a line or ellipse, px, of SPACINGS. ``slopes``: whether slopes set themselves.
     ``nearest``: whether doors go to the side of a cell that is nearest to the pointer, not to their own. ``ghost``:
     what is pasted by the next press.
@@ -80,7 +83,9 @@ class EditorTools:
         self.clipboard: stamps.Stamp | None = None
         self.ghost: stamps.Stamp | None = None
         self.marquee: tuple[Cell, Cell] | None = None
+        self.takes = TAKES[0]
         self._doing = ""
+        self._copies = False
         self._chosen_before = stamps.Selection()
 
     def _take_first(self) -> None:
@@ -152,13 +157,13 @@ class EditorTools:
             self.history.change(replace(began, says=with_message_moved(began.says, place, self.cell)))
         elif self._doing == "choose":
             self.marquee = cell_of(*self._pressed_at), self.cell
-            self.selection = self._joined(stamps.chosen_in(self.draft, stamps.area_between(*self.marquee)))
+            self.selection = self._joined(self._taken(stamps.chosen_in(self.draft, stamps.area_between(*self.marquee))))
 
-    def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
-        """The button goes down at the pointer. ``add``: to what is chosen already."""
+    def press(self, *, erase: bool = False, pick: bool = False, add: bool = False, copies: bool = False) -> None:
+        """The button goes down at the pointer. ``add``: to what is chosen already; ``copies``: a drag drags a copy."""
         if pick and (self.placing_switch or self.ghost):
             return
-        self._pressed_at, self._bend = self.pointer, 0.0
+        self._pressed_at, self._bend, self._copies = self.pointer, 0.0, copies
         if erase and (self.placing_switch or self.ghost or self.tool == "select"):
             self.cancel()
         elif self.placing_switch:
@@ -197,8 +202,8 @@ class EditorTools:
                 self.finish()
             return
         if self._doing == "choose" and self.marquee is None and not self._chosen_before:
-            found = stamps.nearest(self.draft, *self.pointer, REACH)
-            self.selection = stamps.Selection(parts=frozenset({found} if found else ()))
+            found, area = self.near(REACH), (*self.cell, 1, 1) if self.takes == "tiles" else None
+            self.selection = stamps.Selection(area, frozenset({found} if found else ()))
         self._doing, self.marquee = "", None
         self.history.end()
 
@@ -252,8 +257,9 @@ class EditorTools:
 
     @property
     def preview(self) -> Tiles:
-        """The tiles that a press of the brush would change."""
-        after = self._with(stamps.Stamp({self.cell: self.tile}), self.draft)
+        """The tiles that a press of the brush, or a fill, would change."""
+        cells = stamps.filled(self.draft, self.cell) if self.effective_tool == "fill" else [self.cell]
+        after = self._with(stamps.Stamp(dict.fromkeys(cells, self.tile)), self.draft)
         return {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
@@ -316,12 +322,37 @@ class EditorTools:
 
     # --- choosing ---
 
+    @property
+    def framed(self) -> tuple[int, int] | None:
+        """Columns and rows of the shape or the frame that is being drawn."""
+        drawn = self._doing in (*SHAPES, "choose")
+        return stamps.area_between(cell_of(*self._pressed_at), self.cell)[2:] if drawn else None
+
+    def near(self, reach: float) -> stamps.ObjectPart | None:
+        """The part of an object at the pointer, within so many px; None where Select takes only tiles."""
+        tiles = self.tool == "select" and self.takes == "tiles"
+        return None if tiles else stamps.nearest(self.draft, *self.pointer, reach)
+
+    def take(self, what: str) -> None:
+        """Have Select take one of TAKES, and nothing else stay selected."""
+        self.finish()
+        self.tool, self.takes = "select", what
+        self.selection = self._taken(self.selection)
+
+    def _taken(self, selection: stamps.Selection) -> stamps.Selection:
+        area = None if self.takes == "objects" else selection.area
+        return stamps.Selection(area, frozenset() if self.takes == "tiles" else selection.parts)
+
+    def choose_all(self) -> None:
+        self.finish()
+        self.tool, self.selection = "select", self._taken(stamps.everything(self.draft))
+
     def _joined(self, selection: stamps.Selection) -> stamps.Selection:
         before = self._chosen_before
         return stamps.Selection(selection.area or before.area, selection.parts | before.parts)
 
     def _choose(self, *, add: bool) -> None:
-        found = stamps.nearest(self.draft, *self.pointer, PICK_REACH)
+        found = self.near(PICK_REACH)
         if not add and (found in self.selection.parts or self._in_area()):
             self._begin_drag()
             return
@@ -348,7 +379,11 @@ class EditorTools:
     def _drag(self) -> None:
         snap = "cell" if self._chosen_before.area else self.snap
         (ax, ay), (bx, by) = brush.snapped(*self._pressed_at, snap), brush.snapped(*self.pointer, snap)
-        draft, self.selection = stamps.moved(self.history.began, self._chosen_before, Motion(dx=bx - ax, dy=by - ay))
+        began, chosen, motion = self.history.began, self._chosen_before, Motion(dx=bx - ax, dy=by - ay)
+        if self._copies:
+            draft, self.selection = stamps.pasted(began, stamps.copied(began, chosen).carried(motion))
+        else:
+            draft, self.selection = stamps.moved(began, chosen, motion)
         self.history.change(draft)
 
     def choose(self, parts: frozenset[stamps.ObjectPart]) -> None:
@@ -443,7 +478,7 @@ class EditorTools:
         if self.selection:
             self.history.change(stamps.removed(self.draft, self.selection))
             self.selection = stamps.Selection()
-        else:
+        elif self.near(PICK_REACH):
             self.delete_nearest(PICK_REACH)
 
     def paste(self) -> bool:

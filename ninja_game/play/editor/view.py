@@ -152,7 +152,7 @@ class Overlay:
         draws = tools.effective_tool not in ("select", "pick")
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
         if not draws:
-            found = nearest(tools.draft, *tools.pointer, PICK_REACH)
+            found = tools.near(PICK_REACH)
             if tools.draft.says and tools.cell in said_cells(tools.draft.says):
                 # As far as NEAR: the message is said to who comes in there.
                 column, row = tools.cell
@@ -285,7 +285,7 @@ class EditorView(Pane):
         self.grid = grid
         self.sheet.show_grid(self.grid.lines())
 
-    def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
+    def press(self, *, erase: bool = False, pick: bool = False, add: bool = False, copies: bool = False) -> None:
         cell = self.session.tools.cell
         if self.taker:
             if erase or (is_inside(cell) and not pick):
@@ -303,7 +303,7 @@ class EditorView(Pane):
             self.open_message(cell)
             return
         self._held = True
-        self.session.tools.press(erase=erase, pick=pick, add=add)
+        self.session.tools.press(erase=erase, pick=pick, add=add, copies=copies)
 
     def turn(self, motion: Motion) -> None:
         if not self.session.tools.turn(motion):
@@ -343,8 +343,8 @@ class EditorView(Pane):
         elif button == pygame.BUTTON_MIDDLE:
             camera.grab(self._mouse)
         elif button:
-            add = bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
-            self.press(erase=button == pygame.BUTTON_RIGHT, add=add)
+            add, copies = (bool(pygame.key.get_mods() & each) for each in (pygame.KMOD_SHIFT, pygame.KMOD_CTRL))
+            self.press(erase=button == pygame.BUTTON_RIGHT, add=add, copies=copies)
         return True
 
     def mouse_left(self) -> None:
