@@ -214,8 +214,8 @@ def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
     return lambda area: Choice(area, "", options, lambda: _present(tools, name), put, hint=hint)
 
 
-def _place(tools: EditorTools, part: int) -> Callable[[Area], Widget]:
-    """Where a part is, as text: cells as ``5,7`` or px as ``60,564px``."""
+def _place(tools: EditorTools, part: int) -> Callable[[Area], Sequence[Widget]]:
+    """Where a part is, as text behind its name: cells as ``5,7`` or px as ``60,564px``."""
 
     def put(text: str) -> None:
         spec = tools.subject
@@ -230,7 +230,12 @@ def _place(tools: EditorTools, part: int) -> Callable[[Area], Widget]:
     text = place_text(*points(tools.subject)[part])
     hint = f"Where {'its switch' if part == SWITCH else 'it'} is: column,row as in 5,7 or px as in 60,564px"
 
-    return lambda area: TextEntry(area, "place", text, put, hint=hint)
+    def make(area: Area) -> Sequence[Widget]:
+        (x, y, w, h), name = area, "switch at" if part == SWITCH else "at"
+        field = TextEntry((x + 46, y, w - 46, h), "place", text, put, hint=hint)
+        return [Label((x, y + 4, 44, h), name, size=9.5), field]
+
+    return make
 
 
 TOP, TALL, GAP = 4.0, 21.0, 2.0

@@ -668,6 +668,7 @@ def test_the_panel_follows_what_is_dragged(room: Maker) -> None:
         each for each in room.editor.properties.widgets if isinstance(each, TextEntry) and "switch" in each.hint
     )
     assert place.text == place_text(*points(room.draft.objects[1])[SWITCH])
+    assert [each.text for each in room.editor.properties.widgets if isinstance(each, Label)][1:] == ["at", "switch at"]
 
 
 def test_the_panel_names_the_type_that_is_in_hand_or_selected(room: Maker) -> None:
