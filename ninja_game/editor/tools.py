@@ -168,9 +168,10 @@ class EditorTools:
             self.cancel()
         elif self.placing_switch:
             self.finish()
-        elif self.ghost:
-            self._put_ghost()
-            self.ghost = None
+        elif stamp := self.pasted:
+            self.tool, self.ghost = "select", None
+            draft, self.selection = stamps.pasted(self.draft, stamp)
+            self.history.change(draft)
         elif pick or (self.tool == "pick" and not erase):
             self.pick()
         elif self.tool == "select":
@@ -507,22 +508,11 @@ class EditorTools:
             moves.append(by - step * max(0, ceil((high + by - end + CELL) / step)))
         return self.ghost.carried(Motion(dx=moves[0], dy=moves[1]))
 
-    def _put_ghost(self) -> None:
-        if stamp := self.pasted:
-            self.tool = "select"
-            draft, self.selection = stamps.pasted(self.draft, stamp)
-            self.history.change(draft)
-
     @property
     def chosen(self) -> ObjectSpec | None:
         numbers = self.selection.numbers
         number = next(iter(numbers)) if len(numbers) == 1 and self.selection.area is None else -1
         return self.draft.objects[number] if 0 <= number < len(self.draft.objects) else None
-
-    @property
-    def subject(self) -> ObjectSpec:
-        """The object whose properties can be changed: the selected one, or the one that is drawn with."""
-        return self.chosen or self.spec
 
     @property
     def subjects(self) -> list[ObjectSpec]:
@@ -546,9 +536,3 @@ class EditorTools:
         parts = frozenset((number, part) for number in self.selection.numbers for part in points(objects[number]))
         self.history.change(self.draft.with_objects(tuple(objects)))
         self.selection = stamps.Selection(self.selection.area, parts)
-
-    def put_subject(self, spec: ObjectSpec) -> None:
-        if self.chosen is None:
-            self.spec = spec
-        else:
-            self.change_each(lambda _: spec)

@@ -219,13 +219,13 @@ def test_shift_adds_to_a_selection_and_takes_away_again(tools: EditorTools) -> N
 
 def test_properties_belong_to_what_is_selected_or_to_the_brush(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("one-way"))
-    tools.put_subject(placed(tools.subject, 36, 36, "cell")._replace(values=(36.0, 36.0, 2.0)))
+    tools.spec = placed(tools.spec, 36, 36, "cell")._replace(values=(36.0, 36.0, 2.0))
     assert word(tools.spec, "direction") == "left"
     drag(tools, (300, 300))
     tools.tool = "select"
     drag(tools, (300, 300))
     assert tools.chosen is not None
-    tools.put_subject(tools.chosen._replace(values=(300.0, 300.0, 1.0)))
+    tools.change_each(lambda spec: spec._replace(values=(300.0, 300.0, 1.0)))
     assert word(tools.draft.objects[0], "direction") == "down"
     assert word(tools.spec, "direction") == "left"
 

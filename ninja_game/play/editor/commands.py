@@ -97,7 +97,8 @@ class EditorCommands(DocumentCommands):
             "messages": self.messages,
             "undo": tools.undo, "redo": tools.redo,
             "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
-            "takes": self.next_taken, "choose_all": tools.choose_all, "delete": tools.delete,
+            "takes": lambda: tools.take(following(TAKES, tools.takes)),
+            "choose_all": tools.choose_all, "delete": tools.delete,
             "next_tool": lambda: self.run(following(TOOLS, tools.tool)),
             "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
@@ -152,11 +153,6 @@ class EditorCommands(DocumentCommands):
         view.tests = not view.tests
         what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"
         view.hint = (what if count else "No tests yet: F5 plays the level") if view.tests else ""
-
-    def next_taken(self) -> None:
-        tools = self.session.tools
-        tools.take(following(TAKES, tools.takes))
-        self.view.hint = f"Select takes {tools.takes.replace('both', 'tiles and objects')}"
 
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with another speed, or no more."""

@@ -218,16 +218,16 @@ def _place(tools: EditorTools, part: int) -> Callable[[Area], Sequence[Widget]]:
     """Where a part is, as text behind its name: cells as ``5,7`` or px as ``60,564px``."""
 
     def put(text: str) -> None:
-        spec = tools.subject
+        spec = tools.subjects[0]
         old = points(spec).get(part)
         try:
             x, y = read_place(text.replace(" ", ""))
         except LevelError:
             return
         if old is not None and (x, y) != old:
-            tools.put_subject(carried(spec, Motion(dx=x - old[0], dy=y - old[1]), (part,)))
+            tools.change_each(lambda spec: carried(spec, Motion(dx=x - old[0], dy=y - old[1]), (part,)))
 
-    text = place_text(*points(tools.subject)[part])
+    text = place_text(*points(tools.subjects[0])[part])
     hint = f"Where {'its switch' if part == SWITCH else 'it'} is: column,row as in 5,7 or px as in 60,564px"
 
     def make(area: Area) -> Sequence[Widget]:
@@ -347,7 +347,8 @@ class Properties(EditorPart):
         self._subject: tuple[object, ...] = ()
 
     def refresh(self) -> None:
-        about = self.session.tools.tool == "select", *panel_key(self.session.tools)
+        tools = self.session.tools
+        about = tools.tool == "select" and tools.takes, *panel_key(tools)
         if about != self._subject:
             self._subject = about
             x, y, w, h = self.area
@@ -355,10 +356,8 @@ class Properties(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return (
-            self._subject, tools.tile, tools.subject, tools.selection, tools.slopes, tools.spacing, tools.nearest,
-            tools.takes,
-        )  # fmt: skip
+        spec = tools.chosen or tools.spec
+        return self._subject, tools.tile, spec, tools.selection, tools.slopes, tools.spacing, tools.nearest
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)

@@ -23,7 +23,6 @@ from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import CELL, STRIDE
 from ninja_game.ui.canvas import Canvas, Colour, Lens, Point
 from ninja_game.ui.theme import Palette
@@ -69,7 +68,7 @@ class LevelSheet:
         self.canvas, self.target = canvas, DrawTarget(canvas, self.palette, book)
         self._seen = pygame.Rect((-canvas.origin[0], -canvas.origin[1]), canvas.size)
         if self.draft and canvas.scale == self.flat.scale:
-            self._tiles.scroll(canvas, _tile_map(self.draft))
+            self._tiles.scroll(canvas, grid_tiles(self.draft.level))
             kept = scrolled(self.surface, canvas.origin[0] - left, canvas.origin[1] - top)
             self._dirty += around(kept.move(self._seen.topleft), self._seen)
             return
@@ -85,7 +84,7 @@ class LevelSheet:
     def show(self, draft: Draft) -> None:
         before, self.draft = self.draft, draft
         if before is None:
-            self._tiles.show(_tile_map(draft))
+            self._tiles.show(grid_tiles(draft.level))
             self._dirty.append(self._seen)
         else:
             self._change_tiles(before, draft)
@@ -159,12 +158,6 @@ class LevelSheet:
             if flat.collidelist(mark.rects) >= 0:
                 mark.draw(target)
         surface.set_clip(None)
-
-
-def _tile_map(draft: Draft) -> TileMap:
-    found = TileMap()
-    found.tiles = grid_tiles(draft.level)
-    return found
 
 
 def joined(rects: Iterable[pygame.Rect]) -> list[pygame.Rect]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from math import cos, pi, sin
 
@@ -10,7 +10,6 @@ import pygame
 
 from ninja_game.sim.collision import tiles
 from ninja_game.sim.collision.tiles import EMPTY, FULL, SHAPE
-from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas, Point
 from ninja_game.view.sprites.sketch import FINE
@@ -34,23 +33,23 @@ class TileSheet:
         self._corner = canvas.stage.topleft
         self._shift = canvas.origin[0] - self._corner[0], canvas.origin[1] - self._corner[1]
 
-    def scroll(self, canvas: Canvas, level: TileMap) -> None:
+    def scroll(self, canvas: Canvas, grid: Sequence[int]) -> None:
         """Show another part of the level at the same scale."""
         x, y = self._shift
         self._look(canvas)
         kept = scrolled(self.surface, self._shift[0] - x, self._shift[1] - y)
         for area in around(kept, self.surface.get_rect()):
             self.surface.fill((0, 0, 0, 0), area)
-        self.show(level, kept)
+        self.show(grid, kept)
 
-    def show(self, level: TileMap, kept: pygame.Rect | None = None) -> None:
-        """``kept``: px that show it already."""
+    def show(self, grid: Sequence[int], kept: pygame.Rect | None = None) -> None:
+        """Show a world's tiles. ``kept``: px that show them already."""
         seen, logical = self.canvas.stage, self.canvas.logical
         (left, top), (right, bottom) = logical(seen.topleft), logical((seen.right, seen.bottom))
         for row in range(GRID_ROWS)[int((top - 1) / 24) : int(bottom / 24) + 1]:
             for column in range(GRID_COLUMNS)[int((left - 1) / 24) : int(right / 24) + 1]:
                 if not (kept and kept.contains(self.cell(column, row))):
-                    self.draw(column, row, level.tiles[(row + 1) * STRIDE + column + 1])
+                    self.draw(column, row, grid[(row + 1) * STRIDE + column + 1])
 
     def cell(self, column: int, row: int) -> pygame.Rect:
         """The px of a cell, between its rounded edges."""
