@@ -61,9 +61,6 @@ def cells_of(area: CellArea) -> list[Cell]:
     return [(i, j) for j in range(row, row + rows) for i in range(column, column + columns)]
 
 
-WHOLE: CellArea = (1, 1, COLUMNS, ROWS)
-
-
 def put(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> Draft:
     """Draw a stamp, and its images in a symmetry. New objects come last; there is one ninja, and exits have no images.
 
@@ -121,7 +118,7 @@ def chosen_in(draft: Draft, area: CellArea) -> Selection:
 
 def everything(draft: Draft) -> Selection:
     parts = {(number, part) for number, spec in enumerate(draft.objects) for part in points(spec)}
-    return Selection(WHOLE, frozenset(parts))
+    return Selection((1, 1, COLUMNS, ROWS), frozenset(parts))
 
 
 def copied(draft: Draft, selection: Selection) -> Stamp:

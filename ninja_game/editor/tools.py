@@ -23,6 +23,8 @@ from ninja_game.sim.rules import CELL, WORLD_HEIGHT, WORLD_WIDTH
 CURVES = ("line", "ellipse")
 SHAPES = ("rectangle", *CURVES)
 TOOLS = ("brush", *SHAPES, "fill", "select", "pick")
+TAKES = ("both", "tiles", "objects")
+"""What Select takes."""
 SPACINGS = (12.0, 16.0, 20.0, 24.0, 36.0, 48.0, 72.0)
 BEND = 12.0
 """Px by which one step bends a line."""
@@ -61,7 +63,8 @@ class EditorTools:
     """A draft with its history, the pointer, the tool in hand and what it draws, what is selected and copied.
 
     ``tile`` and ``spec``: what the brush draws, ``objects`` which of them. ``snap``, ``symmetry``: by name.
-    ``tool``: one of TOOLS; ``marquee``: the corners of the frame that is being drawn around what to select.
+    ``tool``: one of TOOLS; ``marquee``: the corners of the frame that is being drawn around what to select. ``takes``:
+    of TAKES.
     ``spacing``: of objects along a line or ellipse, px, of SPACINGS. ``slopes``: whether slopes set themselves.
     ``nearest``: whether doors go to the side of a cell that is nearest to the pointer, not to their own. ``ghost``:
     what is pasted by the next press.
@@ -80,7 +83,9 @@ class EditorTools:
         self.clipboard: stamps.Stamp | None = None
         self.ghost: stamps.Stamp | None = None
         self.marquee: tuple[Cell, Cell] | None = None
+        self.takes = TAKES[0]
         self._doing = ""
+        self._copies = False
         self._chosen_before = stamps.Selection()
 
     def _take_first(self) -> None:
@@ -122,10 +127,14 @@ class EditorTools:
         """Whether anything is being drawn or dragged."""
         return bool(self._doing)
 
-    def load(self, draft: Draft) -> None:
-        """Work on another level: the first tile is in hand again, and what is drawn has no images."""
+    def load(self, draft: Draft, history: History[Draft] | None = None) -> None:
+        """Work on another level: the first tile is in hand again, and what is drawn has no images.
+
+        ``history``: of the level when it was last worked on.
+        """
         self.finish()
-        self.history, self.selection = History(draft), stamps.Selection()
+        self.history, self.selection = history or History(draft), stamps.Selection()
+        self.history.change(draft)
         self._take_first()
 
     def move(self, x: float, y: float) -> None:
@@ -148,20 +157,21 @@ class EditorTools:
             self.history.change(replace(began, says=with_message_moved(began.says, place, self.cell)))
         elif self._doing == "choose":
             self.marquee = cell_of(*self._pressed_at), self.cell
-            self.selection = self._joined(stamps.chosen_in(self.draft, stamps.area_between(*self.marquee)))
+            self.selection = self._joined(self._taken(stamps.chosen_in(self.draft, stamps.area_between(*self.marquee))))
 
-    def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
-        """The button goes down at the pointer. ``add``: to what is chosen already."""
+    def press(self, *, erase: bool = False, pick: bool = False, add: bool = False, copies: bool = False) -> None:
+        """The button goes down at the pointer. ``add``: to what is chosen already; ``copies``: a drag drags a copy."""
         if pick and (self.placing_switch or self.ghost):
             return
-        self._pressed_at, self._bend = self.pointer, 0.0
+        self._pressed_at, self._bend, self._copies = self.pointer, 0.0, copies
         if erase and (self.placing_switch or self.ghost or self.tool == "select"):
             self.cancel()
         elif self.placing_switch:
             self.finish()
-        elif self.ghost:
-            self._put_ghost()
-            self.ghost = None
+        elif stamp := self.pasted:
+            self.tool, self.ghost = "select", None
+            draft, self.selection = stamps.pasted(self.draft, stamp)
+            self.history.change(draft)
         elif pick or (self.tool == "pick" and not erase):
             self.pick()
         elif self.tool == "select":
@@ -193,8 +203,8 @@ class EditorTools:
                 self.finish()
             return
         if self._doing == "choose" and self.marquee is None and not self._chosen_before:
-            part = stamps.nearest(self.draft, *self.pointer, REACH)
-            self.selection = stamps.Selection(parts=frozenset({part} if part else ()))
+            part, area = self.near(REACH), (*self.cell, 1, 1) if self.takes == "tiles" else None
+            self.selection = stamps.Selection(area, frozenset({part} if part else ()))
         self._doing, self.marquee = "", None
         self.history.end()
 
@@ -248,8 +258,9 @@ class EditorTools:
 
     @property
     def preview(self) -> Tiles:
-        """The tiles that a press of the brush would change."""
-        after = self._with(stamps.Stamp({self.cell: self.tile}), self.draft)
+        """The tiles that a press of the brush, or a fill, would change."""
+        cells = stamps.filled(self.draft, self.cell) if self.effective_tool == "fill" else [self.cell]
+        after = self._with(stamps.Stamp(dict.fromkeys(cells, self.tile)), self.draft)
         return {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
@@ -312,12 +323,37 @@ class EditorTools:
 
     # --- choosing ---
 
+    @property
+    def framed(self) -> tuple[int, int] | None:
+        """Columns and rows of the shape or the frame that is being drawn."""
+        drawn = self._doing in (*SHAPES, "choose")
+        return stamps.area_between(cell_of(*self._pressed_at), self.cell)[2:] if drawn else None
+
+    def near(self, reach: float) -> stamps.ObjectPart | None:
+        """The part of an object at the pointer, within so many px; None where Select takes only tiles."""
+        tiles = self.tool == "select" and self.takes == "tiles"
+        return None if tiles else stamps.nearest(self.draft, *self.pointer, reach)
+
+    def take(self, what: str) -> None:
+        """Have Select take one of TAKES, and nothing else stay selected."""
+        self.finish()
+        self.tool, self.takes = "select", what
+        self.selection = self._taken(self.selection)
+
+    def _taken(self, selection: stamps.Selection) -> stamps.Selection:
+        area = None if self.takes == "objects" else selection.area
+        return stamps.Selection(area, frozenset() if self.takes == "tiles" else selection.parts)
+
+    def choose_all(self) -> None:
+        self.finish()
+        self.tool, self.selection = "select", self._taken(stamps.everything(self.draft))
+
     def _joined(self, selection: stamps.Selection) -> stamps.Selection:
         before = self._chosen_before
         return stamps.Selection(selection.area or before.area, selection.parts | before.parts)
 
     def _choose(self, *, add: bool) -> None:
-        part = stamps.nearest(self.draft, *self.pointer, PICK_REACH)
+        part = self.near(PICK_REACH)
         if not add and (part in self.selection.parts or self._in_area()):
             self._begin_drag()
             return
@@ -344,7 +380,11 @@ class EditorTools:
     def _drag(self) -> None:
         snap = "cell" if self._chosen_before.area else self.snap
         (ax, ay), (bx, by) = brush.snapped(*self._pressed_at, snap), brush.snapped(*self.pointer, snap)
-        draft, self.selection = stamps.moved(self.history.began, self._chosen_before, Motion(dx=bx - ax, dy=by - ay))
+        began, chosen, motion = self.history.began, self._chosen_before, Motion(dx=bx - ax, dy=by - ay)
+        if self._copies:
+            draft, self.selection = stamps.pasted(began, stamps.copied(began, chosen).carried(motion))
+        else:
+            draft, self.selection = stamps.moved(began, chosen, motion)
         self.history.change(draft)
 
     def choose(self, parts: frozenset[stamps.ObjectPart]) -> None:
@@ -439,7 +479,7 @@ class EditorTools:
         if self.selection:
             self.history.change(stamps.removed(self.draft, self.selection))
             self.selection = stamps.Selection()
-        else:
+        elif self.near(PICK_REACH):
             self.delete_nearest(PICK_REACH)
 
     def paste(self) -> bool:
@@ -468,22 +508,11 @@ class EditorTools:
             moves.append(by - step * max(0, ceil((high + by - end + CELL) / step)))
         return self.ghost.carried(Motion(dx=moves[0], dy=moves[1]))
 
-    def _put_ghost(self) -> None:
-        if stamp := self.pasted:
-            self.tool = "select"
-            draft, self.selection = stamps.pasted(self.draft, stamp)
-            self.history.change(draft)
-
     @property
     def chosen(self) -> ObjectSpec | None:
         numbers = self.selection.numbers
         number = next(iter(numbers)) if len(numbers) == 1 and self.selection.area is None else -1
         return self.draft.objects[number] if 0 <= number < len(self.draft.objects) else None
-
-    @property
-    def subject(self) -> ObjectSpec:
-        """The object whose properties can be changed: the selected one, or the one that is drawn with."""
-        return self.chosen or self.spec
 
     @property
     def subjects(self) -> list[ObjectSpec]:
@@ -507,9 +536,3 @@ class EditorTools:
         parts = frozenset((number, part) for number in self.selection.numbers for part in points(objects[number]))
         self.history.change(self.draft.with_objects(tuple(objects)))
         self.selection = stamps.Selection(self.selection.area, parts)
-
-    def put_subject(self, spec: ObjectSpec) -> None:
-        if self.chosen is None:
-            self.spec = spec
-        else:
-            self.change_each(lambda _: spec)

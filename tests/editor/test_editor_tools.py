@@ -219,13 +219,13 @@ def test_shift_adds_to_a_selection_and_takes_away_again(tools: EditorTools) -> N
 
 def test_properties_belong_to_what_is_selected_or_to_the_brush(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("one-way"))
-    tools.put_subject(placed(tools.subject, 36, 36, "cell")._replace(values=(36.0, 36.0, 2.0)))
+    tools.spec = placed(tools.spec, 36, 36, "cell")._replace(values=(36.0, 36.0, 2.0))
     assert word(tools.spec, "direction") == "left"
     drag(tools, (300, 300))
     tools.tool = "select"
     drag(tools, (300, 300))
     assert tools.chosen is not None
-    tools.put_subject(tools.chosen._replace(values=(300.0, 300.0, 1.0)))
+    tools.change_each(lambda spec: spec._replace(values=(300.0, 300.0, 1.0)))
     assert word(tools.draft.objects[0], "direction") == "down"
     assert word(tools.spec, "direction") == "left"
 
@@ -555,3 +555,61 @@ def test_a_door_that_is_turned_in_hand_keeps_that_side(tools: EditorTools) -> No
         tools.turn(CLOCKWISE)
         sides.append(word(tools.placed(*tools.pointer), "side"))
     assert len(set(sides)) == 2
+
+
+def test_select_takes_only_tiles_or_only_objects(tools: EditorTools) -> None:
+    drag(tools, (60, 60), (132, 60))
+    tools.pick_up(object_of_type("gold"))
+    drag(tools, (84, 60))
+    drawn = tools.draft
+    tools.take("tiles")
+    drag(tools, (50, 50), (140, 80))
+    assert tools.selection == Selection((2, 2, 4, 2))
+    tools.delete()
+    assert (sum(tools.draft.level.tiles), tools.draft.objects) == (0, drawn.objects)
+    tools.undo()
+    drag(tools, (84, 60))
+    assert tools.selection == Selection((3, 2, 1, 1)), "a click takes the cell"
+    tools.cancel()
+    tools.delete()
+    assert tools.draft == drawn, "the pointer is on the gold"
+    tools.choose_all()
+    assert tools.selection.area
+    assert not tools.selection.parts
+    tools.takes = "both"
+    tools.choose_all()
+    tools.take("objects")
+    assert tools.selection == Selection(parts=frozenset({(0, 0)}))
+    drag(tools, (50, 50), (140, 80))
+    assert tools.selection == Selection(parts=frozenset({(0, 0)}))
+    tools.delete()
+    assert (tools.draft.level.tiles, tools.draft.objects) == (drawn.level.tiles, ())
+
+
+def test_a_drag_can_drag_a_copy(tools: EditorTools) -> None:
+    drag(tools, (60, 60), (132, 60))
+    tools.pick_up(object_of_type("gold"))
+    drag(tools, (84, 84))
+    before = tools.draft
+    tools.tool = "select"
+    drag(tools, (50, 50), (140, 90))
+    drag(tools, (60, 60), (300, 90), (60, 204), copies=True)
+    assert tools.selection == Selection((2, 8, 4, 2), frozenset({(1, 0)}))
+    assert forms(tools) == ["gold 3,3", "gold 3,9"]
+    assert [tools.draft.tile((3, row)) for row in (2, 3, 8, 9)] == [1, 0, 1, 0]
+    drag(tools, (60, 204), copies=True)
+    tools.undo()
+    assert tools.draft == before, "a press alone changes nothing"
+
+
+def test_a_fill_shows_what_it_would_fill_and_a_frame_how_large_it_is(tools: EditorTools) -> None:
+    tools.tool = "rectangle"
+    tools.move(36, 36)
+    tools.press()
+    tools.move(100, 60)
+    drawn = tools.framed
+    tools.release()
+    assert (drawn, tools.framed) == ((4, 2), None)
+    tools.tool, tools.tile = "fill", 6
+    tools.move(36, 36)
+    assert tools.preview == dict.fromkeys([(column, row) for column in (1, 2, 3, 4) for row in (1, 2)], 6)

@@ -10,8 +10,7 @@ from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
-from ninja_game.editor.stamp import everything
-from ninja_game.editor.tools import TOOLS
+from ninja_game.editor.tools import TAKES, TOOLS
 from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
@@ -98,7 +97,8 @@ class EditorCommands(DocumentCommands):
             "messages": self.messages,
             "undo": tools.undo, "redo": tools.redo,
             "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
-            "choose_all": self.choose_all, "delete": tools.delete,
+            "takes": lambda: tools.take(following(TAKES, tools.takes)),
+            "choose_all": tools.choose_all, "delete": tools.delete,
             "next_tool": lambda: self.run(following(TOOLS, tools.tool)),
             "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
@@ -153,11 +153,6 @@ class EditorCommands(DocumentCommands):
         view.tests = not view.tests
         what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"
         view.hint = (what if count else "No tests yet: F5 plays the level") if view.tests else ""
-
-    def choose_all(self) -> None:
-        tools = self.session.tools
-        tools.finish()
-        tools.tool, tools.selection = "select", everything(tools.draft)
 
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with another speed, or no more."""

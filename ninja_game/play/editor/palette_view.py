@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from functools import lru_cache
 from math import dist
 from typing import NamedTuple
@@ -177,12 +177,12 @@ def live_changes(tools: EditorTools) -> dict[str, dict[str, str | int]]:
     return {name: CHANGES[name] for name in dict.fromkeys(names) if name in CHANGES}
 
 
-def entry_of_key(tools: EditorTools, key: str) -> Entry | None:
+def entry_of_key(tools: EditorTools, key: str, taken: Collection[str]) -> Entry | None:
     """What a key takes in hand now: with tiles a digit a family, a letter a quarter of it, else all are objects'.
 
-    E and D are tiles wherever they change nothing.
+    E and D are tiles wherever they change nothing. ``taken``: the letters that make changes (``live_changes``).
     """
-    if any(key in letters for letters in live_changes(tools).values()):
+    if key in taken:
         return None
     if key in ("e", "d"):
         return brush.FULL if key == "e" else brush.EMPTY
@@ -267,24 +267,26 @@ class PaletteView(Widget):
         canvas, palette = theme.canvas, theme.palette
         x, y, _, _ = self.area
         tools = self.tools
+        taken = set[str]().union(*live_changes(tools).values())
         for text, top, lit in (("Tiles", y + 4, not tools.objects), ("Objects", y + 91, tools.objects)):
             colour = palette.accent if lit else palette.text
             theme.text(surface, text if lit else f"{text}: `", x + 1, top, size=10, colour=colour, bold=lit)
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW
-            self._draw_key(surface, theme, family.key, at, live=isinstance(entry_of_key(tools, family.key), int))
+            live = isinstance(entry_of_key(tools, family.key, taken), int)
+            self._draw_key(surface, theme, family.key, at, live=live)
         for what, area in self.places():
             canvas.fill_rect(surface, palette.background, *area)
             at = canvas.point(area[0], area[1])
             surface.blit(self._icon(theme, what, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
             if isinstance(what, brush.ObjectType):
                 below = area[0] + OBJECT / 2 - 2.5, area[1] + OBJECT
-                self._draw_key(surface, theme, what.key, below, live=entry_of_key(tools, what.key) is what)
+                self._draw_key(surface, theme, what.key, below, live=entry_of_key(tools, what.key, taken) is what)
             if what in (brush.EMPTY, brush.FULL):
                 key = brush.tile_key(what)
                 left_of = area[0] - 9, area[1] + 4
-                self._draw_key(surface, theme, key, left_of, live=entry_of_key(tools, key.lower()) == what)
+                self._draw_key(surface, theme, key, left_of, live=entry_of_key(tools, key.lower(), taken) == what)
                 canvas.frame_rect(surface, palette.panel_edge, *area)
             if what == self._in_hand:
                 canvas.frame_rect(surface, palette.accent, *area, 2)

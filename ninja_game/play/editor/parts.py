@@ -16,6 +16,7 @@ from ninja_game.editor.tools import (
     NEAREST,
     OTHER_KINDS,
     SPACINGS,
+    TAKES,
     EditorTools,
     can_be_remade,
     remade,
@@ -87,6 +88,9 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     x, y, w, _ = area
     tools = view.session.tools
     rows: list[Callable[[Area], Widget | Sequence[Widget]]] = []
+    if tools.tool == "select" and not tools.ghost:
+        taken = list(zip(("takes: all", "takes: only tiles", "takes: only objects"), TAKES, strict=True))
+        rows.append(lambda area: Choice(area, "", taken, lambda: tools.takes, tools.take, hint=TABLE.hint("takes")))
     if tools.ghost:
         title = _title("A click pastes", len(tools.ghost.tiles), len(tools.ghost.objects))
         rows.append(_turning(view))
@@ -210,23 +214,28 @@ def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
     return lambda area: Choice(area, "", options, lambda: _present(tools, name), put, hint=hint)
 
 
-def _place(tools: EditorTools, part: int) -> Callable[[Area], Widget]:
-    """Where a part is, as text: cells as ``5,7`` or px as ``60,564px``."""
+def _place(tools: EditorTools, part: int) -> Callable[[Area], Sequence[Widget]]:
+    """Where a part is, as text behind its name: cells as ``5,7`` or px as ``60,564px``."""
 
     def put(text: str) -> None:
-        spec = tools.subject
+        spec = tools.subjects[0]
         old = points(spec).get(part)
         try:
             x, y = read_place(text.replace(" ", ""))
         except LevelError:
             return
         if old is not None and (x, y) != old:
-            tools.put_subject(carried(spec, Motion(dx=x - old[0], dy=y - old[1]), (part,)))
+            tools.change_each(lambda spec: carried(spec, Motion(dx=x - old[0], dy=y - old[1]), (part,)))
 
-    text = place_text(*points(tools.subject)[part])
+    text = place_text(*points(tools.subjects[0])[part])
     hint = f"Where {'its switch' if part == SWITCH else 'it'} is: column,row as in 5,7 or px as in 60,564px"
 
-    return lambda area: TextEntry(area, "place", text, put, hint=hint)
+    def make(area: Area) -> Sequence[Widget]:
+        (x, y, w, h), name = area, "switch at" if part == SWITCH else "at"
+        field = TextEntry((x + 46, y, w - 46, h), "place", text, put, hint=hint)
+        return [Label((x, y + 4, 44, h), name, size=9.5), field]
+
+    return make
 
 
 TOP, TALL, GAP = 4.0, 21.0, 2.0
@@ -338,7 +347,8 @@ class Properties(EditorPart):
         self._subject: tuple[object, ...] = ()
 
     def refresh(self) -> None:
-        about = panel_key(self.session.tools)
+        tools = self.session.tools
+        about = tools.tool == "select" and tools.takes, *panel_key(tools)
         if about != self._subject:
             self._subject = about
             x, y, w, h = self.area
@@ -346,7 +356,8 @@ class Properties(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return self._subject, tools.tile, tools.subject, tools.selection, tools.slopes, tools.spacing, tools.nearest
+        spec = tools.chosen or tools.spec
+        return self._subject, tools.tile, spec, tools.selection, tools.slopes, tools.spacing, tools.nearest
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
@@ -457,28 +468,30 @@ class StatusLine(EditorPart):
         )
         start = self.session.start
         shown = slopes + _TOOL_HINTS[tools.effective_tool] if start == "off" else _REACH.format(start)
-        return self.view.hint or shown
+        return self.view.hint or (shown if start == "off" or self.session.reach else _NO_REACH)
 
     def render_key(self) -> tuple[object, ...]:
-        return self.session.tools.pointer, self._text(), self.view.camera.zoom
+        return self.session.tools.pointer, self.session.tools.framed, self._text(), self.view.camera.zoom
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
         tools, colour, top = self.session.tools, theme.palette.on_tile, self.area[1] + 5
         (column, row), (x, y) = tools.cell, tools.pointer
         theme.text(surface, f"{column},{row}", 8, top, size=9.5, colour=colour)
-        theme.text(surface, f"{x:.0f},{y:.0f} px", 58, top, size=9.5, colour=colour)
+        place = "{} x {} cells".format(*tools.framed) if tools.framed else f"{x:.0f},{y:.0f} px"
+        theme.text(surface, place, 58, top, size=9.5, colour=colour)
         theme.text(surface, self._text(), 140, top, size=9.5, colour=colour, width=584)
 
 
 _REACH = "Reached in 1 s, {}: squares, red deadly; red lines: dangers; dots: each 1/4 s; upright: last jumps. Y: next"
+_NO_REACH = "What is reached comes in a moment; the first time, what finds it is compiled for some minutes"
 _TOOL_HINTS = {
     "brush": "Left button draws, right erases, middle picks; wheel zooms, middle drag moves. F1: help",
     "rectangle": "Drag a rectangle; right button erases. F1: help",
     "line": "Drag a line; the wheel bends it meanwhile; objects lie along it. F1: help",
     "ellipse": "Drag an ellipse; tiles fill it, objects lie along it. F1: help",
     "fill": "A click fills what is joined and alike. F1: help",
-    "select": "Click or drag a frame; drag what is selected; Shift adds, right button gives up, Del deletes. F1: help",
+    "select": "Click or drag a frame; drag moves it, with Ctrl a copy; Shift adds, right button gives up. F1: help",
     "pick": "Click what to draw with. F1: help",
 }
 

@@ -118,6 +118,9 @@ class EditorScreen(WorkspaceScreen):
         if action not in DIRECTIONS:
             return
         tools, (dx, dy) = self.session.tools, DIRECTIONS[action]
+        if tools.tool == "select" and tools.selection and not self.view.by_keys:
+            tools.nudge(dx, dy)
+            return
         snap = tools.snap if tools.objects or tools.tool == "select" else "cell"
         x, y = tools.pointer
         step = SNAPS[snap]
@@ -133,7 +136,7 @@ class EditorScreen(WorkspaceScreen):
             return True
         if self._change_by_key(key):
             return True
-        what = entry_of_key(tools, key)
+        what = entry_of_key(tools, key, ())
         if what is None:
             return False
         tools.selection = Selection()

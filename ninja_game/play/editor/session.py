@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from time import monotonic
 
+from ninja_game.document import History
 from ninja_game.editor.certify import (
     STARTS,
     Ask,
@@ -63,6 +64,9 @@ CHECK_SPACING = 0.1
 
 PICTURE_WIDTH = 1584
 
+_HISTORIES: dict[Path, tuple[str, History[Draft]]] = {}
+"""Of each level that was left: the digest of its file then, and what undo takes back."""
+
 Question = tuple[Level, tuple[Finding, ...], str]
 """A level to examine, what the solver has found of it, and what it says."""
 Examined = tuple[Level, list[Finding]]
@@ -98,7 +102,9 @@ class EditorSession:
     def _begin(self, source: Source, draft: RecoveredDraft | None = None) -> None:
         self.autosave = Autosave(self.app.player.folder, draft.file if draft else None)
         self.source = draft.source if draft else source
-        self.tools.load(draft.draft if draft else source.draft)
+        digest, history = _HISTORIES.get(source.path, ("", None)) if source.path and not draft else ("", None)
+        # Changes that were discarded are a step of it, too.
+        self.tools.load(draft.draft if draft else source.draft, history if digest == source.digest else None)
         self.certifier.edit(self.draft.level)
         self._objects = self.draft.objects
         # What is still being found out is of another level.
@@ -323,6 +329,8 @@ class EditorSession:
     def _leave_search(self) -> None:
         """The level is left: a search of what its file holds goes on without the editor, any other one ends."""
         path, level = self.source.path, self.source.draft.level
+        if path:
+            _HISTORIES[path] = self.source.digest, self.tools.history
         if path and self._keeps_runs(path) and self.certifier.busy and not self.certifier.is_stale(level):
             self.certifier.leave(partial(self._keep, path, name=self.source.draft.name or path.stem))
         else:

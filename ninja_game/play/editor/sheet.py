@@ -23,12 +23,11 @@ from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import CELL, STRIDE
 from ninja_game.ui.canvas import Canvas, Colour, Lens, Point
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import DrawTarget, is_near, shared_book
-from ninja_game.view.sprites.tile_sheet import TileSheet
+from ninja_game.view.sprites.tile_sheet import TileSheet, around, scrolled
 
 _FRONT = {kinds.GOLD: 1, kinds.MINE: 1, kinds.NINJA: 3} | {kind.number: 2 for kind in kinds.KINDS if kind.moves}
 """What is drawn later lies in front."""
@@ -56,17 +55,24 @@ class LevelSheet:
         self._order: list[ObjectSprites] = []
         self._rects: list[pygame.Rect] = []
         self.marks: dict[Hashable, LevelMark] = {}
-        self._grid: pygame.Surface | None = None
+        self._grid: list[tuple[tuple[int, ...], pygame.Rect]] = []
         self._dirty: list[pygame.Rect] = []
+        self.canvas = canvas
+        self.surface, self._tiles = pygame.Surface(canvas.size), TileSheet(canvas, palette.tile)
         self.look(canvas)
 
     def look(self, canvas: Canvas) -> None:
-        """Show another part of the level; grid lines, and at another scale marks, are to be shown again."""
+        """Show another part of the level; at another scale, grid lines and marks are to be shown again."""
         book = shared_book(canvas.scale, self.palette.base)
-        self.canvas, self.surface = canvas, pygame.Surface(canvas.size)
-        self._seen = self.surface.get_rect().move(-canvas.origin[0], -canvas.origin[1])
-        self.target = DrawTarget(canvas, self.palette, book)
-        self._tiles = TileSheet(canvas, self.palette.tile)
+        left, top = self.canvas.origin
+        self.canvas, self.target = canvas, DrawTarget(canvas, self.palette, book)
+        self._seen = pygame.Rect((-canvas.origin[0], -canvas.origin[1]), canvas.size)
+        if self.draft and canvas.scale == self.flat.scale:
+            self._tiles.scroll(canvas, grid_tiles(self.draft.level))
+            kept = scrolled(self.surface, canvas.origin[0] - left, canvas.origin[1] - top)
+            self._dirty += around(kept.move(self._seen.topleft), self._seen)
+            return
+        self.surface, self._tiles = pygame.Surface(canvas.size), TileSheet(canvas, self.palette.tile)
         if canvas.scale != self.flat.scale:
             self.flat = Lens(canvas.window, canvas.scale, (0, 0))
             self.pictures.target = DrawTarget(self.flat, self.palette, book)
@@ -78,9 +84,7 @@ class LevelSheet:
     def show(self, draft: Draft) -> None:
         before, self.draft = self.draft, draft
         if before is None:
-            static = TileMap()
-            static.tiles = grid_tiles(draft.level)
-            self._tiles.show(static)
+            self._tiles.show(grid_tiles(draft.level))
             self._dirty.append(self._seen)
         else:
             self._change_tiles(before, draft)
@@ -93,6 +97,9 @@ class LevelSheet:
         for column, row in changed:
             self._tiles.draw(column, row, grid[(row + 1) * STRIDE + column + 1])
             self._dirty.append(self.flat.rect(CELL * column, CELL * row, CELL, CELL))
+        # A tile hides all of an object in its cell, which may reach beyond that.
+        covered = set(changed)
+        self._dirty += [each.rect for each in self._order if covered and not covered.isdisjoint(each.cells)]
 
     def _change_objects(self, draft: Draft) -> None:
         before = self._looks
@@ -111,13 +118,12 @@ class LevelSheet:
 
     def show_grid(self, lines: Iterable[tuple[bool, float, bool]]) -> None:
         """Show grid lines: whether upright, where (px of the level), whether one of the middle lines."""
-        lines = list(lines)
-        self._grid = pygame.Surface(self.canvas.size, pygame.SRCALPHA) if lines else None
+        self._grid = []
         for upright, at, middle in lines:
-            assert self._grid is not None  # noqa: S101 - for the type checker
             colour = (*self.palette.accent[:3], 150) if middle else (*self.palette.text[:3], 60)
-            ends = ((at, CELL), (at, CELL * (ROWS + 1))) if upright else ((CELL, at), (CELL * (COLUMNS + 1), at))
-            pygame.draw.line(self._grid, colour, self.canvas.point(*ends[0]), self.canvas.point(*ends[1]))
+            area = (at, CELL, 0, CELL * ROWS) if upright else (CELL, at, CELL * COLUMNS, 0)
+            left, top, width, height = self.flat.rect(*area)
+            self._grid.append((colour, pygame.Rect(left, top, width + 1, height + 1)))
         self._dirty.append(self._seen)
 
     def paint(self) -> list[pygame.Rect]:
@@ -139,11 +145,15 @@ class LevelSheet:
             self._order[number].draw(target)
         if self._tiles.on_tiles([area]):
             surface.blit(self._tiles.surface, area, area, pygame.BLEND_PREMULTIPLIED)
-            for number in near:
-                if any(self.draft.tile(cell) == 1 for cell in self._order[number].cells):
-                    self._order[number].draw(target, alpha=COVERED_ALPHA)
-        if self._grid is not None:
-            surface.blit(self._grid, area, area)
+        for number in near:
+            if any(self.draft.tile(cell) == 1 for cell in self._order[number].cells):
+                self._order[number].draw(target, alpha=COVERED_ALPHA)
+        if self._grid:
+            # A layer of its own, for lines that cross do not add up.
+            grid = pygame.Surface(area.size, pygame.SRCALPHA)
+            for colour, line in self._grid:
+                grid.fill(colour, line.move(-flat.x, -flat.y))
+            surface.blit(grid, area)
         for mark in self.marks.values():
             if flat.collidelist(mark.rects) >= 0:
                 mark.draw(target)
@@ -151,8 +161,8 @@ class LevelSheet:
 
 
 def joined(rects: Iterable[pygame.Rect]) -> list[pygame.Rect]:
-    """Few rectangles that cover the same px: those that touch become one, and so do very many."""
-    waiting = [rect.copy() for rect in rects if rect.width]
+    """Few rectangles that cover the same px: those that overlap become one, and so do very many."""
+    waiting = [rect.copy() for rect in rects if rect]
     if len(waiting) > _MANY:
         return [waiting[0].unionall(waiting[1:])]
     merged: list[pygame.Rect] = []

@@ -152,7 +152,7 @@ class Overlay:
         draws = tools.effective_tool not in ("select", "pick")
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
         if not draws:
-            target = nearest(tools.draft, *tools.pointer, PICK_REACH)
+            target = tools.near(PICK_REACH)
             if tools.draft.says and tools.cell in said_cells(tools.draft.says):
                 # As far as NEAR: the message is said to who comes in there.
                 column, row = tools.cell
@@ -247,8 +247,8 @@ class EditorView(Pane):
             self.sheet = LevelSheet(seen, self.app.theme.palette)
             self.sheet.show(self.session.draft)
         self.overlay = Overlay(self.sheet, self._rect.topleft)
-        self.sheet.show_grid(self.grid.lines())
         if before[:3] != self._laid_out[:3]:
+            self.sheet.show_grid(self.grid.lines())
             self._marked = ()
 
     def _point(self) -> None:
@@ -285,7 +285,7 @@ class EditorView(Pane):
         self.grid = grid
         self.sheet.show_grid(self.grid.lines())
 
-    def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
+    def press(self, *, erase: bool = False, pick: bool = False, add: bool = False, copies: bool = False) -> None:
         cell = self.session.tools.cell
         if self.taker:
             if erase or (is_inside(cell) and not pick):
@@ -303,7 +303,7 @@ class EditorView(Pane):
             self.open_message(cell)
             return
         self._held = True
-        self.session.tools.press(erase=erase, pick=pick, add=add)
+        self.session.tools.press(erase=erase, pick=pick, add=add, copies=copies)
 
     def turn(self, motion: Motion) -> None:
         if not self.session.tools.turn(motion):
@@ -343,8 +343,8 @@ class EditorView(Pane):
         elif button == pygame.BUTTON_MIDDLE:
             camera.grab(self._mouse)
         elif button:
-            add = bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
-            self.press(erase=button == pygame.BUTTON_RIGHT, add=add)
+            add, copies = (bool(pygame.key.get_mods() & each) for each in (pygame.KMOD_SHIFT, pygame.KMOD_CTRL))
+            self.press(erase=button == pygame.BUTTON_RIGHT, add=add, copies=copies)
         return True
 
     def mouse_left(self) -> None:
@@ -392,7 +392,7 @@ class EditorView(Pane):
         routes: list[tuple[Route, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(
-            self.sheet.canvas,
+            self.sheet.flat,
             palette,
             session.draft,
             self.sheet.marks,

@@ -30,7 +30,7 @@ class Backdrop:
         self._corner = canvas.stage.topleft
         self.picture = pygame.Surface(canvas.size)
         sheet = TileSheet(canvas, palette.tile)
-        sheet.show(level)
+        sheet.show(level.tiles)
         if palette.scenery:
             self.ground = add_relief(sheet, palette)
         else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from math import cos, pi, sin
 
@@ -10,7 +10,6 @@ import pygame
 
 from ninja_game.sim.collision import tiles
 from ninja_game.sim.collision.tiles import EMPTY, FULL, SHAPE
-from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas, Point
 from ninja_game.view.sprites.sketch import FINE
@@ -22,21 +21,35 @@ class TileSheet:
     """``surface``: premultiplied; its px count from the upper left corner of the visible part of the stage."""
 
     def __init__(self, canvas: Canvas, colour: pygame.Color) -> None:
-        self.canvas = canvas
-        self._corner = canvas.stage.topleft
-        self._shift = canvas.origin[0] - self._corner[0], canvas.origin[1] - self._corner[1]
         self.colour = colour
         self.surface = pygame.Surface(canvas.size, pygame.SRCALPHA)
-        self._shown: dict[tuple[int, int], tuple[TileKey, pygame.Rect]] = {}
+        self._look(canvas)
+        self._shown: dict[tuple[int, int], TileKey] = {}
         # A bit for each column of a row that is not empty.
         self._rows = [0] * GRID_ROWS
 
-    def show(self, level: TileMap) -> None:
+    def _look(self, canvas: Canvas) -> None:
+        self.canvas = canvas
+        self._corner = canvas.stage.topleft
+        self._shift = canvas.origin[0] - self._corner[0], canvas.origin[1] - self._corner[1]
+
+    def scroll(self, canvas: Canvas, grid: Sequence[int]) -> None:
+        """Show another part of the level at the same scale."""
+        x, y = self._shift
+        self._look(canvas)
+        kept = scrolled(self.surface, self._shift[0] - x, self._shift[1] - y)
+        for area in around(kept, self.surface.get_rect()):
+            self.surface.fill((0, 0, 0, 0), area)
+        self.show(grid, kept)
+
+    def show(self, grid: Sequence[int], kept: pygame.Rect | None = None) -> None:
+        """Show a world's tiles. ``kept``: px that show them already."""
         seen, logical = self.canvas.stage, self.canvas.logical
         (left, top), (right, bottom) = logical(seen.topleft), logical((seen.right, seen.bottom))
         for row in range(GRID_ROWS)[int((top - 1) / 24) : int(bottom / 24) + 1]:
             for column in range(GRID_COLUMNS)[int((left - 1) / 24) : int(right / 24) + 1]:
-                self.draw(column, row, level.tiles[(row + 1) * STRIDE + column + 1])
+                if not (kept and kept.contains(self.cell(column, row))):
+                    self.draw(column, row, grid[(row + 1) * STRIDE + column + 1])
 
     def cell(self, column: int, row: int) -> pygame.Rect:
         """The px of a cell, between its rounded edges."""
@@ -58,14 +71,14 @@ class TileSheet:
             if not rect.colliderect(self.surface.get_rect()):
                 return
             key = self.key(column, row, tile)
-            self._shown[column, row] = key, rect
+            self._shown[column, row] = key
             self._put(self.surface, key, rect, self.colour)
 
     def in_colour(self, colour: pygame.Color) -> pygame.Surface:
         """The sheet in another colour."""
         other = pygame.Surface(self.surface.size, pygame.SRCALPHA)
-        for key, rect in self._shown.values():
-            self._put(other, key, rect, colour)
+        for cell, key in self._shown.items():
+            self._put(other, key, self.cell(*cell), colour)
         return other
 
     def _put(self, surface: pygame.Surface, key: TileKey, rect: pygame.Rect, colour: pygame.Color) -> None:
@@ -97,6 +110,20 @@ class TileSheet:
                     rects.append(area)
                     break
         return rects
+
+
+def scrolled(surface: pygame.Surface, dx: int, dy: int) -> pygame.Rect:
+    """Move a picture by so many px; where it is then. Round that it is as it was."""
+    surface.scroll(dx, dy)
+    return surface.get_rect().clip(surface.get_rect(topleft=(dx, dy)))
+
+
+def around(inner: pygame.Rect, outer: pygame.Rect) -> list[pygame.Rect]:
+    """What a rectangle holds beside one within it, as rectangles that do not overlap."""
+    rows = [(outer.top, inner.top), (inner.bottom, outer.bottom)]
+    columns = [(outer.left, inner.left), (inner.right, outer.right)]
+    found = [pygame.Rect(outer.left, a, outer.width, b - a) for a, b in rows]
+    return [*found, *(pygame.Rect(a, inner.top, b - a, inner.height) for a, b in columns)]
 
 
 H = 12.0

@@ -25,7 +25,7 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.commands import TABLE, TryScreen
-from ninja_game.play.editor.palette_view import entry_of_key
+from ninja_game.play.editor.palette_view import entry_of_key, live_changes
 from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.view import LAYOUT
@@ -260,7 +260,7 @@ def test_a_click_on_a_property_changes_the_selected_object(room: Maker) -> None:
     room.drag((300, 300))
     room.press("v")
     room.drag((300, 300))
-    choice = room.editor.properties.widgets[1]
+    choice = room.editor.properties.widgets[2]
     room.mouse(*choice.centre)
     assert room.draft.objects[-1].values[2] == 0.0
     room.chord("z", pygame.KMOD_LCTRL)
@@ -449,6 +449,8 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     before = room.app.surface.copy()
     room.press("y")
     status = next(each for each in room.editor.parts if isinstance(each, StatusLine))
+    assert session.reach or "compiled" in status._text()
+    standing = shown(396, 541)
     assert status._text().startswith("Reached in 1 s, standing: squares, red deadly; ")
     room.mouse(*LAYOUT.file[:2], click=False)
     assert status._text().startswith("Reached in 1 s"), "as long as it is shown"
@@ -479,6 +481,19 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     assert "Reached" not in status._text()
 
 
+def test_arrows_move_what_the_mouse_has_selected_and_a_key_says_what_select_takes(room: Maker) -> None:
+    tools = room.editor.session.tools
+    room.press("v")
+    room.drag((20, 500), (80, 570))
+    room.chord("v", pygame.KMOD_LSHIFT)
+    assert (tools.takes, tools.selection.parts) == ("tiles", frozenset())
+    pointer = tools.pointer
+    room.press("up", "right")
+    assert (tools.pointer, room.draft.tile((4, 22)), room.draft.tile((1, 23))) == (pointer, 1, 0)
+    room.press("escape", "up")
+    assert tools.pointer[1] == pytest.approx(pointer[1] - 24, abs=12), "nothing is selected"
+
+
 def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_once(room: Maker) -> None:
     room.press("grave", "leftbracket")
     for x in (204, 252, 300):
@@ -486,7 +501,7 @@ def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_onc
     room.press("v")
     room.drag((190, 280), (320, 320))
     before = room.draft
-    choice = room.editor.properties.widgets[1]
+    choice = room.editor.properties.widgets[2]
     room.mouse(*choice.centre)
     changed = [spec.values[2] for spec in room.draft.objects[-3:]]
     assert len(set(changed)) == 1
@@ -653,6 +668,7 @@ def test_the_panel_follows_what_is_dragged(room: Maker) -> None:
         each for each in room.editor.properties.widgets if isinstance(each, TextEntry) and "switch" in each.hint
     )
     assert place.text == place_text(*points(room.draft.objects[1])[SWITCH])
+    assert [each.text for each in room.editor.properties.widgets if isinstance(each, Label)][1:] == ["at", "switch at"]
 
 
 def test_the_panel_names_the_type_that_is_in_hand_or_selected(room: Maker) -> None:
@@ -802,7 +818,8 @@ def test_the_palette_tells_which_keys_take_what_now(room: Maker) -> None:
     for in_hand in (1, 6, object_of_type("gold"), drone, door):
         for key in (*"1234567890qwasednopi", "minus", "equals"):
             tools.pick_up(in_hand)
-            claimed, before = entry_of_key(tools, key), (tools.objects, tools.tile, object_type_of(tools.spec))
+            taken = set[str]().union(*live_changes(tools).values())
+            claimed, before = entry_of_key(tools, key, taken), (tools.objects, tools.tile, object_type_of(tools.spec))
             room.press(key)
             if claimed is None:
                 assert (tools.objects, tools.tile, object_type_of(tools.spec)) == before

@@ -62,6 +62,30 @@ def test_a_level_of_the_browser_is_edited_and_played_as_it_is_then(room: Maker) 
     assert browser.entries[0].named.level.tile(12, 12) == 1
 
 
+def test_a_level_that_is_opened_again_can_be_undone_as_before(room: Maker) -> None:
+    room.drag((300, 300))
+    drawn = room.draft
+    room.chord("s", pygame.KMOD_LCTRL)
+    path = room.editor.session.source.path
+    assert path
+    room.drag((400, 300))
+    lost = room.draft
+    room.choose_in_menu("Leave the editor")
+    room.choose("Discard changes")
+    room.open("Editor")
+    room.editor.commands.open_file(path)
+    assert room.draft == drawn
+    for before in (lost, drawn, ROOM, ROOM):
+        room.chord("z", pygame.KMOD_LCTRL)
+        assert room.draft == before
+    room.choose_in_menu("Leave the editor")
+    room.choose("Discard changes")
+    path.write_text(path.read_text("utf-8") + "; by somebody else\n", "utf-8")
+    room.open("Editor")
+    room.editor.commands.open_file(path)
+    assert not room.editor.session.tools.history.can_undo
+
+
 @pytest.mark.parametrize("zipped", [False, True])
 def test_a_level_of_the_players_own_pack_is_saved_into_the_pack(maker: Maker, tmp_path: Path, *, zipped: bool) -> None:
     folder = tmp_path / "levels" / "laundry"

@@ -162,6 +162,12 @@ class Surface:
                 self.entries().extend((FILL, number, area.x, area.y, area.w, area.h))
         return shown if shown.w else make(0, 0, 0, 0)
 
+    def scroll(self, dx: int, dy: int) -> None:
+        before = self.copy()
+        if self.alpha:
+            self.fill((0, 0, 0, 0))
+        self.blit(before, (dx, dy))
+
     def set_at(self, place: tuple[int, int], colour: Any) -> None:
         self.entries().extend((FILL, packed(colour), *place, 1, 1))
 
