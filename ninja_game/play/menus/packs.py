@@ -67,7 +67,6 @@ class PackScreen(ThumbnailScreen):
     """
 
     title = "Packs"
-    notice_top = 8.0
 
     def __init__(self, app: App, edit: Edit) -> None:
         super().__init__(app)

@@ -305,7 +305,8 @@ def test_a_pack_is_made_ready_in_the_background(
     saved, rest = f"Saved: {short_path(zipped)}", "the link is in the clipboard"
     assert driver.app.notice == f"{saved}; {rest}"
     notice = driver.app._draw_notice(driver.app.theme)
-    assert notice.bottom < driver.app.canvas.point(0, 524)[1], "the state of the pack is read meanwhile"
+    foot = driver.app.canvas.point(0, 551)[1], driver.app.canvas.stage.bottom
+    assert foot[0] <= notice.top < notice.bottom <= foot[1], "the state of the pack is read meanwhile"
     assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
     driver.wait(lambda: screen.status.findings is not None, "the problems are known")
     driver.choose("Problems")
