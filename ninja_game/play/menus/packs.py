@@ -146,7 +146,6 @@ class PackScreen(ThumbnailScreen):
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
         beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
-        ready, end = partial(self.packer.start, self.path), self.packer.end
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
         undo = Button((206, 60, 44, 28), "Undo", lambda: self.do(self._undo), size=10)
         steps = self.packer.steps
@@ -161,7 +160,7 @@ class PackScreen(ThumbnailScreen):
             view.hint = shown_text(f"{have.index.title}. {have.index.comment}", 200)
         view.enabled = bool(self.pack and self.pack.episodes)
         problems = Button((552, 60, 66, 28), "Problems", self._show_problems, size=10)
-        make = Button((624, 60, 132, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
+        make = Button((624, 60, 132, 28), *(("Stop", self.packer.end) if self.packer.busy else ("Make ready", self._make_ready)), hint=hint)
         link = Button((662, 525, 94, 24), "Copy the link", self._copy_link, size=10)
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
@@ -186,6 +185,20 @@ class PackScreen(ThumbnailScreen):
 
     def _copy_link(self) -> None:
         copy_link(self.app, Pack(self.path).files.link, title=self.pack.name if self.pack else "")
+
+    def _make_ready(self) -> None:
+        path, name = self.path, self.player.settings.name
+
+        def sign(author: str) -> None:
+            if author.strip():
+                self.app.know_author("", author)
+                self.do(lambda: packs.describe(path, {"author": author.strip()}), "Author of the pack")
+            self.packer.start(path)
+
+        if self.pack and self.pack.pack and self.pack.pack.index.is_signed:
+            self.packer.start(path)
+        else:
+            ask_text(self.app, "Who made this pack?", "Author (may be empty)", name, "Make ready", sign, 40)
 
     def _choose_pack(self, key: str) -> None:
         self._show(next(each for each in self.mine if each.key == key))
@@ -238,11 +251,11 @@ class PackScreen(ThumbnailScreen):
     def _new_pack(self) -> None:
         def make(name: str, author: str = self.player.settings.name) -> None:
             self.app.know_author("", author)
-            path = packs.new_pack(self.folder, name, author.strip() or "unknown")
+            path = packs.new_pack(self.folder, name, author.strip())
             self.beside = "yours" if self.player.catalogue.own() else "none"
             self._read(path)
 
-        fields = [("Name", "My pack", 60), ("Author (empty: unknown)", "", 40)][: 1 if self.player.settings.name else 2]
+        fields = [("Name", "My pack", 60), ("Author (may be empty)", "", 40)][: 1 if self.player.settings.name else 2]
         step = "New pack"
         self.app.push(FormPanel(self.app, step, fields, "OK", lambda texts: self.do(lambda: make(*texts), step)))
 

@@ -888,13 +888,23 @@ def test_a_card_has_room_for_a_long_name_and_no_gold_where_there_is_none(driver:
     assert mark.call_count == 1
 
 
-def test_a_pack_needs_no_author(driver: MenuDriver) -> None:
+def test_a_pack_needs_no_author_but_is_asked_for_one(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
     screen = opened(driver)
     driver.choose("New pack...")
-    assert "empty: unknown" in drawn(driver.app)
+    assert "may be empty" in drawn(driver.app)
     typed(driver, "Walls")
-    assert Pack(screen.path).index.author == "unknown"
+    assert Pack(screen.path).index.author == ""
     assert driver.player.settings.name == ""
+    begun = []
+    monkeypatch.setattr(screen.packer, "start", begun.append)
+    for author, asked in (("", True), ("ida", True), ("ida", False)):
+        driver.choose("Make ready")
+        if asked:
+            assert driver.shown(FormPanel).title == "Who made this pack?"
+            driver.fill(author, "Make ready")
+        assert Pack(screen.path).index.author == author
+    assert begun == [screen.path] * 3
+    assert driver.player.settings.name == "ida"
 
 
 def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver) -> None:
