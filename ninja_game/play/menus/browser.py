@@ -203,8 +203,10 @@ class Browser(ThumbnailScreen):
         folder = Path(entry.named.file).parent
 
         def own() -> None:
+            from ninja_game.editor.packs import make_own  # it needs NumPy, which takes a moment
+
             try:
-                Tree(folder).remove(RECEIVED)
+                make_own(folder)
             except (NinjaGameError, OSError) as error:
                 self.app.notify(reason(error))
             else:
