@@ -71,6 +71,9 @@ class Screen:
     def enter(self) -> None:
         """Called when this becomes the top screen: pushed, or uncovered again."""
 
+    def look_again(self) -> None:
+        """Called when levels or packs on the disk have changed behind it."""
+
     def leave(self) -> None:
         """Called when this is no longer the top screen: covered or popped. Loops of sound end here."""
 

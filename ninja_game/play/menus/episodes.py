@@ -189,10 +189,11 @@ class EpisodeGrid(ThumbnailScreen):
         return TOP + self.grid.area[3] + 14
 
     def build(self) -> Sequence[Widget]:
-        before = self.pack
+        before, number = self.pack, self.number
         self._look_for_packs(before.key)
         if self.pack is not before:
             self.grid.arrange(self.pack.episodes)
+            self.grid.index = self.grid.numbers.index(number) if number in self.grid.numbers else self.grid.index
         self.marks = self.player.marks.all()
         self.passed = self.marks.keys() | self.player.marks.all(WITH_HELP).keys()
         self._selected(self.grid.index)
@@ -210,6 +211,10 @@ class EpisodeGrid(ThumbnailScreen):
             hint="Level pack. Levels > Packs > Paste link takes in more, as does the folder in Settings > Play",
         )  # fmt: skip
         return [self.grid, self.play, choice, self.practice, self.rows, *problems]
+
+    def look_again(self) -> None:
+        self.enter()
+        self.redraw = True
 
     def _set_practice(self, value: object) -> None:
         self.app.change_settings(practice=value)

@@ -380,10 +380,13 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
 
     driver.wait(lambda: state() != "no run yet", "the card says so before all is done")
     assert screen.packer.busy
-    driver.press("escape")
+    driver.app.push(grid := EpisodeGrid(driver.app, "Laundry"))
+    grid.grid.index = 1
+    packs.rename_episode(path, 1, "Wash day")
     go_on.set()
     driver.wait(lambda: driver.app.notice == "Laundry is ready to share", "it is said elsewhere")
-    driver.choose("Packs")
+    assert (grid.episode and grid.episode.name) == "Wash day", "what is shown there is as new"
+    driver.press("escape")
     assert driver.shown(PackScreen).packer.text == (
         f"Saved: {short_path(driver.player.folder / 'exports' / 'laundry-1.zip')}"
     )
