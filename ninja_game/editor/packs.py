@@ -297,15 +297,16 @@ def move_episode(path: Path, number: int, to: int) -> None:
 # --- levels ---
 
 
-def place(path: Path, file: str, number: int | None, before: str = "") -> None:
-    """Put a level into an episode, before another or at the end; ``number``: None for no episode."""
+def place(path: Path, names: Sequence[str], number: int | None, before: str = "") -> None:
+    """Put levels into an episode, in this order, before another or at the end; ``number``: None for no episode."""
     pack = Pack(path)
     old = {episode.number: list(episode.files(pack.files.levels)) for episode in pack.index.episodes}
-    new = {each: [name for name in files if name != file] for each, files in old.items()}
+    new = {each: [name for name in files if name not in names] for each, files in old.items()}
     if number is not None:
-        if len(new[number]) >= LEVELS_PER_EPISODE:
+        at = new[number].index(before) if before in new[number] else len(new[number])
+        new[number][at:at] = names
+        if len(new[number]) > LEVELS_PER_EPISODE:
             raise PackError(f"episode {number + 1} is full", expected=f"at most {LEVELS_PER_EPISODE} levels")
-        new[number].insert(new[number].index(before) if before in new[number] else len(new[number]), file)
     _change_episodes(path, {each: {"levels": files} for each, files in new.items() if files != old[each]})
 
 
@@ -342,7 +343,7 @@ def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:
     moved = {old.name: new} | {certificate_name(old.name, kind): certificate_name(new, kind) for kind in KINDS}
     there = [name for name in moved if (old.parent / name).is_file()]
     if not keep and (old.parent / INDEX).is_file():
-        place(old.parent, old.name, None)
+        place(old.parent, [old.name], None)
     for name in there:
         _put(path, moved[name], read_bytes(old.parent / name))
     for name in [] if keep else there:

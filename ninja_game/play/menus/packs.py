@@ -35,7 +35,6 @@ from ninja_game.runs.packs import NEVER_ACCEPTED, file_of, level_of
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.list_view import BAR
-from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import Button, Choice, Widget
 
 DELETED = "deleted"
@@ -55,6 +54,8 @@ _SHARE = "Send either: a link is pasted in Levels > Packs, a zip is dropped on L
 
 _CAN = "Preview, name, copy, find or delete packs"
 
+_DRAG = "Drag a level or an episode; Enter or a second click: what can be done. Ctrl or Shift and a click: several"
+
 _STOPS = "It can be stopped at any time: what was found is kept."
 
 Edit = Callable[[Entry, Finding | None], object]
@@ -63,6 +64,7 @@ Edit = Callable[[Entry, Finding | None], object]
 class PackScreen(ThumbnailScreen):
     """``pack``: the one on the shelves. ``held``: what is being moved; ``pointer``: where the mouse has it, else None.
 
+    ``marked``: files of levels with which is done what is done with one of them.
     ``edit``: opens a level in the editor, at a finding.
     """
 
@@ -78,10 +80,11 @@ class PackScreen(ThumbnailScreen):
         self.held: Cell | None = None
         self.chosen: Widget | None = None
         self.pointer: tuple[float, float] | None = None
+        self.marked = set[str]()
         self.packer = packer_of(app)
         self.packer.desk = self
         self.status = PackStatus(self.packer, self.player.catalogue)
-        rack = partial(Rack, status=self.status, thumbnails=self.thumbnails, pull=self._pull)
+        rack = partial(Rack, status=self.status, thumbnails=self.thumbnails, marked=self.marked, pull=self._pull)
         self.shelves = rack((36, 96, 6 * WIDE + BAR + 4, 4 * HIGH), 6, choose=self._choose)
         self.tray = rack((622, 126, WIDE + BAR + 24, 4 * HIGH - 28), 1, choose=self._choose)
         self._told: tuple[bool, int, str, str] = False, 0, "", ""
@@ -127,6 +130,7 @@ class PackScreen(ThumbnailScreen):
         self.tray.empty = f"Drag a level here to {goals.get(self.beside, 'put it into this pack')}"
         self.shelves.show(cells)
         self.tray.show([Cell(None, entry) for entry in entries])
+        self.marked &= {level.named.file for level in self._levels()}
         self.redraw = True
 
     def enter(self) -> None:
@@ -145,7 +149,7 @@ class PackScreen(ThumbnailScreen):
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
         beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
-        self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
+        self.shelves.hint = self.tray.hint = _DRAG
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
         undo = Button((206, 60, 44, 28), "Undo", lambda: self.do(self._undo), size=10)
         steps = self.packer.steps
@@ -160,7 +164,8 @@ class PackScreen(ThumbnailScreen):
             view.hint = shown_text(f"{have.index.title}. {have.index.comment}", 200)
         view.enabled = bool(self.pack and self.pack.episodes)
         problems = Button((552, 60, 66, 28), "Problems", self._show_problems, size=10)
-        make = Button((624, 60, 132, 28), *(("Stop", self.packer.end) if self.packer.busy else ("Make ready", self._make_ready)), hint=hint)
+        begin = ("Stop", self.packer.end) if self.packer.busy else ("Make ready", self._make_ready)
+        make = Button((624, 60, 132, 28), *begin, hint=hint)
         link = Button((662, 525, 94, 24), "Copy the link", self._copy_link, size=10)
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
@@ -291,6 +296,12 @@ class PackScreen(ThumbnailScreen):
             self._paste()
         elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+z":
             self.do(self._undo)
+        elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+a":
+            self.marked |= {level.named.file for level in self._levels(self.focus)}
+            self.redraw = True
+        elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "delete":
+            if isinstance(self.focus, Rack) and self.focus.cells and (away := self._away(self.focus.chosen)):
+                away()
         else:
             super().handle(event)
 
@@ -368,14 +379,13 @@ class PackScreen(ThumbnailScreen):
         level, episode = cell.level, cell.episode
         if level is None:
             return
-        file = Path(level.named.file)
-        rename, take_out = partial(packs.rename_level, file), partial(packs.place, self.path, file.name, None)
-
-        edit = partial(self._edit, level, None)
-        run, title = self.player.catalogue.author_run(level), shown_text(level.title)
+        file, levels = Path(level.named.file), self._taken(level)
+        rename, edit = partial(packs.rename_level, file), partial(self._edit, level, None)
+        run, title = self.player.catalogue.author_run(level), _called(levels)
 
         def copy() -> None:
-            packs.place(self.path, packs.duplicate(self.path, level.named), episode.number if episode else None)
+            names = [packs.duplicate(self.path, each.named) for each in levels]
+            packs.place(self.path, names, episode.number if episode else None)
 
         def play() -> None:
             if why := play_level(self.app, level):
@@ -385,13 +395,32 @@ class PackScreen(ThumbnailScreen):
             ("Edit", partial(self.change, edit, "Edit") if file.parent == self.path else edit, ""),
             ("Play", play, ""),
             ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
-            ("Move...", lambda: self._hold(cell), ""),
+            ("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), ""),
         ]
-        if file.parent == self.path:
-            rows += [("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), "")]
-            rows += [("Copy", lambda: self.change(copy, f"Copy {title}"), "Another level like it")]
-            rows += [("Take out", lambda: self._set_aside(take_out, title), "Into no episode")] * bool(episode)
-        self.app.push(Menu(self.app, level.title, [*rows, CANCEL]))
+        rows = rows[: 4 if file.parent == self.path else 3] * (len(levels) == 1)
+        rows.append(("Move...", lambda: self._hold(cell), ""))
+        if all(Path(each.named.file).parent == self.path for each in levels):
+            rows.append(("Copy", lambda: self.change(copy, f"Copy {title}"), "Another level like it"))
+        if away := self._away(cell):
+            rows.append(("Take out", away, "Into no episode") if episode else ("Delete", away, "Undo brings it back"))
+        self.app.push(Menu(self.app, title, [*rows, CANCEL]))
+
+    def _away(self, cell: Cell) -> Callable[[], object] | None:
+        """What takes a level out of its episode, or one of the player's in none off the disk; None for any other."""
+        levels = self._taken(cell.level) if cell.level else []
+        title = _called(levels)
+        if levels and all(Path(each.named.file).parent == self.path and each.episode for each in levels):
+            names = [Path(each.named.file).name for each in levels]
+            return lambda: self._set_aside(partial(packs.place, self.path, names, None), title)
+        if not levels or self.beside not in ("none", "yours") or not all(each.named.ascii for each in levels):
+            return None
+
+        def delete() -> None:
+            for each in levels:
+                packs.transfer(each.named, self.player.folder / DELETED, keep=False)
+            self.app.notify(f"{title}: in the folder {DELETED} now; Ctrl+Z brings back")
+
+        return lambda: (self.do if self.beside == "yours" else self.change)(delete, f"Delete {title}")
 
     def _episode_menu(self, episode: EpisodeIndex) -> None:
         number, path, title = episode.number, self.path, episode.name or f"Episode {episode.number + 1}"
@@ -427,6 +456,37 @@ class PackScreen(ThumbnailScreen):
         self.beside = "none"
         self.change(action, f"Take out {shown_text(what)}")
 
+    # --- several at once ---
+
+    def _levels(self, rack: Widget | None = None) -> list[Entry]:
+        """Those in view, in order; of one rack, or of both."""
+        racks = [each for each in (self.shelves, self.tray) if rack in (None, each)]
+        return [cell.level for each in racks for cell in each.cells if cell.level]
+
+    def _taken(self, level: Entry) -> list[Entry]:
+        """The levels with which is done what is done with this: all that are marked, if it is one of them."""
+        marked = [each for each in self._levels() if each.named.file in self.marked]
+        return marked if level.named.file in self.marked else [level]
+
+    def _mark(self, x: float, y: float) -> bool:
+        """Mark levels where Ctrl or Shift is down; whether it was. A click on another than those marked ends that."""
+        mods, rack = pygame.key.get_mods(), self._at(x, y)
+        if not isinstance(rack, Rack) or (index := rack.at(x, y)) is None:
+            return False
+        level, chosen = rack.cells[index].level, rack.chosen.level
+        if not (level and mods & (pygame.KMOD_CTRL | pygame.KMOD_META | pygame.KMOD_SHIFT)):
+            if not (level and level.named.file in self.marked):
+                self.marked.clear()
+            return False
+        if mods & pygame.KMOD_SHIFT:
+            first, last = sorted((rack.index, index))
+            self.marked |= {each.level.named.file for each in rack.cells[first : last + 1] if each.level}
+        else:
+            self.marked |= {chosen.named.file} if chosen and not self.marked else set()
+            self.marked ^= {level.named.file} if self.marked != {level.named.file} else set()
+        self.focus, rack.index, self.redraw = rack, index, True
+        return True
+
     # --- moving ---
 
     def _pull(self, cell: Cell, pointer: tuple[float, float]) -> None:
@@ -444,14 +504,17 @@ class PackScreen(ThumbnailScreen):
     def back(self) -> None:
         if self.held:
             self.held = self.pointer = None
+        elif self.marked:
+            self.marked.clear()
         else:
             super().back()
 
     def _drop(self, goal: Cell | None, *, after: bool = False) -> None:
         held, self.held, self.pointer = self.held, None, None
-        if held and held.level and not (goal and goal.level is held.level):
+        levels = self._taken(held.level) if held and held.level else []
+        if levels and not (goal and goal.level in levels and len(levels) == 1):
             do = self.do if goal is None and self.beside != "none" else self.change
-            do(partial(self._put_level, held.level, goal, after=after), f"Move {shown_text(held.level.title)}")
+            do(partial(self._put_levels, levels, goal, after=after), f"Move {_called(levels)}")
         elif held and held.episode and goal and goal.episode:
             numbers = held.episode.number, goal.episode.number
             self.change(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
@@ -461,8 +524,8 @@ class PackScreen(ThumbnailScreen):
         left, _, w, _ = self.shelves.row_area(index)
         return self.pointer is not None and self.pointer[0] > left + w / 2
 
-    def _landing(self) -> Area | None:
-        """Where a mark shows that the level that is held would land."""
+    def _landing(self) -> tuple[int, bool] | None:
+        """Beside which cell the level that is held would land, and whether behind it."""
         over = self.shelves.at(*self.pointer) if self.pointer else self.shelves.index
         if over is None or not (self.held and self.held.level):
             return None
@@ -470,29 +533,29 @@ class PackScreen(ThumbnailScreen):
         if not cells[over].level:
             row = [k for k, each in enumerate(cells) if each.episode is cells[over].episode]
             index, after = next((k for k in row if not (cells[k].head or cells[k].level)), row[-1]), False
-        x, y, w, h = self.shelves.row_area(index)
-        return x + w * after - 2, y + 4, 4, h - 8
+        return index, after
 
-    def _put_level(self, level: Entry, goal: Cell | None, *, after: bool) -> None:
-        file, target = Path(level.named.file), self.path
+    def _put_levels(self, levels: Sequence[Entry], goal: Cell | None, *, after: bool) -> None:
+        target = self.path
         if goal is None and self.beside != "none":
             target = next((each.path for each in self.sets if each.key == self.beside and each.path), self.folder)
         if target != self.folder and target not in [each.path for each in self.mine]:
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
         if target != self.path and (target / RECEIVED).exists():
             raise NinjaGameError("that pack was received, and stays as it is")
-        name = file.name
-        if file.parent != target:
+        names: list[str] = []
+        for level in levels:
+            file = Path(level.named.file)
             others = level.source == GAME or self.folder not in file.parents or (file.parent / RECEIVED).exists()
-            name = packs.transfer(level.named, target, keep=others)
+            names.append(file.name if file.parent == target else packs.transfer(level.named, target, keep=others))
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:
                 number = packs.new_episode(target, self._next_name, self._column())
             row = [each.level for each in self.shelves.cells if goal and each.episode is goal.episode and each.level]
-            row = [each for each in row if each is not level]
             behind = row[row.index(goal.level) + after :] if goal and goal.level else []
-            packs.place(target, name, number, Path(behind[0].named.file).name if behind else "")
+            before = (Path(each.named.file).name for each in behind if each not in levels)
+            packs.place(target, names, number, next(before, ""))
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_RIGHT and not self.held:
@@ -502,6 +565,9 @@ class PackScreen(ThumbnailScreen):
                 self.focus_on(widget)
                 widget.confirm()
                 return
+        left = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT and not self.held
+        if left and self._mark(*self.theme.canvas.logical(event.pos)):
+            return
         dragged = self._dragged
         super()._handle_mouse(event)
         if event.type == pygame.MOUSEBUTTONUP and isinstance(dragged, Rack):
@@ -624,12 +690,24 @@ class PackScreen(ThumbnailScreen):
             theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
+        landing, held = self._landing(), self.held.level if self.held else None
+        lifted = self._taken(held) if held and self.pointer else []
+        self.shelves.lifted = self.tray.lifted = {each.named.file for each in lifted}
+        self.shelves.gap = landing[0] + landing[1] if landing and self.pointer else 0
         super().draw_widgets(surface)
         if self.held and self.pointer:
             x, y = self.pointer
-            if self.held.level:
-                self.thumbnails.draw(surface, self.held.level, x + 6, y + 6, 60)
+            if held:
+                self.thumbnails.draw(surface, held, x + 6, y + 6, 60)
+                text = counted(len(lifted), "level") * (len(lifted) > 1)
+                self.theme.text(surface, text, x + 36, y + 54, size=11, bold=True, align="centre")
             else:
                 self.theme.row(surface, (x + 6, y + 6, 2 * WIDE, HIGH / 4), chosen=True, focused=True)
-        if landing := self._landing():
-            self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *landing, 2)
+        if landing:
+            x, y, w, h = self.shelves.row_area(landing[0])
+            place = x + w * landing[1] - 2 + self.shelves.shift(self.shelves.gap) / 2, y + 4, 4, h - 8
+            self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *place, 2)
+
+
+def _called(levels: Sequence[Entry]) -> str:
+    return shown_text(levels[0].title) if len(levels) == 1 else counted(len(levels), "level")

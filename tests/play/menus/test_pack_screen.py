@@ -30,7 +30,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
-from ninja_game.play.menus.pack_shelves import Cell
+from ninja_game.play.menus.pack_shelves import GAP, Cell
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
@@ -87,7 +87,7 @@ def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriv
     shelves = screen.shelves
     driver.carry(shelves.row_area(1), half(screen, 5, right=True), drop=False)
     x, y, w, _ = shelves.row_area(5)
-    assert screen._landing() == (x + w - 2, y + 4, 4, shelves.cell_height - 8), "a mark shows where"
+    assert screen._landing() == (5, True)
     seen, mark = drawn(driver.app), f"fill accent {px(x + w - 2, y + 4)} 4 x"
     assert seen.index(mark) > seen.index("First Steps' at 577,"), "not behind what is held"
     driver.mouse_up(half(screen, 5, right=True))
@@ -99,9 +99,90 @@ def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriv
         driver.carry(shelves.row_area(3), half(screen, 2, right=True))
         assert layout(path)[0] == ["00-1", "00-2", "00-0", "00-3", "00-4"], "it stays where it was"
     driver.carry(shelves.row_area(3), half(screen, 11), drop=False)
-    assert screen._landing() == (shelves.row_area(10)[0] - 2, shelves.row_area(10)[1] + 4, 4, shelves.cell_height - 8)
+    assert screen._landing() == (10, False)
     driver.mouse_up(half(screen, 11))
     assert layout(path)[1] == ["01-0", "01-1", "01-2", "00-0"]
+
+
+def test_cards_make_room_where_a_level_would_land(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    shelves = screen.shelves
+
+    def pictures() -> list[tuple[float, float]]:
+        with patch.object(screen.thumbnails, "draw") as draw:
+            drawn(driver.app)
+        return sorted((each.args[3], each.args[2]) for each in draw.call_args_list)
+
+    before = pictures()
+    driver.carry(shelves.row_area(1), half(screen, 3, right=True), drop=False)
+    [held, *now] = sorted(set(pictures()) - set(before), reverse=True)
+    assert len(before) - len(set(before) & {*pictures()}) == 3, "what is held leaves its place, two make room"
+    assert [x for _, x in now] == [x + GAP for _, x in reversed(before[3:5])]
+    driver.mouse_up((300, 530, 2, 2))
+    assert pictures() == before
+    assert held
+
+
+def click(driver: MenuDriver, area: Area, mods: int = 0) -> None:
+    x, y, w, h = area
+    pygame.key.set_mods(mods)
+    driver.mouse(x + w / 2, y + h / 2)
+    driver.mouse_up(area)
+    pygame.key.set_mods(0)
+
+
+def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_once(
+    driver: MenuDriver, path: Path
+) -> None:
+    screen = opened(driver)
+    shelves, steps = screen.shelves, screen.packer.steps
+    place = shelves.row_area
+    click(driver, place(1))
+    click(driver, place(3), pygame.KMOD_CTRL)
+    assert {Path(file).name[:4] for file in screen.marked} == {"00-0", "00-2"}, "with the one that was clicked before"
+    click(driver, place(3), pygame.KMOD_CTRL)
+    click(driver, place(4), pygame.KMOD_CTRL)
+    driver.carry(place(4), half(screen, 7, right=True), drop=False)
+    assert "2 levels" in drawn(driver.app)
+    driver.mouse_up(half(screen, 7, right=True))
+    assert layout(path) == {0: ["00-1", "00-2", "00-4"], 1: ["01-0", "00-0", "00-3", "01-1", "01-2"]}
+    assert [each.what for each in steps] == ["Move 2 levels"]
+    driver.carry(place(8), half(screen, 1), drop=False)
+    driver.mouse_up(half(screen, 1))
+    assert layout(path)[0] == ["00-0", "00-3", "00-1", "00-2", "00-4"], "they stay marked"
+    click(driver, place(3))
+    assert not screen.marked
+    click(driver, place(3))
+    assert driver.shown(MenuScreen).title == "Mind the Gap", "a second click opens its menu as ever"
+    driver.choose("Cancel")
+    click(driver, place(5), pygame.KMOD_SHIFT)
+    driver.carry(place(4), half(screen, 7))
+    assert layout(path)[0] == ["00-0", "00-3", "00-1", "00-2", "00-4"], "no room for three: all stay"
+    assert "episode 2 is full" in driver.app.notice
+    shelves.index = 3
+    driver.press("return")
+    assert driver.shown(MenuScreen).title == "3 levels"
+    assert [each.text for each in driver.shown(MenuScreen).widgets] == ["Move...", "Copy", "Take out", "Cancel"]  # type: ignore[attr-defined]
+    driver.choose("Take out")
+    assert layout(path)[0] == ["00-0", "00-3"]
+    screen.marked.clear()
+    screen.focus = screen.tray
+    driver.chord("a", pygame.KMOD_CTRL)
+    assert len(screen.marked) == 3
+    driver.press("delete")
+    deleted = driver.player.folder / "deleted"
+    assert len(list(deleted.glob("*.txt"))) == 3
+    assert list((deleted / "certificates").iterdir())
+    assert len(Pack(path).levels) == 5
+    for _ in range(2):
+        driver.chord("z", pygame.KMOD_CTRL)
+    assert layout(path)[0] == ["00-0", "00-3", "00-1", "00-2", "00-4"]
+    screen.focus, shelves.index = shelves, 3
+    driver.press("delete")
+    assert layout(path)[0] == ["00-0", "00-3", "00-2", "00-4"], "in an episode it is taken out"
+    click(driver, place(1), pygame.KMOD_CTRL)
+    driver.press("escape")
+    assert (driver.top(), screen.marked) == (screen, set())
 
 
 def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path) -> None:
@@ -482,7 +563,7 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     assert screen.status.counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
     driver.wait(lambda: screen.status.findings is not None, "the problems are known")
     assert [screen.status.state(cell.level) for cell in screen.shelves.cells if cell.level][1] == "changed"
-    packs.place(path, packs.new_level(path, "Empty", "me"), 1)
+    packs.place(path, [packs.new_level(path, "Empty", "me")], 1)
     screen.enter()
     driver.wait(lambda: screen.status.findings is not None, "the problems are known")
     assert screen.status.counts().startswith("9 levels in 2 episodes. Make ready will certify 2 levels")
