@@ -268,6 +268,10 @@ class EpisodeGrid(ThumbnailScreen):
         if self.pack.key and self.pack.pack:
             index = self.pack.pack.index
             said = f"{index.title}. {index.comment}" if index.comment else index.title
+            top = self._below + 150
+            width = min(200.0, (540 - top) * 33 / 25)
+            if width >= 80:
+                self.thumbnails.draw_pack(surface, self.pack.levels, LEFT, top, width)
             theme.text(surface, shown_text(said, 200), SIDE, 114, size=10, colour=palette.faint, width=364)
         episode = self.episode
         if episode is None:

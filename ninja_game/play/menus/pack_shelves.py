@@ -106,7 +106,7 @@ class Rack(ListView):
             theme.canvas.frame_rect(surface, theme.palette.accent, *inner, 2.5, 4)
         elif lifted or not (cell.head or cell.level):
             theme.canvas.frame_rect(surface, theme.palette.panel_edge, *inner, 1, 4)
-            if self.cells[index - 1].head:
+            if self.cells[index - 1].head and not lifted:
                 place, faint = (x + 8, y + h / 2 - 12, w - 16, 40), theme.palette.faint
                 theme.paragraph(surface, ["Drag a level here"], place, 9, 12, colour=faint, align="centre")
 

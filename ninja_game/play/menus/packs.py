@@ -26,6 +26,7 @@ from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
 from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_received, ask_text
+from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Cell, Rack
 from ninja_game.play.menus.packer import PackStatus, packer_of
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
@@ -52,7 +53,7 @@ _NO_LEVELS = (
 
 _SHARE = "Send either: a link is pasted in Levels > Packs, a zip is dropped on Levels"
 
-_CAN = "Preview, name, copy, find or delete packs"
+_CAN = "Preview, name, copy or delete the pack"
 
 _DRAG = "Drag a level or an episode; Enter or a second click: what can be done. Ctrl or Shift and a click: several"
 
@@ -138,14 +139,15 @@ class PackScreen(ThumbnailScreen):
         super().enter()
 
     def build(self) -> Sequence[Widget]:
+        app = self.app
         names = [(each.pack.index.title if each.pack and each.received else each.name, each.key) for each in self.mine]
         have = self.pack and self.pack.pack
         key = self.pack.key if self.pack else ""
         chosen = self.chosen = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
-        chosen.more = self._about
+        chosen.more = partial(app.push, PackList(app, self.mine, self._show))
         received = bool(self.pack and self.pack.received)
         whose = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
-        chosen.hint = f"{whose}. Enter, or a click on the name: what can be done with it"
+        chosen.hint = f"{whose}. Enter, or a click on the name: all your packs"
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
         beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
@@ -325,7 +327,6 @@ class PackScreen(ThumbnailScreen):
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
         key, own = (self.pack.key, not self.pack.received) if self.pack else ("", True)
-        find = partial(ask_text, self.app, "Find a pack", "Part of its name", "", "OK", self._find)
         without = "No episode has levels" * empty
         rows: list[Row] = [
             ("Play it", None if empty else lambda: self.app.push(EpisodeGrid(self.app, key)), without),
@@ -333,16 +334,9 @@ class PackScreen(ThumbnailScreen):
             ("Name, author, version...", self._form, ""),
             ("Copy of the pack", lambda: self._copy(copied), ""),
             ("Delete the pack...", None if busy else self._delete, gone),
-            *[("Find a pack...", find, "By its name")] * (len(self.mine) > 1),
             CANCEL,
         ]
         self.app.push(Menu(self.app, index.name, rows))
-
-    def _find(self, text: str) -> None:
-        found = [each for each in self.mine if text.casefold() in each.name.casefold()]
-        if found:
-            self._choose_pack(found[0].key)
-        self.app.notify(f"No pack is called {shown_text(text)}" * (not found))
 
     def _delete(self) -> None:
         name, path = self.pack.name if self.pack else "", self.path
@@ -430,7 +424,7 @@ class PackScreen(ThumbnailScreen):
 
         def level(name: str) -> None:
             file = packs.new_level(path, name, self.player.settings.name)
-            packs.place(path, file, number)
+            packs.place(path, [file], number)
             self._read()
             if entry := self._entry(file):
                 self._edit(entry, None)
@@ -563,7 +557,7 @@ class PackScreen(ThumbnailScreen):
             widget = self._at(*place)
             if widget and (widget is self.chosen or (isinstance(widget, Rack) and widget.click(*place))):
                 self.focus_on(widget)
-                widget.confirm()
+                (self._about if widget is self.chosen else widget.confirm)()
                 return
         left = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT and not self.held
         if left and self._mark(*self.theme.canvas.logical(event.pos)):

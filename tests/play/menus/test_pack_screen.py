@@ -30,6 +30,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
+from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.pack_shelves import GAP, Cell
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
@@ -774,16 +775,21 @@ def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(driver: MenuDriver, 
         driver.frames()
         return driver.shown(MenuScreen)
 
-    for opens in (lambda area: driver.mouse(area[0] + area[2] / 2, area[1] + 9), right_click):
-        opens(screen.chosen.area)
-        assert driver.shown(MenuScreen).title == "Laundry"
-        driver.choose("Cancel")
+    assert right_click(screen.chosen.area).title == "Laundry"
+    driver.choose("Cancel")
     x, y, w, _ = screen.chosen.area
     driver.mouse(x + w - 9, y + 9)
     assert (screen.pack and screen.pack.name) == "Soap", "an arrow shows the next one"
+    driver.mouse(x + w / 2, y + 9)
+    listed = driver.shown(PackList)
+    with patch.object(listed.thumbnails, "draw") as draw:
+        assert "8 levels in 2 episodes" in drawn(driver.app)
+    titles = [each.args[1].title for each in draw.call_args_list]
+    assert titles[:4] == ["First Steps", "The Chimney", "Locksmith", "Night Shift"], "four of the eight"
+    driver.type("laun")
+    assert [each.name for each in listed.shown] == ["Laundry"]
     driver.press("return")
-    driver.choose("Find a pack...")
-    typed(driver, "laun")
+    assert driver.top() is screen
     assert (screen.pack and screen.pack.name) == "Laundry"
     assert right_click(screen.shelves.row_area(1)).title == "First Steps"
     driver.choose("Cancel")
@@ -979,7 +985,7 @@ def test_a_pack_needs_no_author_but_is_asked_for_one(driver: MenuDriver, monkeyp
     typed(driver, "Walls")
     assert Pack(screen.path).index.author == ""
     assert driver.player.settings.name == ""
-    begun = []
+    begun: list[Path] = []
     monkeypatch.setattr(screen.packer, "start", begun.append)
     for author, asked in (("", True), ("ida", True), ("ida", False)):
         driver.choose("Make ready")
