@@ -6,6 +6,7 @@ import re
 import webbrowser
 from collections.abc import Callable, Sequence
 from functools import partial
+from math import inf
 from pathlib import Path
 
 import pygame
@@ -429,6 +430,12 @@ class PackScreen(ThumbnailScreen):
             if entry := self._entry(file):
                 self._edit(entry, None)
 
+        def sort() -> None:
+            levels = [cell.level for cell in self.shelves.cells if cell.level and cell.episode is episode]
+            levels.sort(key=lambda each: (each.pars and each.pars.difficulty) or inf)
+            names = [Path(each.named.file).name for each in levels]
+            self.change(partial(packs.place, path, names, number), f"Sort {title}")
+
         def name_column(name: str) -> None:
             packs.describe(path, {"columns": [*columns[:column], name, *columns[column + 1 :]]})
 
@@ -438,6 +445,7 @@ class PackScreen(ThumbnailScreen):
             ("New level...", lambda: self.ask("New level: its name", "New level", level), "Made, and opened"),
             ("Rename...", lambda: self.ask(f"Rename {episode.name}", episode.name, rename), ""),
             ("Move...", lambda: self._hold(Cell(episode, head=True)), ""),
+            ("Sort by difficulty", sort, "Easiest first, those not measured last"),
             ("Name of the column...", lambda: self.ask("Name of the column", columns[column], name_column), ""),
             ("Begin a column...", lambda: self.ask("Column: first episode", self._next_name, begin), "Beside these"),
             ("Remove the episode", lambda: self._set_aside(remove, title), "Its levels stay, beside the others"),
