@@ -52,7 +52,7 @@ _NO_LEVELS = (
     "Make ready then certifies all, and gives you a zip and a link to share.",
 )
 
-_SHARE = "Send either: a link is pasted in Levels > Packs, a zip is dropped on Levels"
+_SHARE = "Send either: a link is pasted, a zip dropped, in Levels > Packs"
 
 _CAN = "Preview, name, copy or delete the pack"
 
@@ -220,13 +220,14 @@ class PackScreen(ThumbnailScreen):
     def do(self, action: Callable[[], object], what: str = "") -> None:
         """Change something on the disk, and show all as it is then. ``what``: how undo calls it; "" is no step."""
         try:
-            if what:
-                self.packer.steps.do(what, action)
-            else:
+            if what and not self.packer.steps.do(what, action):
+                return
+            if not what:
                 action()
         except (NinjaGameError, OSError) as error:
             self.app.notify(reason(error))
-        self._read()
+        if self.app.top is not self:
+            self._read()
         self.app.top.enter()
 
     def change(self, action: Callable[[], object], what: str) -> None:
@@ -272,31 +273,43 @@ class PackScreen(ThumbnailScreen):
             text = pasted_text()
             if link_kind(text) != "pack":
                 raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
-            pack = Pack(Path(f"#{text.partition('#')[2]}"))
-            if there := next((each for each in self.mine if each.pack and packs.same_pack(pack, each.pack)), None):
-                self._read(there.path)
-                rows: list[Row] = [
-                    ("Play it", self._view, "") if there.received else ("Show it as received", self._view, PREVIEW),
-                    ("Receive it once more", partial(receive, pack), "Beside this one"),
-                    CANCEL,
-                ]
-                self.app.push(Menu(self.app, f"{shown_text(there.name)} is among your packs already", rows))
-            else:
-                receive(pack)
-
-        def receive(pack: Pack) -> None:
-            def copy() -> None:
-                self._read(packs.copy_pack(pack, self.folder, pack.name, received=True))
-                self.app.notify(f"{shown_text(pack.name)} is among your packs now: Enter plays it")
-
-            self.do(copy, "Paste link")
-            self.focus_on(self.view)
+            self._take_in(Pack(Path(f"#{text.partition('#')[2]}")))
 
         self.do(take)
+
+    def _take_in(self, pack: Pack) -> None:
+        """Make a pack one of the player's that stays another's, over an older version of it if so wished."""
+
+        def receive(over: Pack | None = None) -> None:
+            def copy() -> None:
+                said = f": {packs.news(over, pack)}" if over else " is among your packs now: Enter plays it"
+                self._read(packs.copy_pack(pack, self.folder, pack.name, received=True, over=over))
+                self.app.notify(f"{shown_text(pack.name)}{said}")
+
+            self.do(copy, f"Update {pack.name}" if over else "Paste link")
+            self.focus_on(self.view)
+
+        name, author = shown_text(pack.name), pack.index.author
+        older = [each.pack for each in self.mine if each.pack and each.received and each.pack.name == pack.name]
+        if there := next((each for each in self.mine if each.pack and packs.same_pack(pack, each.pack)), None):
+            self._read(there.path)
+            rows: list[Row] = [
+                ("Play it", self._view, "") if there.received else ("Show it as received", self._view, PREVIEW),
+                ("Receive it once more", receive, "Beside this one"),
+                CANCEL,
+            ]
+            self.app.push(Menu(self.app, f"{shown_text(there.name)} is among your packs already", rows))
+        elif over := next((each for each in older if each.index.author == author), None):
+            rows = [("Update it", partial(receive, over), packs.news(over, pack)), ("Keep both", receive, ""), CANCEL]
+            self.app.push(Menu(self.app, f"You have {name} {over.index.version or 'in another version'}", rows))
+        else:
+            receive()
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
             self._paste()
+        elif event.raw.type == pygame.DROPFILE:
+            self.do(lambda: self._take_in(Pack(Path(event.raw.file))))
         elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+z":
             self.do(self._undo)
         elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+a":

@@ -746,8 +746,68 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         packs.rename_episode(screen.path, 0, "Other")
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
-        assert len(screen.mine) == 2, "it never goes over what is there"
+        driver.choose("Keep both")
+        assert len(screen.mine) == 2, "it never goes over what is there unasked"
     assert layout(screen.path) == first
+
+
+def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path: Path, tmp_path: Path) -> None:
+    screen, made = opened(driver), tmp_path / "made"
+    shutil.move(path, made)
+    screen.enter()
+    zipped = tmp_path / "laundry.zip"
+
+    def drop() -> None:
+        zipped.write_bytes(Pack(made).files.zipped())
+        pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(zipped)))
+        driver.frames()
+
+    drop()
+    assert driver.app.notice == "Laundry is among your packs now: Enter plays it"
+    assert [(each.name, each.received) for each in screen.mine] == [("Laundry", True)]
+    before = {file: file.read_bytes() for file in path.rglob("*") if file.is_file()}
+    (made / "00-0-first-steps.txt").unlink()
+    (made / "00-1-mind-the-gap.txt").write_text((made / "01-0-springtime.txt").read_text("utf-8"), "utf-8")
+    packs.new_level(made, "Fresh", "me")
+    packs.describe(made, {"version": "1.1"})
+    drop()
+    assert driver.shown(MenuScreen).title == "You have Laundry in another version"
+    assert "1 level new, 1 level changed, 1 level gone" in drawn(driver.app)
+    driver.choose("Update it")
+    assert driver.app.notice == "Laundry: 1 level new, 1 level changed, 1 level gone"
+    assert [(each.name, each.received) for each in screen.mine] == [("Laundry", True)]
+    assert Pack(path).index.version == "1.1"
+    assert packs.same_pack(Pack(path), Pack(made))
+    driver.chord("z", pygame.KMOD_CTRL)
+    assert {file: file.read_bytes() for file in path.rglob("*") if file.is_file()} == before
+    drop()
+    driver.choose("Keep both")
+    assert [each.name for each in screen.mine] == ["Laundry", "Laundry, 1.1"]
+
+
+def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    with patch.object(screen, "_read", wraps=screen._read) as read:
+        screen._choose(screen.shelves.cells[1])
+        read.reset_mock()
+        driver.choose("Edit")
+        assert read.call_count == 1, "when its menu closes"
+        driver.shown(EditorScreen).session.close()
+        driver.press("escape")
+        assert driver.top() is screen
+        read.reset_mock()
+        screen.change(lambda: packs.rename_episode(path, 0, "Other"), "Rename")
+        assert read.call_count == 1
+
+
+def test_an_episode_is_sorted_by_difficulty(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    driver.mouse(*(value + 20 for value in screen.shelves.row_area(0)[:2]))
+    driver.press("return")
+    driver.choose("Sort by difficulty")
+    known = [cell.level.pars.difficulty or 0 for cell in screen.shelves.cells[1:6] if cell.level and cell.level.pars]
+    assert known == sorted(known)
+    assert layout(path)[0] != ["00-0", "00-1", "00-2", "00-3", "00-4"]
 
 
 def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Path) -> None:
