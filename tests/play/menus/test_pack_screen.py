@@ -793,7 +793,7 @@ def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: P
         driver.choose("Edit")
         assert read.call_count == 1, "when its menu closes"
         driver.shown(EditorScreen).session.close()
-        driver.press("escape")
+        driver.app.pop()
         assert driver.top() is screen
         read.reset_mock()
         screen.change(lambda: packs.rename_episode(path, 0, "Other"), "Rename")
