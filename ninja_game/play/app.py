@@ -34,7 +34,7 @@ class Screen:
     ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
     app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
     comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written.
-    ``hides_game``: it shows that nobody plays, and no notice.
+    ``hides_game``: it shows that nobody plays, and no notice. ``foot_high``: px at the foot that notices leave free.
     """
 
     see_through = False
@@ -42,6 +42,7 @@ class Screen:
     below_runs = False
     plays = False
     hides_game = False
+    foot_high = 1.0
 
     def __init__(self, app: App) -> None:
         self.app = app
@@ -446,7 +447,8 @@ class App:
         if self.top.plays and len(lines) == 1:
             # In the border: nothing is written over a level in which somebody runs.
             size, margin, high = IN_BORDER, 1.0, 20.0
-        y = theme.canvas.logical(theme.canvas.stage.bottomright)[1] - 1 - high * len(lines) - 2 * margin
+        foot = theme.canvas.logical(theme.canvas.stage.bottomright)[1] - self.top.foot_high
+        y = foot - high * len(lines) - 2 * margin
         wide = min(most, max(theme.width(line, size) for line in lines)) + 28
         rect = theme.window(self.surface, middle - wide / 2, y, wide, high * len(lines) + 2 * margin)
         for k, line in enumerate(lines):

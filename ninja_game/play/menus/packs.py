@@ -714,8 +714,8 @@ class PackScreen(ThumbnailScreen):
             x, y = self.pointer
             if held:
                 self.thumbnails.draw(surface, held, x + 6, y + 6, 60)
-                text = counted(len(lifted), "level") * (len(lifted) > 1)
-                self.theme.text(surface, text, x + 36, y + 54, size=11, bold=True, align="centre")
+                if len(lifted) > 1:
+                    self.theme.text(surface, _called(lifted), x + 36, y + 54, size=11, bold=True, align="centre")
             else:
                 self.theme.row(surface, (x + 6, y + 6, 2 * WIDE, HIGH / 4), chosen=True, focused=True)
         if landing:
