@@ -62,16 +62,21 @@ _step: ContextVar[Step | None] = ContextVar("step", default=None)
 class Steps(list[Step]):
     """The last dozen steps, in memory."""
 
-    def do(self, what: str, action: Callable[[], object]) -> None:
-        """Change packs by the functions here. Raises what ``action`` raises; what it has done by then is a step."""
+    def do(self, what: str, action: Callable[[], object]) -> bool:
+        """Change packs by the functions here; whether anything was. Raises what ``action`` raises.
+
+        What it has done by then is a step.
+        """
         step = Step(what, {}, [])
         token = _step.set(step)
         try:
             action()
         finally:
             _step.reset(token)
-            if step.moved or any(old != new for old, new in step.texts.values()):
+            changed = bool(step.moved) or any(old != new for old, new in step.texts.values())
+            if changed:
                 self[:] = [*self, step][-12:]
+        return changed
 
     def undo(self) -> str:
         """Take the newest step back; what it was. Nothing is done where its files were changed since.
@@ -172,15 +177,20 @@ def new_pack(folder: Path, name: str, author: str) -> Path:
     return path
 
 
-def copy_pack(pack: Pack, folder: Path, name: str, *, received: bool = False) -> Path:
-    """A copy of a pack, from wherever, by another name; its folder, in ``folder``. ``received``: it stays another's."""
+def copy_pack(pack: Pack, folder: Path, name: str, *, received: bool = False, over: Pack | None = None) -> Path:
+    """A copy of a pack, from wherever, by another name; its folder, in ``folder``. ``received``: it stays another's.
+
+    ``over``: a pack there, all files of which give way to it.
+    """
     names = pack.files.own_names
     if len(names) > MOST_FILES:
         raise PackError("a pack of too many files", found=f"{len(names):,}", expected=f"at most {MOST_FILES:,}")
     for file in names:
         if problem := name_problem(file.rpartition("/")[2]):
             raise PackError("a name that no file here can have", found=ascii(file[:40]), hint=problem)
-    path = free_path(folder, file_stem(name, "pack"), "")
+    path = over.files.path if over else free_path(folder, file_stem(name, "pack"), "")
+    for file in set(over.files.own_names) - {*names} if over else ():
+        _put(path, file, None)
     for file in names:
         text, level = pack.files.text(file), pack.levels.get(level_of(pack, file))
         _put(path, file, whole_certificate(text, level) if level else text)
@@ -188,6 +198,14 @@ def copy_pack(pack: Pack, folder: Path, name: str, *, received: bool = False) ->
     if received:
         _put(path, RECEIVED, "")
     return path
+
+
+def news(old: Pack, pack: Pack) -> str:
+    """What is another in a pack than in an older version of it."""
+    both = old.levels.keys() & pack.levels.keys()
+    changed = sum(old.levels[file].level != pack.levels[file].level for file in both)
+    counts = {"new": len(pack.levels) - len(both), "changed": changed, "gone": len(old.levels) - len(both)}
+    return ", ".join(f"{counted(n, 'level')} {what}" for what, n in counts.items() if n) or "Its levels are the same"
 
 
 def make_own(path: Path) -> None:
@@ -297,15 +315,16 @@ def move_episode(path: Path, number: int, to: int) -> None:
 # --- levels ---
 
 
-def place(path: Path, file: str, number: int | None, before: str = "") -> None:
-    """Put a level into an episode, before another or at the end; ``number``: None for no episode."""
+def place(path: Path, names: Sequence[str], number: int | None, before: str = "") -> None:
+    """Put levels into an episode, in this order, before another or at the end; ``number``: None for no episode."""
     pack = Pack(path)
     old = {episode.number: list(episode.files(pack.files.levels)) for episode in pack.index.episodes}
-    new = {key: [name for name in files if name != file] for key, files in old.items()}
+    new = {key: [name for name in files if name not in names] for key, files in old.items()}
     if number is not None:
-        if len(new[number]) >= LEVELS_PER_EPISODE:
+        at = new[number].index(before) if before in new[number] else len(new[number])
+        new[number][at:at] = names
+        if len(new[number]) > LEVELS_PER_EPISODE:
             raise PackError(f"episode {number + 1} is full", expected=f"at most {LEVELS_PER_EPISODE} levels")
-        new[number].insert(new[number].index(before) if before in new[number] else len(new[number]), file)
     _change_episodes(path, {key: {"levels": files} for key, files in new.items() if files != old[key]})
 
 
@@ -342,7 +361,7 @@ def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:
     moved = {old.name: new} | {certificate_name(old.name, kind): certificate_name(new, kind) for kind in KINDS}
     there = [name for name in moved if (old.parent / name).is_file()]
     if not keep and (old.parent / INDEX).is_file():
-        place(old.parent, old.name, None)
+        place(old.parent, [old.name], None)
     for name in there:
         _put(path, moved[name], read_bytes(old.parent / name))
     for name in [] if keep else there:

@@ -34,8 +34,7 @@ class Screen:
     ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
     app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
     comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written.
-    ``hides_game``: it shows that nobody plays, and no notice. ``notice_top``: where notices are shown, below the title
-    and what one goes back with.
+    ``hides_game``: it shows that nobody plays, and no notice. ``foot_high``: px at the foot that notices leave free.
     """
 
     see_through = False
@@ -43,7 +42,7 @@ class Screen:
     below_runs = False
     plays = False
     hides_game = False
-    notice_top = 44.0
+    foot_high = 1.0
 
     def __init__(self, app: App) -> None:
         self.app = app
@@ -72,6 +71,9 @@ class Screen:
 
     def enter(self) -> None:
         """Called when this becomes the top screen: pushed, or uncovered again."""
+
+    def look_again(self) -> None:
+        """Called when levels or packs on the disk have changed behind it."""
 
     def leave(self) -> None:
         """Called when this is no longer the top screen: covered or popped. Loops of sound end here."""
@@ -191,7 +193,7 @@ FALLBACK_RATE = 60
 
 NOTICE = 12.5  # letters of a notice
 IN_BORDER = 10.0  # the same in the border below a level
-NOTICE_WIDE = 620.0  # its longest line, px
+NOTICE_WIDE = 764.0  # its longest line, px
 NOTICE_LINES = 5  # that are shown at most
 NOTICE_MS = 4000
 WARNING_MS = 12_000  # of what went wrong when the game started
@@ -280,7 +282,7 @@ class App:
             self.change_settings(name=author.strip()[:40])
 
     def notify(self, text: str, *, ms: int = NOTICE_MS, here: bool = False) -> None:
-        """Show a text near the upper edge for a while, whatever screen is on top; ``here``: only as long as this is."""
+        """Show a text at the foot for a while, whatever screen is on top; ``here``: only as long as this is."""
         self.notice, self._notice_ms, self._notice_on = text, ms, self.top if here else None
         self.stack.redraw_all()
 
@@ -441,10 +443,12 @@ class App:
         left, right = self.top.notice_room
         most = min(NOTICE_WIDE, right - left - 28)
         middle, lines = (left + right) / 2, wrapped(theme, self.notice, most, NOTICE)[:NOTICE_LINES]
-        y, size, margin, high = self.top.notice_top, NOTICE, 6.0, 1.5 * NOTICE * theme.scales[0]
+        size, margin, high = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
         if self.top.plays and len(lines) == 1:
             # In the border: no text covers a level that is being played.
-            y, size, margin, high = 577.0, IN_BORDER, 1.0, 20.0
+            size, margin, high = IN_BORDER, 1.0, 20.0
+        foot = theme.canvas.logical(theme.canvas.stage.bottomright)[1] - self.top.foot_high
+        y = foot - high * len(lines) - 2 * margin
         wide = min(most, max(theme.width(line, size) for line in lines)) + 28
         rect = theme.window(self.surface, middle - wide / 2, y, wide, high * len(lines) + 2 * margin)
         for k, line in enumerate(lines):

@@ -167,7 +167,7 @@ def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[Pac
 
 def _about_index(pack: Pack) -> Iterator[PackFinding]:
     place, index = pack.files.place(INDEX), pack.index
-    if not index.author:
+    if not index.is_signed:
         yield pack_finding("no-author", place)
     used = {episode.number // EPISODES_PER_COLUMN for episode in index.episodes}
     if used and index.columns and max(used) >= len(index.columns):

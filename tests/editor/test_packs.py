@@ -49,17 +49,17 @@ def layout(path: Path) -> dict[int, list[str]]:
 
 
 def test_levels_are_moved_between_episodes_and_out_of_them(pack: Path) -> None:
-    packs.place(pack, LAST, 1, before="01-0-springtime.txt")
-    packs.place(pack, FIRST, 1)
+    packs.place(pack, [LAST], 1, before="01-0-springtime.txt")
+    packs.place(pack, [FIRST], 1)
     assert layout(pack) == {0: ["00-1", "00-2", "00-3", "00-4"], 1: ["01-2", "01-0", "01-1", "00-0"]}
-    packs.place(pack, FIRST, None)
-    packs.place(pack, "00-4-locksmith.txt", None)
+    packs.place(pack, [FIRST], None)
+    packs.place(pack, ["00-4-locksmith.txt"], None)
     assert layout(pack) == {0: ["00-1", "00-2", "00-3"], 1: ["01-2", "01-0", "01-1"]}
     assert (pack / "pack.toml").read_text("utf-8").startswith("# A pack for the tests, which stays")
     for file in (FIRST, "00-1-mind-the-gap.txt"):
-        packs.place(pack, file, 1)
+        packs.place(pack, [file], 1)
     with pytest.raises(PackError, match="episode 2 is full"):
-        packs.place(pack, "00-2-the-chimney.txt", 1)
+        packs.place(pack, ["00-2-the-chimney.txt"], 1)
 
 
 def test_episodes_are_made_moved_renamed_and_removed(pack: Path) -> None:
@@ -87,7 +87,7 @@ def test_a_column_takes_ten_episodes(pack: Path) -> None:
 def test_a_pack_is_made_described_and_copied(pack: Path, tmp_path: Path) -> None:
     made = packs.new_pack(tmp_path, "Wände", "me")
     file = packs.new_level(made, "Erste", "me")
-    packs.place(made, file, 0)
+    packs.place(made, [file], 0)
     packs.describe(made, {"version": "2", "columns": ["Left"], "author": "you"})
     index = Pack(made).index
     assert (index.title, index.columns, layout(made)) == ("Wände by you, 2", ("Left",), {0: ["erst"]})
@@ -161,7 +161,7 @@ def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tm
 def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Path) -> None:
     for file in pack.glob("0[01]-[0-9]-*.txt"):
         if file.name != FIRST:
-            packs.place(pack, file.name, None)
+            packs.place(pack, [file.name], None)
             file.unlink()
     text = (pack / FIRST).read_text("utf-8")
     (pack / FIRST).write_text(text.replace("ox...", "o....").replace("22 |##", "22 |x#"), "utf-8")
@@ -285,7 +285,7 @@ def test_undo_leaves_alone_what_others_did_meanwhile(pack: Path) -> None:
     steps, found, before = packs.Steps(), pack / RUN, (pack / "pack.toml").read_text("utf-8")
 
     def action() -> None:
-        packs.place(pack, FIRST, None)
+        packs.place(pack, [FIRST], None)
         found.write_text("found meanwhile", "utf-8")
 
     steps.do("Take out", action)

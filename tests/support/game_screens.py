@@ -32,6 +32,7 @@ from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
@@ -438,6 +439,10 @@ def _packs(driver: MenuDriver) -> Iterator[str]:
     driver.wait(lambda: screen.status.findings is not None, "the problems are known")
     driver.frames(2)
     yield "packs"
+    driver.app.push(PackList(driver.app, screen.mine, screen._show))
+    driver.frames(30)
+    yield "packs-list"
+    driver.press("escape")
     driver.carry(screen.shelves.row_area(2), screen.shelves.row_area(9), drop=False)
     yield "packs-dragging"
     driver.press("escape")

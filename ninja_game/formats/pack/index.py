@@ -65,6 +65,11 @@ class PackIndex:
     accepted: tuple[Accepted, ...] = ()
 
     @property
+    def is_signed(self) -> bool:
+        """Whether it says who made it."""
+        return self.author.strip().casefold() not in ("", "unknown")
+
+    @property
     def title(self) -> str:
         """Its name with author and version, by which packs of one name are told apart.
 

@@ -98,6 +98,10 @@ class Browser(ThumbnailScreen):
         self._arrange()
         super().enter()
 
+    def look_again(self) -> None:
+        self.enter()
+        self.redraw = True
+
     def choosers(self) -> list[Widget]:
         sort = Choice((244, 66, 118, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="Sort the list")
         problems = problems_button(self.app, (150, 546, 270, 18), lambda: self.problems)
@@ -121,8 +125,7 @@ class Browser(ThumbnailScreen):
         if event.raw.type == pygame.DROPFILE:
             self._take_in(Path(event.raw.file))
         elif event.raw.type == pygame.WINDOWFOCUSGAINED:
-            self.enter()
-            self.redraw = True
+            self.look_again()
         else:
             super().handle(event)
 
@@ -209,8 +212,10 @@ class Browser(ThumbnailScreen):
         folder = Path(entry.named.file).parent
 
         def own() -> None:
+            from ninja_game.editor.packs import make_own  # it needs NumPy, which takes a moment
+
             try:
-                Tree(folder).remove(RECEIVED)
+                make_own(folder)
             except (NinjaGameError, OSError) as error:
                 self.app.notify(reason(error))
             else:

@@ -189,10 +189,11 @@ class EpisodeGrid(ThumbnailScreen):
         return TOP + self.grid.area[3] + 14
 
     def build(self) -> Sequence[Widget]:
-        before = self.pack
+        before, number = self.pack, self.number
         self._look_for_packs(before.key)
         if self.pack is not before:
             self.grid.arrange(self.pack.episodes)
+            self.grid.index = self.grid.numbers.index(number) if number in self.grid.numbers else self.grid.index
         self.marks = self.player.marks.all()
         self.passed = self.marks.keys() | self.player.marks.all(WITH_HELP).keys()
         self._selected(self.grid.index)
@@ -217,6 +218,10 @@ class EpisodeGrid(ThumbnailScreen):
             hint="Level pack. Levels > Packs > Paste link takes in more, as does the folder in Settings > Play",
         )
         return [self.grid, self.play, choice, self.practice, self.rows, *problems]
+
+    def look_again(self) -> None:
+        self.enter()
+        self.redraw = True
 
     def _set_practice(self, value: object) -> None:
         self.app.change_settings(practice=value)
@@ -270,6 +275,10 @@ class EpisodeGrid(ThumbnailScreen):
         if self.pack.key and self.pack.pack:
             index = self.pack.pack.index
             subtitle = f"{index.title}. {index.comment}" if index.comment else index.title
+            top = self._below + 150
+            width = min(200.0, (540 - top) * 33 / 25)
+            if width >= 80:
+                self.thumbnails.draw_pack(surface, self.pack.levels, LEFT, top, width)
             theme.text(surface, shown_text(subtitle, 200), SIDE, 114, size=10, colour=palette.faint, width=364)
         episode = self.episode
         if episode is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from math import dist
 from typing import NamedTuple
 
@@ -19,6 +19,9 @@ from ninja_game.ui.theme import Area, Theme, wrapped
 
 WIDE, HIGH = 93, 106
 
+GAP = 12
+"""px by which cards make room for one that the mouse has."""
+
 PULL = 6
 """px that the mouse moves with its button down before it takes something along."""
 
@@ -34,7 +37,8 @@ class Cell(NamedTuple):
 class Rack(ListView):
     """Cells that the mouse takes along: ``pull`` gets a cell and the mouse's place. A second click instead chooses.
 
-    ``status``: of the pack that the levels are in.
+    ``status``: of the pack that the levels are in. ``marked``, ``lifted``: files of levels that are, and that the mouse
+    has. ``gap``: the cell before which those behind it make room, 0 for none.
     """
 
     def __init__(
@@ -44,12 +48,14 @@ class Rack(ListView):
         *,
         status: PackStatus,
         thumbnails: Thumbnails,
+        marked: Collection[str],
         pull: Callable[[Cell, tuple[float, float]], object],
         choose: Callable[[Cell], object],
     ) -> None:
         super().__init__(area, HIGH, self._draw_cell, lambda index: choose(self.cells[index]), opens=True)
         self.columns, self.status, self.thumbnails, self.pull = columns, status, thumbnails, pull
         self.cells: Sequence[Cell] = ()
+        self.marked, self.lifted, self.gap = marked, set[str](), 0
         self._pressed = (0.0, 0.0)
         self._again = False
 
@@ -78,22 +84,36 @@ class Rack(ListView):
         if was_clicked:
             self.choose(self.index)
 
+    @property
+    def chosen(self) -> Cell:
+        return self.cells[self.index] if self.cells else Cell(None)
+
+    def shift(self, index: int) -> float:
+        """By how many px a cell makes room."""
+        line, first = divmod(self.gap, self.columns)
+        return GAP * (0 < first <= index % self.columns and index // self.columns == line)
+
     def at(self, x: float, y: float) -> int | None:
         return self._index_at(x, y) if self.contains(x, y) else None
 
     def _draw_cell(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         cell, chosen, (x, y, w, h) = self.cells[index], index == self.index, area
+        x += self.shift(index)
         inner = (x + 2, y + 2, w - 4, h - 4)
+        lifted = cell.level is not None and cell.level.named.file in self.lifted
+        marked = cell.level is not None and cell.level.named.file in self.marked
         if cell.head:
             self._draw_head(surface, theme, cell, inner)
-        elif cell.level:
+        elif cell.level and not lifted:
             theme.row(surface, inner, chosen=chosen and focused, focused=focused)
             self._draw_level(surface, theme, cell.level, x + 6, y + 6, w - 12)
-        if chosen and focused:
+        if marked and not lifted:
+            theme.canvas.circle(surface, theme.palette.accent, (x + 11, y + 11), 6)
+        if marked or (chosen and focused and not self.lifted):
             theme.canvas.frame_rect(surface, theme.palette.accent, *inner, 2.5, 4)
-        elif not (cell.head or cell.level):
+        elif lifted or not (cell.head or cell.level):
             theme.canvas.frame_rect(surface, theme.palette.panel_edge, *inner, 1, 4)
-            if self.cells[index - 1].head:
+            if self.cells[index - 1].head and not lifted:
                 place, faint = (x + 8, y + h / 2 - 12, w - 16, 40), theme.palette.faint
                 theme.paragraph(surface, ["Drag a level here"], place, 9, 12, colour=faint, align="centre")
 

@@ -97,6 +97,8 @@ class Packer(Aside):
         self.share = share
         if self._job.idle:
             self.busy, self.text = False, self._job.problem
+            if self.app.stack:
+                self.app.top.look_again()
             ready = None if self.text else self._job.result
             if ready and ready.findings:
                 self.open_problems = ready

@@ -6,6 +6,7 @@ import re
 import webbrowser
 from collections.abc import Callable, Sequence
 from functools import partial
+from math import inf
 from pathlib import Path
 
 import pygame
@@ -26,6 +27,7 @@ from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
 from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_received, ask_text
+from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Cell, Rack
 from ninja_game.play.menus.packer import PackStatus, packer_of
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
@@ -35,7 +37,6 @@ from ninja_game.runs.packs import NEVER_ACCEPTED, file_of, level_of
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.list_view import BAR
-from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import Button, Choice, Widget
 
 DELETED = "deleted"
@@ -51,9 +52,11 @@ _NO_LEVELS = (
     "Make ready then certifies all, and gives you a zip and a link to share.",
 )
 
-_SHARE = "Send either: a link is pasted in Levels > Packs, a zip is dropped on Levels"
+_SHARE = "Send either: a link is pasted, a zip dropped, in Levels > Packs"
 
-_CAN = "Preview, name, copy, find or delete packs"
+_CAN = "Preview, name, copy or delete the pack"
+
+_DRAG = "Drag a level or an episode; Enter or a second click: what can be done. Ctrl or Shift and a click: several"
 
 _STOPS = "It can be stopped at any time: what was found is kept."
 
@@ -63,11 +66,11 @@ Edit = Callable[[Entry, Finding | None], object]
 class PackScreen(ThumbnailScreen):
     """``pack``: the one on the shelves. ``held``: what is being moved; ``pointer``: where the mouse has it, else None.
 
+    ``marked``: files of levels with which is done what is done with one of them.
     ``edit``: opens a level in the editor, at a finding.
     """
 
     title = "Packs"
-    notice_top = 8.0
 
     def __init__(self, app: App, edit: Edit) -> None:
         super().__init__(app)
@@ -79,10 +82,11 @@ class PackScreen(ThumbnailScreen):
         self.held: Cell | None = None
         self.chosen: Widget | None = None
         self.pointer: tuple[float, float] | None = None
+        self.marked = set[str]()
         self.packer = packer_of(app)
         self.packer.desk = self
         self.status = PackStatus(self.packer, self.player.catalogue)
-        rack = partial(Rack, status=self.status, thumbnails=self.thumbnails, pull=self._pull)
+        rack = partial(Rack, status=self.status, thumbnails=self.thumbnails, marked=self.marked, pull=self._pull)
         self.shelves = rack((36, 96, 6 * WIDE + BAR + 4, 4 * HIGH), 6, choose=self._choose)
         self.tray = rack((622, 126, WIDE + BAR + 24, 4 * HIGH - 28), 1, choose=self._choose)
         self._told: tuple[bool, int, str, str] = False, 0, "", ""
@@ -128,6 +132,7 @@ class PackScreen(ThumbnailScreen):
         self.tray.empty = f"Drag a level here to {goals.get(self.beside, 'put it into this pack')}"
         self.shelves.show(cells)
         self.tray.show([Cell(None, entry) for entry in entries])
+        self.marked &= {level.named.file for level in self._levels()}
         self.redraw = True
 
     def enter(self) -> None:
@@ -135,19 +140,19 @@ class PackScreen(ThumbnailScreen):
         super().enter()
 
     def build(self) -> Sequence[Widget]:
+        app = self.app
         names = [(pack.pack.index.title if pack.pack and pack.received else pack.name, pack.key) for pack in self.mine]
         have = self.pack and self.pack.pack
         key = self.pack.key if self.pack else ""
         chosen = self.chosen = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
-        chosen.more = self._about
+        chosen.more = partial(app.push, PackList(app, self.mine, self._show))
         received = bool(self.pack and self.pack.received)
         whose = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
-        chosen.hint = f"{whose}. Enter, or a click on the name: what can be done with it"
+        chosen.hint = f"{whose}. Enter, or a click on the name: all your packs"
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(pack.name if pack.key else "The game's own", pack.key) for pack in self.sets if pack is not self.pack]
         tray_choice = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
-        self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
-        ready, end = partial(self.packer.start, self.path), self.packer.end
+        self.shelves.hint = self.tray.hint = _DRAG
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
         undo = Button((206, 60, 44, 28), "Undo", lambda: self.do(self._undo), size=10)
         steps = self.packer.steps
@@ -162,7 +167,8 @@ class PackScreen(ThumbnailScreen):
             view.hint = shown_text(f"{have.index.title}. {have.index.comment}", 200)
         view.enabled = bool(self.pack and self.pack.episodes)
         problems = Button((552, 60, 66, 28), "Problems", self._show_problems, size=10)
-        make = Button((624, 60, 132, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
+        begin = ("Stop", self.packer.end) if self.packer.busy else ("Make ready", self._make_ready)
+        make = Button((624, 60, 132, 28), *begin, hint=hint)
         link = Button((662, 525, 94, 24), "Copy the link", self._copy_link, size=10)
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
@@ -188,6 +194,20 @@ class PackScreen(ThumbnailScreen):
     def _copy_link(self) -> None:
         copy_link(self.app, Pack(self.path).files.link, title=self.pack.name if self.pack else "")
 
+    def _make_ready(self) -> None:
+        path, name = self.path, self.player.settings.name
+
+        def sign(author: str) -> None:
+            if author.strip():
+                self.app.know_author("", author)
+                self.do(lambda: packs.describe(path, {"author": author.strip()}), "Author of the pack")
+            self.packer.start(path)
+
+        if self.pack and self.pack.pack and self.pack.pack.index.is_signed:
+            self.packer.start(path)
+        else:
+            ask_text(self.app, "Who made this pack?", "Author (may be empty)", name, "Make ready", sign, 40)
+
     def _choose_pack(self, key: str) -> None:
         self._show(next(pack for pack in self.mine if pack.key == key))
 
@@ -200,13 +220,14 @@ class PackScreen(ThumbnailScreen):
     def do(self, action: Callable[[], object], what: str = "") -> None:
         """Change something on the disk, and show all as it is then. ``what``: how undo calls it; "" is no step."""
         try:
-            if what:
-                self.packer.steps.do(what, action)
-            else:
+            if what and not self.packer.steps.do(what, action):
+                return
+            if not what:
                 action()
         except (NinjaGameError, OSError) as error:
             self.app.notify(reason(error))
-        self._read()
+        if self.app.top is not self:
+            self._read()
         self.app.top.enter()
 
     def change(self, action: Callable[[], object], what: str) -> None:
@@ -239,11 +260,11 @@ class PackScreen(ThumbnailScreen):
     def _new_pack(self) -> None:
         def make(name: str, author: str = self.player.settings.name) -> None:
             self.app.know_author("", author)
-            path = packs.new_pack(self.folder, name, author.strip() or "unknown")
+            path = packs.new_pack(self.folder, name, author.strip())
             self.beside = "yours" if self.player.catalogue.own() else "none"
             self._read(path)
 
-        fields = [("Name", "My pack", 60), ("Author (empty: unknown)", "", 40)][: 1 if self.player.settings.name else 2]
+        fields = [("Name", "My pack", 60), ("Author (may be empty)", "", 40)][: 1 if self.player.settings.name else 2]
         step = "New pack"
         self.app.push(FormPanel(self.app, step, fields, "OK", lambda texts: self.do(lambda: make(*texts), step)))
 
@@ -252,33 +273,51 @@ class PackScreen(ThumbnailScreen):
             text = pasted_text()
             if link_kind(text) != "pack":
                 raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
-            pack = Pack(Path(f"#{text.partition('#')[2]}"))
-            if there := next((shelf for shelf in self.mine if shelf.pack and packs.same_pack(pack, shelf.pack)), None):
-                self._read(there.path)
-                rows: list[Row] = [
-                    ("Play it", self._view, "") if there.received else ("Show it as received", self._view, PREVIEW),
-                    ("Receive it once more", partial(receive, pack), "Beside this one"),
-                    CANCEL,
-                ]
-                self.app.push(Menu(self.app, f"{shown_text(there.name)} is among your packs already", rows))
-            else:
-                receive(pack)
-
-        def receive(pack: Pack) -> None:
-            def copy() -> None:
-                self._read(packs.copy_pack(pack, self.folder, pack.name, received=True))
-                self.app.notify(f"{shown_text(pack.name)} is among your packs now: Enter plays it")
-
-            self.do(copy, "Paste link")
-            self.focus_on(self.view)
+            self._take_in(Pack(Path(f"#{text.partition('#')[2]}")))
 
         self.do(take)
+
+    def _take_in(self, pack: Pack) -> None:
+        """Make a pack one of the player's that stays another's, over an older version of it if so wished."""
+
+        def receive(over: Pack | None = None) -> None:
+            def copy() -> None:
+                said = f": {packs.news(over, pack)}" if over else " is among your packs now: Enter plays it"
+                self._read(packs.copy_pack(pack, self.folder, pack.name, received=True, over=over))
+                self.app.notify(f"{shown_text(pack.name)}{said}")
+
+            self.do(copy, f"Update {pack.name}" if over else "Paste link")
+            self.focus_on(self.view)
+
+        name, author = shown_text(pack.name), pack.index.author
+        older = [each.pack for each in self.mine if each.pack and each.received and each.pack.name == pack.name]
+        if there := next((each for each in self.mine if each.pack and packs.same_pack(pack, each.pack)), None):
+            self._read(there.path)
+            rows: list[Row] = [
+                ("Play it", self._view, "") if there.received else ("Show it as received", self._view, PREVIEW),
+                ("Receive it once more", receive, "Beside this one"),
+                CANCEL,
+            ]
+            self.app.push(Menu(self.app, f"{shown_text(there.name)} is among your packs already", rows))
+        elif over := next((each for each in older if each.index.author == author), None):
+            rows = [("Update it", partial(receive, over), packs.news(over, pack)), ("Keep both", receive, ""), CANCEL]
+            self.app.push(Menu(self.app, f"You have {name} {over.index.version or 'in another version'}", rows))
+        else:
+            receive()
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
             self._paste()
+        elif event.raw.type == pygame.DROPFILE:
+            self.do(lambda: self._take_in(Pack(Path(event.raw.file))))
         elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+z":
             self.do(self._undo)
+        elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+a":
+            self.marked |= {level.named.file for level in self._levels(self.focus)}
+            self.redraw = True
+        elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "delete":
+            if isinstance(self.focus, Rack) and self.focus.cells and (away := self._away(self.focus.chosen)):
+                away()
         else:
             super().handle(event)
 
@@ -302,7 +341,6 @@ class PackScreen(ThumbnailScreen):
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
         key, own = (self.pack.key, not self.pack.received) if self.pack else ("", True)
-        find = partial(ask_text, self.app, "Find a pack", "Part of its name", "", "OK", self._find)
         without = "No episode has levels" * empty
         rows: list[Row] = [
             ("Play it", None if empty else lambda: self.app.push(EpisodeGrid(self.app, key)), without),
@@ -310,16 +348,9 @@ class PackScreen(ThumbnailScreen):
             ("Name, author, version...", self._form, ""),
             ("Copy of the pack", lambda: self._copy(copied), ""),
             ("Delete the pack...", None if busy else self._delete, gone),
-            *[("Find a pack...", find, "By its name")] * (len(self.mine) > 1),
             CANCEL,
         ]
         self.app.push(Menu(self.app, index.name, rows))
-
-    def _find(self, text: str) -> None:
-        packs = [pack for pack in self.mine if text.casefold() in pack.name.casefold()]
-        if packs:
-            self._choose_pack(packs[0].key)
-        self.app.notify(f"No pack is called {shown_text(text)}" * (not packs))
 
     def _delete(self) -> None:
         name, path = self.pack.name if self.pack else "", self.path
@@ -356,14 +387,13 @@ class PackScreen(ThumbnailScreen):
         level, episode = cell.level, cell.episode
         if level is None:
             return
-        file = Path(level.named.file)
-        rename, take_out = partial(packs.rename_level, file), partial(packs.place, self.path, file.name, None)
-
-        edit = partial(self._edit, level, None)
-        run, title = self.player.catalogue.author_run(level), shown_text(level.title)
+        file, levels = Path(level.named.file), self._taken(level)
+        rename, edit = partial(packs.rename_level, file), partial(self._edit, level, None)
+        run, title = self.player.catalogue.author_run(level), _called(levels)
 
         def copy() -> None:
-            packs.place(self.path, packs.duplicate(self.path, level.named), episode.number if episode else None)
+            names = [packs.duplicate(self.path, each.named) for each in levels]
+            packs.place(self.path, names, episode.number if episode else None)
 
         def play() -> None:
             if why := play_level(self.app, level):
@@ -373,13 +403,32 @@ class PackScreen(ThumbnailScreen):
             ("Edit", partial(self.change, edit, "Edit") if file.parent == self.path else edit, ""),
             ("Play", play, ""),
             ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
-            ("Move...", lambda: self._hold(cell), ""),
+            ("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), ""),
         ]
-        if file.parent == self.path:
-            rows += [("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), "")]
-            rows += [("Copy", lambda: self.change(copy, f"Copy {title}"), "Another level like it")]
-            rows += [("Take out", lambda: self._set_aside(take_out, title), "Into no episode")] * bool(episode)
-        self.app.push(Menu(self.app, level.title, [*rows, CANCEL]))
+        rows = rows[: 4 if file.parent == self.path else 3] * (len(levels) == 1)
+        rows.append(("Move...", lambda: self._hold(cell), ""))
+        if all(Path(each.named.file).parent == self.path for each in levels):
+            rows.append(("Copy", lambda: self.change(copy, f"Copy {title}"), "Another level like it"))
+        if away := self._away(cell):
+            rows.append(("Take out", away, "Into no episode") if episode else ("Delete", away, "Undo brings it back"))
+        self.app.push(Menu(self.app, title, [*rows, CANCEL]))
+
+    def _away(self, cell: Cell) -> Callable[[], object] | None:
+        """What takes a level out of its episode, or one of the player's in none off the disk; None for any other."""
+        levels = self._taken(cell.level) if cell.level else []
+        title = _called(levels)
+        if levels and all(Path(each.named.file).parent == self.path and each.episode for each in levels):
+            names = [Path(each.named.file).name for each in levels]
+            return lambda: self._set_aside(partial(packs.place, self.path, names, None), title)
+        if not levels or self.beside not in ("none", "yours") or not all(each.named.ascii for each in levels):
+            return None
+
+        def delete() -> None:
+            for each in levels:
+                packs.transfer(each.named, self.player.folder / DELETED, keep=False)
+            self.app.notify(f"{title}: in the folder {DELETED} now; Ctrl+Z brings back")
+
+        return lambda: (self.do if self.beside == "yours" else self.change)(delete, f"Delete {title}")
 
     def _episode_menu(self, episode: EpisodeIndex) -> None:
         number, path, title = episode.number, self.path, episode.name or f"Episode {episode.number + 1}"
@@ -389,10 +438,16 @@ class PackScreen(ThumbnailScreen):
 
         def level(name: str) -> None:
             file = packs.new_level(path, name, self.player.settings.name)
-            packs.place(path, file, number)
+            packs.place(path, [file], number)
             self._read()
             if entry := self._entry(file):
                 self._edit(entry, None)
+
+        def sort() -> None:
+            levels = [cell.level for cell in self.shelves.cells if cell.level and cell.episode is episode]
+            levels.sort(key=lambda each: (each.pars and each.pars.difficulty) or inf)
+            names = [Path(each.named.file).name for each in levels]
+            self.change(partial(packs.place, path, names, number), f"Sort {title}")
 
         def name_column(name: str) -> None:
             packs.describe(path, {"columns": [*columns[:column], name, *columns[column + 1 :]]})
@@ -403,6 +458,7 @@ class PackScreen(ThumbnailScreen):
             ("New level...", lambda: self.ask("New level: its name", "New level", level), "Made, and opened"),
             ("Rename...", lambda: self.ask(f"Rename {episode.name}", episode.name, rename), ""),
             ("Move...", lambda: self._hold(Cell(episode, head=True)), ""),
+            ("Sort by difficulty", sort, "Easiest first, those not measured last"),
             ("Name of the column...", lambda: self.ask("Name of the column", columns[column], name_column), ""),
             ("Begin a column...", lambda: self.ask("Column: first episode", self._next_name, begin), "Beside these"),
             ("Remove the episode", lambda: self._set_aside(remove, title), "Its levels stay, beside the others"),
@@ -414,6 +470,37 @@ class PackScreen(ThumbnailScreen):
         """Take levels out of their episode, and show where they are then."""
         self.beside = "none"
         self.change(action, f"Take out {shown_text(what)}")
+
+    # --- several at once ---
+
+    def _levels(self, rack: Widget | None = None) -> list[Entry]:
+        """Those in view, in order; of one rack, or of both."""
+        racks = [each for each in (self.shelves, self.tray) if rack in (None, each)]
+        return [cell.level for each in racks for cell in each.cells if cell.level]
+
+    def _taken(self, level: Entry) -> list[Entry]:
+        """The levels with which is done what is done with this: all that are marked, if it is one of them."""
+        marked = [each for each in self._levels() if each.named.file in self.marked]
+        return marked if level.named.file in self.marked else [level]
+
+    def _mark(self, x: float, y: float) -> bool:
+        """Mark levels where Ctrl or Shift is down; whether it was. A click on another than those marked ends that."""
+        mods, rack = pygame.key.get_mods(), self._at(x, y)
+        if not isinstance(rack, Rack) or (index := rack.at(x, y)) is None:
+            return False
+        level, chosen = rack.cells[index].level, rack.chosen.level
+        if not (level and mods & (pygame.KMOD_CTRL | pygame.KMOD_META | pygame.KMOD_SHIFT)):
+            if not (level and level.named.file in self.marked):
+                self.marked.clear()
+            return False
+        if mods & pygame.KMOD_SHIFT:
+            first, last = sorted((rack.index, index))
+            self.marked |= {each.level.named.file for each in rack.cells[first : last + 1] if each.level}
+        else:
+            self.marked |= {chosen.named.file} if chosen and not self.marked else set()
+            self.marked ^= {level.named.file} if self.marked != {level.named.file} else set()
+        self.focus, rack.index, self.redraw = rack, index, True
+        return True
 
     # --- moving ---
 
@@ -432,14 +519,17 @@ class PackScreen(ThumbnailScreen):
     def back(self) -> None:
         if self.held:
             self.held = self.pointer = None
+        elif self.marked:
+            self.marked.clear()
         else:
             super().back()
 
     def _drop(self, goal: Cell | None, *, after: bool = False) -> None:
         held, self.held, self.pointer = self.held, None, None
-        if held and held.level and not (goal and goal.level is held.level):
+        levels = self._taken(held.level) if held and held.level else []
+        if levels and not (goal and goal.level in levels and len(levels) == 1):
             do = self.do if goal is None and self.beside != "none" else self.change
-            do(partial(self._put_level, held.level, goal, after=after), f"Move {shown_text(held.level.title)}")
+            do(partial(self._put_levels, levels, goal, after=after), f"Move {_called(levels)}")
         elif held and held.episode and goal and goal.episode:
             numbers = held.episode.number, goal.episode.number
             self.change(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
@@ -449,8 +539,8 @@ class PackScreen(ThumbnailScreen):
         left, _, w, _ = self.shelves.row_area(index)
         return self.pointer is not None and self.pointer[0] > left + w / 2
 
-    def _landing(self) -> Area | None:
-        """Where a mark shows that the level that is held would land."""
+    def _landing(self) -> tuple[int, bool] | None:
+        """Beside which cell the level that is held would land, and whether behind it."""
         over = self.shelves.at(*self.pointer) if self.pointer else self.shelves.index
         if over is None or not (self.held and self.held.level):
             return None
@@ -458,29 +548,29 @@ class PackScreen(ThumbnailScreen):
         if not cells[over].level:
             row = [k for k, cell in enumerate(cells) if cell.episode is cells[over].episode]
             index, after = next((k for k in row if not (cells[k].head or cells[k].level)), row[-1]), False
-        x, y, w, h = self.shelves.row_area(index)
-        return x + w * after - 2, y + 4, 4, h - 8
+        return index, after
 
-    def _put_level(self, level: Entry, goal: Cell | None, *, after: bool) -> None:
-        file, target = Path(level.named.file), self.path
+    def _put_levels(self, levels: Sequence[Entry], goal: Cell | None, *, after: bool) -> None:
+        target = self.path
         if goal is None and self.beside != "none":
             target = next((pack.path for pack in self.sets if pack.key == self.beside and pack.path), self.folder)
         if target != self.folder and target not in [pack.path for pack in self.mine]:
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
         if target != self.path and (target / RECEIVED).exists():
             raise NinjaGameError("that pack was received, and stays as it is")
-        name = file.name
-        if file.parent != target:
+        names: list[str] = []
+        for level in levels:
+            file = Path(level.named.file)
             others = level.source == GAME or self.folder not in file.parents or (file.parent / RECEIVED).exists()
-            name = packs.transfer(level.named, target, keep=others)
+            names.append(file.name if file.parent == target else packs.transfer(level.named, target, keep=others))
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:
                 number = packs.new_episode(target, self._next_name, self._column())
             row = [cell.level for cell in self.shelves.cells if goal and cell.episode is goal.episode and cell.level]
-            row = [cell for cell in row if cell is not level]
             behind = row[row.index(goal.level) + after :] if goal and goal.level else []
-            packs.place(target, name, number, Path(behind[0].named.file).name if behind else "")
+            before = (Path(entry.named.file).name for entry in behind if entry not in levels)
+            packs.place(target, names, number, next(before, ""))
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_RIGHT and not self.held:
@@ -488,8 +578,11 @@ class PackScreen(ThumbnailScreen):
             widget = self._at(*place)
             if widget and (widget is self.chosen or (isinstance(widget, Rack) and widget.click(*place))):
                 self.focus_on(widget)
-                widget.confirm()
+                (self._about if widget is self.chosen else widget.confirm)()
                 return
+        left = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT and not self.held
+        if left and self._mark(*self.theme.canvas.logical(event.pos)):
+            return
         dragged = self._dragged
         super()._handle_mouse(event)
         if event.type == pygame.MOUSEBUTTONUP and isinstance(dragged, Rack):
@@ -612,12 +705,24 @@ class PackScreen(ThumbnailScreen):
             theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
+        landing, held = self._landing(), self.held.level if self.held else None
+        lifted = self._taken(held) if held and self.pointer else []
+        self.shelves.lifted = self.tray.lifted = {each.named.file for each in lifted}
+        self.shelves.gap = landing[0] + landing[1] if landing and self.pointer else 0
         super().draw_widgets(surface)
         if self.held and self.pointer:
             x, y = self.pointer
-            if self.held.level:
-                self.thumbnails.draw(surface, self.held.level, x + 6, y + 6, 60)
+            if held:
+                self.thumbnails.draw(surface, held, x + 6, y + 6, 60)
+                if len(lifted) > 1:
+                    self.theme.text(surface, _called(lifted), x + 36, y + 54, size=11, bold=True, align="centre")
             else:
                 self.theme.row(surface, (x + 6, y + 6, 2 * WIDE, HIGH / 4), chosen=True, focused=True)
-        if landing := self._landing():
-            self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *landing, 2)
+        if landing:
+            x, y, w, h = self.shelves.row_area(landing[0])
+            place = x + w * landing[1] - 2 + self.shelves.shift(self.shelves.gap) / 2, y + 4, 4, h - 8
+            self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *place, 2)
+
+
+def _called(levels: Sequence[Entry]) -> str:
+    return shown_text(levels[0].title) if len(levels) == 1 else counted(len(levels), "level")

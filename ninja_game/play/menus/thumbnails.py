@@ -69,6 +69,13 @@ class Thumbnails:
             surface.blit(picture, canvas.point(x, y))
         canvas.frame_rect(surface, palette.panel_edge, x - 0.5, y - 0.5, width + 1, height + 1, 1)
 
+    def draw_pack(self, surface: pygame.Surface, levels: Sequence[Entry], x: float, y: float, width: float) -> None:
+        """Draw a pack as four of its levels, from its first to its last fourth, or as its first one."""
+        parts = 2 if len(levels) >= 4 else 1
+        size = width / parts
+        for k, level in enumerate(levels[len(levels) * k // parts**2] for k in range(parts**2 if levels else 0)):
+            self.draw(surface, level, x + k % 2 * size, y + k // 2 * size * 25 / 33, size)
+
 
 class ThumbnailScreen(MenuScreen):
     music = MENU

@@ -49,6 +49,8 @@ class ReplayScreen(Screen):
     until it is found ``end`` is the last tick of the recording; to seek far ahead takes several turns.
     """
 
+    foot_high = 26.0  # its bar
+
     def __init__(self, app: App, runs: Sequence[Recording], *, editable: bool = True) -> None:
         super().__init__(app)
         self.tas_editor = app.tas_editor if editable else None

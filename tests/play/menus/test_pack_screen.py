@@ -30,7 +30,8 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
-from ninja_game.play.menus.pack_shelves import Cell
+from ninja_game.play.menus.pack_list import PackList
+from ninja_game.play.menus.pack_shelves import GAP, Cell
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
@@ -87,7 +88,7 @@ def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriv
     shelves = screen.shelves
     driver.carry(shelves.row_area(1), half(screen, 5, right=True), drop=False)
     x, y, w, _ = shelves.row_area(5)
-    assert screen._landing() == (x + w - 2, y + 4, 4, shelves.cell_height - 8), "a mark shows where"
+    assert screen._landing() == (5, True)
     seen, mark = drawn(driver.app), f"fill accent {px(x + w - 2, y + 4)} 4 x"
     assert seen.index(mark) > seen.index("First Steps' at 577,"), "not behind what is held"
     driver.mouse_up(half(screen, 5, right=True))
@@ -99,9 +100,90 @@ def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriv
         driver.carry(shelves.row_area(3), half(screen, 2, right=True))
         assert layout(path)[0] == ["00-1", "00-2", "00-0", "00-3", "00-4"], "it stays where it was"
     driver.carry(shelves.row_area(3), half(screen, 11), drop=False)
-    assert screen._landing() == (shelves.row_area(10)[0] - 2, shelves.row_area(10)[1] + 4, 4, shelves.cell_height - 8)
+    assert screen._landing() == (10, False)
     driver.mouse_up(half(screen, 11))
     assert layout(path)[1] == ["01-0", "01-1", "01-2", "00-0"]
+
+
+def test_cards_make_room_where_a_level_would_land(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    shelves = screen.shelves
+
+    def pictures() -> list[tuple[float, float]]:
+        with patch.object(screen.thumbnails, "draw") as draw:
+            drawn(driver.app)
+        return sorted((each.args[3], each.args[2]) for each in draw.call_args_list)
+
+    before = pictures()
+    driver.carry(shelves.row_area(1), half(screen, 3, right=True), drop=False)
+    [held, *now] = sorted(set(pictures()) - set(before), reverse=True)
+    assert len(before) - len(set(before) & {*pictures()}) == 3, "what is held leaves its place, two make room"
+    assert [x for _, x in now] == [x + GAP for _, x in reversed(before[3:5])]
+    driver.mouse_up((300, 530, 2, 2))
+    assert pictures() == before
+    assert held
+
+
+def click(driver: MenuDriver, area: Area, mods: int = 0) -> None:
+    x, y, w, h = area
+    pygame.key.set_mods(mods)
+    driver.mouse(x + w / 2, y + h / 2)
+    driver.mouse_up(area)
+    pygame.key.set_mods(0)
+
+
+def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_once(
+    driver: MenuDriver, path: Path
+) -> None:
+    screen = opened(driver)
+    shelves, steps = screen.shelves, screen.packer.steps
+    place = shelves.row_area
+    click(driver, place(1))
+    click(driver, place(3), pygame.KMOD_CTRL)
+    assert {Path(file).name[:4] for file in screen.marked} == {"00-0", "00-2"}, "with the one that was clicked before"
+    click(driver, place(3), pygame.KMOD_CTRL)
+    click(driver, place(4), pygame.KMOD_CTRL)
+    driver.carry(place(4), half(screen, 7, right=True), drop=False)
+    assert "2 levels" in drawn(driver.app)
+    driver.mouse_up(half(screen, 7, right=True))
+    assert layout(path) == {0: ["00-1", "00-2", "00-4"], 1: ["01-0", "00-0", "00-3", "01-1", "01-2"]}
+    assert [each.what for each in steps] == ["Move 2 levels"]
+    driver.carry(place(8), half(screen, 1), drop=False)
+    driver.mouse_up(half(screen, 1))
+    assert layout(path)[0] == ["00-0", "00-3", "00-1", "00-2", "00-4"], "they stay marked"
+    click(driver, place(3))
+    assert not screen.marked
+    click(driver, place(3))
+    assert driver.shown(MenuScreen).title == "Mind the Gap", "a second click opens its menu as ever"
+    driver.choose("Cancel")
+    click(driver, place(5), pygame.KMOD_SHIFT)
+    driver.carry(place(4), half(screen, 7))
+    assert layout(path)[0] == ["00-0", "00-3", "00-1", "00-2", "00-4"], "no room for three: all stay"
+    assert "episode 2 is full" in driver.app.notice
+    shelves.index = 3
+    driver.press("return")
+    assert driver.shown(MenuScreen).title == "3 levels"
+    assert [each.text for each in driver.shown(MenuScreen).widgets] == ["Move...", "Copy", "Take out", "Cancel"]  # type: ignore[attr-defined]
+    driver.choose("Take out")
+    assert layout(path)[0] == ["00-0", "00-3"]
+    screen.marked.clear()
+    screen.focus = screen.tray
+    driver.chord("a", pygame.KMOD_CTRL)
+    assert len(screen.marked) == 3
+    driver.press("delete")
+    deleted = driver.player.folder / "deleted"
+    assert len(list(deleted.glob("*.txt"))) == 3
+    assert list((deleted / "certificates").iterdir())
+    assert len(Pack(path).levels) == 5
+    for _ in range(2):
+        driver.chord("z", pygame.KMOD_CTRL)
+    assert layout(path)[0] == ["00-0", "00-3", "00-1", "00-2", "00-4"]
+    screen.focus, shelves.index = shelves, 3
+    driver.press("delete")
+    assert layout(path)[0] == ["00-0", "00-3", "00-2", "00-4"], "in an episode it is taken out"
+    click(driver, place(1), pygame.KMOD_CTRL)
+    driver.press("escape")
+    assert (driver.top(), screen.marked) == (screen, set())
 
 
 def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path) -> None:
@@ -305,7 +387,8 @@ def test_a_pack_is_made_ready_in_the_background(
     saved, rest = f"Saved: {short_path(zipped)}", "the link is in the clipboard"
     assert driver.app.notice == f"{saved}; {rest}"
     notice = driver.app._draw_notice(driver.app.theme)
-    assert notice.bottom < driver.app.canvas.point(0, 524)[1], "the state of the pack is read meanwhile"
+    foot = driver.app.canvas.point(0, 551)[1], driver.app.canvas.stage.bottom
+    assert foot[0] <= notice.top < notice.bottom <= foot[1], "the state of the pack is read meanwhile"
     assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
     driver.wait(lambda: screen.status.findings is not None, "the problems are known")
     driver.choose("Problems")
@@ -379,10 +462,13 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
 
     driver.wait(lambda: state() != "no run yet", "the card says so before all is done")
     assert screen.packer.busy
-    driver.press("escape")
+    driver.app.push(grid := EpisodeGrid(driver.app, "Laundry"))
+    grid.grid.index = 1
+    packs.rename_episode(path, 1, "Wash day")
     go_on.set()
     driver.wait(lambda: driver.app.notice == "Laundry is ready to share", "it is said elsewhere")
-    driver.choose("Packs")
+    assert (grid.episode and grid.episode.name) == "Wash day", "what is shown there is as new"
+    driver.press("escape")
     assert driver.shown(PackScreen).packer.text == (
         f"Saved: {short_path(driver.player.folder / 'exports' / 'laundry-1.zip')}"
     )
@@ -478,7 +564,7 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     assert screen.status.counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
     driver.wait(lambda: screen.status.findings is not None, "the problems are known")
     assert [screen.status.state(cell.level) for cell in screen.shelves.cells if cell.level][1] == "changed"
-    packs.place(path, packs.new_level(path, "Empty", "me"), 1)
+    packs.place(path, [packs.new_level(path, "Empty", "me")], 1)
     screen.enter()
     driver.wait(lambda: screen.status.findings is not None, "the problems are known")
     assert screen.status.counts().startswith("9 levels in 2 episodes. Make ready will certify 2 levels")
@@ -660,8 +746,68 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         packs.rename_episode(screen.path, 0, "Other")
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
-        assert len(screen.mine) == 2, "it never goes over what is there"
+        driver.choose("Keep both")
+        assert len(screen.mine) == 2, "it never goes over what is there unasked"
     assert layout(screen.path) == first
+
+
+def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path: Path, tmp_path: Path) -> None:
+    screen, made = opened(driver), tmp_path / "made"
+    shutil.move(path, made)
+    screen.enter()
+    zipped = tmp_path / "laundry.zip"
+
+    def drop() -> None:
+        zipped.write_bytes(Pack(made).files.zipped())
+        pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(zipped)))
+        driver.frames()
+
+    drop()
+    assert driver.app.notice == "Laundry is among your packs now: Enter plays it"
+    assert [(each.name, each.received) for each in screen.mine] == [("Laundry", True)]
+    before = {file: file.read_bytes() for file in path.rglob("*") if file.is_file()}
+    (made / "00-0-first-steps.txt").unlink()
+    (made / "00-1-mind-the-gap.txt").write_text((made / "01-0-springtime.txt").read_text("utf-8"), "utf-8")
+    packs.new_level(made, "Fresh", "me")
+    packs.describe(made, {"version": "1.1"})
+    drop()
+    assert driver.shown(MenuScreen).title == "You have Laundry in another version"
+    assert "1 level new, 1 level changed, 1 level gone" in drawn(driver.app)
+    driver.choose("Update it")
+    assert driver.app.notice == "Laundry: 1 level new, 1 level changed, 1 level gone"
+    assert [(each.name, each.received) for each in screen.mine] == [("Laundry", True)]
+    assert Pack(path).index.version == "1.1"
+    assert packs.same_pack(Pack(path), Pack(made))
+    driver.chord("z", pygame.KMOD_CTRL)
+    assert {file: file.read_bytes() for file in path.rglob("*") if file.is_file()} == before
+    drop()
+    driver.choose("Keep both")
+    assert [each.name for each in screen.mine] == ["Laundry", "Laundry, 1.1"]
+
+
+def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    with patch.object(screen, "_read", wraps=screen._read) as read:
+        screen._choose(screen.shelves.cells[1])
+        read.reset_mock()
+        driver.choose("Edit")
+        assert read.call_count == 1, "when its menu closes"
+        driver.shown(EditorScreen).session.close()
+        driver.app.pop()
+        assert driver.top() is screen
+        read.reset_mock()
+        screen.change(lambda: packs.rename_episode(path, 0, "Other"), "Rename")
+        assert read.call_count == 1
+
+
+def test_an_episode_is_sorted_by_difficulty(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    driver.mouse(*(value + 20 for value in screen.shelves.row_area(0)[:2]))
+    driver.press("return")
+    driver.choose("Sort by difficulty")
+    known = [cell.level.pars.difficulty or 0 for cell in screen.shelves.cells[1:6] if cell.level and cell.level.pars]
+    assert known == sorted(known)
+    assert layout(path)[0] != ["00-0", "00-1", "00-2", "00-3", "00-4"]
 
 
 def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Path) -> None:
@@ -689,16 +835,21 @@ def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(driver: MenuDriver, 
         driver.frames()
         return driver.shown(MenuScreen)
 
-    for opens in (lambda area: driver.mouse(area[0] + area[2] / 2, area[1] + 9), right_click):
-        opens(screen.chosen.area)
-        assert driver.shown(MenuScreen).title == "Laundry"
-        driver.choose("Cancel")
+    assert right_click(screen.chosen.area).title == "Laundry"
+    driver.choose("Cancel")
     x, y, w, _ = screen.chosen.area
     driver.mouse(x + w - 9, y + 9)
     assert (screen.pack and screen.pack.name) == "Soap", "an arrow shows the next one"
+    driver.mouse(x + w / 2, y + 9)
+    listed = driver.shown(PackList)
+    with patch.object(listed.thumbnails, "draw") as draw:
+        assert "8 levels in 2 episodes" in drawn(driver.app)
+    titles = [each.args[1].title for each in draw.call_args_list]
+    assert titles[:4] == ["First Steps", "The Chimney", "Locksmith", "Night Shift"], "four of the eight"
+    driver.type("laun")
+    assert [each.name for each in listed.shown] == ["Laundry"]
     driver.press("return")
-    driver.choose("Find a pack...")
-    typed(driver, "laun")
+    assert driver.top() is screen
     assert (screen.pack and screen.pack.name) == "Laundry"
     assert right_click(screen.shelves.row_area(1)).title == "First Steps"
     driver.choose("Cancel")
@@ -887,13 +1038,23 @@ def test_a_card_has_room_for_a_long_name_and_no_gold_where_there_is_none(driver:
     assert mark.call_count == 1
 
 
-def test_a_pack_needs_no_author(driver: MenuDriver) -> None:
+def test_a_pack_needs_no_author_but_is_asked_for_one(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
     screen = opened(driver)
     driver.choose("New pack...")
-    assert "empty: unknown" in drawn(driver.app)
+    assert "may be empty" in drawn(driver.app)
     typed(driver, "Walls")
-    assert Pack(screen.path).index.author == "unknown"
+    assert Pack(screen.path).index.author == ""
     assert driver.player.settings.name == ""
+    begun: list[Path] = []
+    monkeypatch.setattr(screen.packer, "start", begun.append)
+    for author, asked in (("", True), ("ida", True), ("ida", False)):
+        driver.choose("Make ready")
+        if asked:
+            assert driver.shown(FormPanel).title == "Who made this pack?"
+            driver.fill(author, "Make ready")
+        assert Pack(screen.path).index.author == author
+    assert begun == [screen.path] * 3
+    assert driver.player.settings.name == "ida"
 
 
 def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver) -> None:

@@ -1,0 +1,75 @@
+"""The player's packs with their pictures, to choose one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import pygame
+
+from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.levels.episodes import EpisodeSet
+from ninja_game.play.app import App
+from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import Widget
+
+ROW = 88
+PICTURE = 104
+
+
+class PackList(ThumbnailScreen):
+    """``choose`` gets the pack. What is typed finds those whose name, author or comment has it."""
+
+    title = "Your packs"
+
+    def __init__(self, app: App, packs: Sequence[EpisodeSet], choose: Callable[[EpisodeSet], object]) -> None:
+        super().__init__(app)
+        self._packs, self._choose = packs, choose
+        self.shown = packs
+        self.list = ListView((44, 106, 704, 5 * ROW), ROW, self._draw_row, self._take, empty="No pack is called so")
+        self.field = TextEntry((44, 64, 300, 32), "Search name or author", "", self._search)
+
+    def build(self) -> Sequence[Widget]:
+        self.list.fill(self.shown)
+        return [self.list, self.field]
+
+    def capture(self, event: InputEvent) -> bool:
+        """What is typed is searched for, wherever the focus is."""
+        if event.raw.type == pygame.TEXTINPUT and event.raw.text.strip():
+            self.focus_on(self.field)
+        return super().capture(event)
+
+    def act(self, action: str, *, held: bool = False) -> None:
+        if action == "confirm" and self.focus is self.field:
+            self._take(0)
+        else:
+            super().act(action, held=held)
+
+    def _search(self, text: str) -> None:
+        self.shown = [each for each in self._packs if text.casefold() in _about(each).casefold()]
+        self.list.fill(self.shown)
+
+    def _take(self, index: int) -> None:
+        if index < len(self.shown):
+            self.app.pop()
+            self._choose(self.shown[index])
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        x, y, w, h = area
+        pack, chosen, faint = self.shown[index], index == self.list.index, theme.palette.faint
+        theme.row(surface, (x, y + 1, w, h - 2), chosen=chosen, focused=focused)
+        self.thumbnails.draw_pack(surface, pack.levels, x + 6, y + 4, PICTURE)
+        left, room = x + PICTURE + 20, w - PICTURE - 30
+        theme.text(surface, shown_text(pack.name), left, y + 16, size=13, bold=chosen, width=room)
+        theme.text(surface, _about(pack), left, y + 38, size=10, colour=faint, width=room)
+        number = counted(len(pack.levels), "level"), counted(len(pack.episodes), "episode")
+        text = f"{' in '.join(number)}{', received' * pack.received}"
+        theme.text(surface, text, left, y + 58, size=10, colour=faint, width=room)
+
+
+def _about(pack: EpisodeSet) -> str:
+    index = pack.pack.index if pack.pack else None
+    return shown_text(". ".join(filter(None, (index.title, index.comment))), 200) if index else ""
