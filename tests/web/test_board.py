@@ -664,6 +664,24 @@ def test_the_later_one_of_two_names_that_look_alike_is_marked_everywhere(
     assert later not in re.sub(re.escape(marked), "", (board / "rejected.html").read_text("utf-8"))
 
 
+@pytest.mark.parametrize("sure", [True, False])
+def test_a_run_that_shares_the_path_alone_is_marked_and_keeps_its_place(
+    runs: Path, levels: Path, monkeypatch: pytest.MonkeyPatch, *, sure: bool
+) -> None:
+    put(runs, "a.txt", slow_walk(author="Ann"), day=1)
+    put(runs, "b.txt", replay(author="Bea"), day=2)
+    near = 0, "9 of 9 are those of", sure
+    monkeypatch.setattr("ninja_game.web.board.copies._near_to_another", lambda *compared: near if compared[3] else None)
+    judged = with_demands(runs, levels)
+    table = Ranking(judged, published_levels(levels)).tables[DIGEST][PLAYED, FASTEST]
+    assert [(each.place, each.run.player) for each in table] == (
+        [(1, "Ann"), (0, "Bea")] if sure else [(1, "Bea"), (2, "Ann")]
+    )
+    (remark,) = (each.run.remark for each in table if each.run.player == "Bea")
+    assert remark.startswith("9 of 9 are those of the run by Ann in a.txt")
+    assert ("doubtful" in remark) is not sure
+
+
 def test_levels_without_a_number_show_none(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", replay(author="Ann"))
     page = (board_of(runs, levels / "00-0-level.txt", tmp_path / "site") / "levels.html").read_text("utf-8")
