@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import NamedTuple
+from functools import lru_cache, partial
+from typing import TYPE_CHECKING, NamedTuple
 
 import pygame
 
@@ -17,6 +17,10 @@ from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import WIDTH, Point
 from ninja_game.ui.medals import draw_medal, draw_stamp
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
+from ninja_game.view.sprites.drawing import is_near
+
+if TYPE_CHECKING:
+    from ninja_game.play.replay.playback import Ghost
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0  # px
 _BAR_LONGEST = 630.0  # px, with the lifetime that a level begins with, or more
@@ -210,6 +214,24 @@ class Hud:
         """A word in the time bar's place."""
         colour, y = self.theme.palette.on_tile, 12.5 - 0.55 * size
         return self.theme.text(surface, text, 24, y, size=size, colour=colour, bold=True, width=_FOOT_WIDTH)
+
+    def names(
+        self, surface: pygame.Surface, ghosts: Iterable[tuple[str, Ghost]], fraction: float, size: float
+    ) -> list[pygame.Rect]:
+        """The names of ghosts above them, in their colours; one that would cover another stands higher."""
+        covered = list[pygame.Rect]()
+        for name, ghost in ghosts:
+            x, y = ghost.place(fraction)
+            if not is_near(x, y):
+                continue
+            written = partial(
+                self.theme.text, text=name, x=x, size=size, colour=ghost.colour(self.theme.palette), align="centre"
+            )
+            above = y - 15 - size
+            while written(None, y=above).collidelist(covered) >= 0:
+                above -= size
+            covered.append(written(surface, y=above))
+        return covered
 
     def foot(self, surface: pygame.Surface, left: str, right: str, size: float = _FOOT_SIZE) -> list[pygame.Rect]:
         """A line in the border below the level; where both texts do not fit, the left one is shortened."""

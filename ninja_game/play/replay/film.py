@@ -28,7 +28,6 @@ from ninja_game.sim.rules import GOLD_BONUS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.theme import GROUND_ROLES, ROLES, RUN_COLOURS, Palette, mixed, palette_named
 from ninja_game.view.level_view import LevelView, OffscreenContext
-from ninja_game.view.sprites.drawing import is_near
 from ninja_game.view.sprites.light import EXIT_OPEN, STYLES
 
 if TYPE_CHECKING:
@@ -166,12 +165,8 @@ class _Panel:
             while len(told) > 1 and hud.theme.width("; ".join([*words, *told]), self.letters) > room:
                 told.pop(0)
             words += told
-        size = 0.8 * self.letters
-        for name, ghost in self.ghosts if self.view.context.settings.show_ghost else ():
-            x, y = ghost.place(1.0)
-            if is_near(x, y):
-                above = y - 15 - size
-                covered.append(hud.theme.text(surface, name, x, above, size=size, colour=ghost.shade, align="centre"))
+        if self.view.context.settings.show_ghost:
+            covered += hud.names(surface, self.ghosts, 1.0, 0.8 * self.letters)
         covered += hud.foot(surface, hud.theme.fit("; ".join(words), room, self.letters), "", self.letters)
         if self.film.keys:
             covered.append(hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))

@@ -22,7 +22,7 @@ from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.bindings import InputEvent
-from ninja_game.ui.theme import Theme, mixed
+from ninja_game.ui.theme import RUN_COLOURS, Theme, mixed
 from ninja_game.view.level_view import LevelView
 from ninja_game.view.overlays import Overlays
 
@@ -37,6 +37,10 @@ _WARM = 12
 """Ticks that are run with their animations before the moment sought, so that it looks as if played."""
 _STILL_MS = 500
 """Stillness before a replay starts (20 of the classic game's video frames)."""
+
+
+MOST_GHOSTS = 8
+NAME_SIZE = 9.0  # of letters above a ghost
 
 
 class ReplayScreen(Screen):
@@ -82,8 +86,13 @@ class ReplayScreen(Screen):
         self.playback.seek(0)
         self.view = LevelView(self.app, self.playback.simulation)
         self.view.overlays = self.overlays
-        others = [other for other in self.runs if other is not run and other.level == run.level]
-        self.ghosts = [Ghost(other.inputs, other.level, other.body, alone=False) for other in others[:8]]
+        # Each run keeps its colour, whichever is watched: that of its path on a page of the board.
+        others = [(at, each) for at, each in enumerate(self.runs) if each is not run and each.level == run.level]
+        self.names = [other.whose for _, other in others[:MOST_GHOSTS]]
+        self.ghosts = [
+            Ghost(other.inputs, other.level, other.body, alone=False, shade=RUN_COLOURS[at % len(RUN_COLOURS)])
+            for at, other in others[:MOST_GHOSTS]
+        ]
         self.view.ghosts = self.ghosts
         self.paused = False
         self.still_ms = _STILL_MS
@@ -270,7 +279,8 @@ class ReplayScreen(Screen):
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         still = self.paused or self.bar.dragging or self.still_ms > 0
-        changed = self.view.draw(surface, 1.0 if still else self.clock.fraction, whole=self.redraw)
+        fraction = 1.0 if still else self.clock.fraction
+        changed = self.view.draw(surface, fraction, whole=self.redraw)
         theme, bar = self.app.theme, self.bar
         hud = Hud(theme)
         written = [
@@ -279,6 +289,8 @@ class ReplayScreen(Screen):
             *hud.head(surface, self.run.title, self._hint()),
             hud.keys(surface, self.playback.keys_at(self.tick - 1), 444),
         ]
+        if self.app.settings.show_ghost:
+            written += hud.names(surface, zip(self.names, self.ghosts, strict=True), fraction, NAME_SIZE)
         for rect in written:
             self.view.also_covered(rect)
         return None if changed is None else changed + written
