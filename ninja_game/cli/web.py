@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ninja_game.levels.episodes import Entry
     from ninja_game.web.board.ranking import Ranked, Ranking
     from ninja_game.web.board.rules import Category
-    from ninja_game.web.board.runs import Ledger
+    from ninja_game.web.board.runs import Ledger, ValidatedRuns
     from ninja_game.web.pages.memo import Memo
 
 LAST_LEVELS, LAST_LEDGER, LAST_RULES = "/levels", "/ledger", "/rules"  # keys of a memo: no path of a run begins so
@@ -256,7 +256,7 @@ def _ranking(
     *,
     jobs: int | None,
     again: bool = False,
-    decide: Callable[[Ledger, datetime], None] | None = None,
+    decide: Callable[[Ledger, datetime, ValidatedRuns], bool] | None = None,
     dates: Path | None = None,
 ) -> tuple[Ranking, Ledger]:
     """The ranking of a folder's runs by the board's rules, and the ledger before, with what is decided now.
@@ -281,7 +281,6 @@ def _ranking(
     categories = read_categories(rules) if rules else USUAL
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
     if decide:
-        decide(before, now)
         memo.note(LAST_LEVELS, str(levels.resolve()) if levels and levels.exists() else "")
         memo.note(LAST_LEDGER, str((ledger or kept or Path()).resolve()) if ledger or kept else "")
         memo.note(LAST_RULES, str(rules.resolve()) if rules else "")
@@ -291,6 +290,8 @@ def _ranking(
     dates_by_file = read_dates(dates, now) if dates else {}
     known = dates_of(before, now, dates_by_file) if ledger else None
     judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
+    if decide and decide(before, now, judged):
+        judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
     here = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
     memo.save()
     if unknown := dates_by_file.keys() - here:

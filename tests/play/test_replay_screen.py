@@ -26,7 +26,7 @@ from ninja_game.runs import save_states
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
 from ninja_game.ui.input.bindings import InputEvent
-from ninja_game.ui.theme import Theme
+from ninja_game.ui.theme import RUN_COLOURS, Theme
 from tests.support.heavy import heavy_level
 from tests.support.own_pack import PACK
 from tests.support.page_scenes import settle
@@ -322,6 +322,31 @@ def test_ghosts_catch_up_after_a_leap_in_turns() -> None:
         settle(app, screen)
         assert [ghost.simulation.tick for ghost in screen.ghosts] == [400, 400]
         assert screen.ghosts[0].simulation.digest() == screen.playback.simulation.digest()
+
+
+def test_each_run_has_its_name_and_its_colour_whichever_is_watched(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The names of ghosts at one place stand one above the other."""
+    written: dict[str, pygame.Rect] = {}
+    plain, names = Theme.text, ("Ann", "Bea", "Cid", "Dee")
+
+    def noted(self: Theme, at: pygame.Surface | None, text: str, *rest: float, **how: Any) -> pygame.Rect:
+        place = plain(self, at, text, *rest, **how)
+        written.update({text: place} if at else {})
+        return place
+
+    monkeypatch.setattr(Theme, "text", noted)
+    with viewer(*(recording(name, heavy_level(3), bytes(50)) for name in names)) as (app, screen):
+        for watched, others in ((0, (1, 2, 3)), (1, (0, 2, 3))):
+            screen.show(watched)
+            written.clear()
+            frames(app, 2)
+            assert [ghost.shade for ghost in screen.ghosts] == [RUN_COLOURS[each] for each in others]
+            first, *above = (written[names[each]] for each in others)
+            assert first.collidelist(above) == above[0].collidelist(above[1:]) == -1
+        app.change_settings(show_ghost=False)
+        written.clear()
+        frames(app, 2)
+        assert not {"Ann", "Cid", "Dee"} & {*written}
 
 
 def test_a_run_that_costs_too_much_is_shown_as_far_as_it_may_go(monkeypatch: pytest.MonkeyPatch) -> None:

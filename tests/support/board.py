@@ -38,6 +38,11 @@ def board(folder: Path, pack: Path, *words: str) -> str:
     return result.stdout
 
 
+def words_of(page: str) -> str:
+    """What a page says, without its tags."""
+    return " ".join(re.sub("<[^>]*>", " ", page).split())
+
+
 def taken_in_earlier(runs: Path, levels: Path, data: Path) -> None:
     """All that is there comes into the ledger with a date of long ago."""
     board(runs, levels, "--json", str(data))

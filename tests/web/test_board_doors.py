@@ -491,7 +491,8 @@ def test_runs_by_two_in_turn_are_compared_once_and_the_fastest_only() -> None:
             courses.add(number, number, partial(replace, course, places=places))
         assert _near_to_another("Ann", course, courses, players, 0) is None
         near = _near_to_another("Cid", course, courses, players, 200)
-        assert near == (nearest, f"{750 + nearest} of the 1000 places on its way are those of")
+        said = f"{750 + nearest} of the 1000 places on its way, and 0 of 0 presses and releases, are those of"
+        assert near == (nearest, said, False)
 
 
 def test_a_slower_run_leaves_for_a_faster_one_with_all_that_it_shares() -> None:
@@ -503,7 +504,11 @@ def test_a_slower_run_leaves_for_a_faster_one_with_all_that_it_shares() -> None:
     every = courses.numbers >= 0
     assert courses.near(replace(one, presses=frozenset()))(every)[0] == []
     moved = replace(one, presses=frozenset(each + 8 * SHIFTED for each in other.presses))
-    assert courses.near(moved)(every) == ([2], "16 of 16 presses and releases are at the ticks of")
+    assert courses.near(moved)(every) == (
+        [2],
+        "0 of the 1 places on its way, and 16 of 16 presses and releases, are those of",
+        True,
+    )
     beyond = replace(one, presses=frozenset(each + 8 for each in moved.presses))
     assert courses.near(beyond)(every)[0] == []
 

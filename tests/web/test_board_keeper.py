@@ -209,6 +209,18 @@ def test_no_value_in_a_ledger_stops_a_board_by_a_traceback(part: str, ledger: Pa
         assert result.exception is None or isinstance(result.exception, SystemExit), (row, result.exception)
 
 
+def test_a_decision_is_of_the_run_that_a_file_holds_now(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", replay(author="Ann"))
+    board(runs, levels, "--json", str(ledger := tmp_path / "board.json"))
+    put(runs, "a.txt", slow_walk(author="Ann"))
+    put(runs, "first.txt", replay(author="Ann"))
+    said = board(runs, levels, "--json", str(ledger), "--reject", "a.txt", "--reason", "spliced")
+    assert re.findall("^moderated: [a-z.]+", said, flags=re.MULTILINE) == ["moderated: a.txt"]
+    assert "1 run by 1 player" in said
+    board(runs, levels, "--json", str(ledger), "--ladder", "a.txt", "assisted")
+    assert [row["what"] for row in json.loads(ledger.read_text("utf-8"))["decisions"]] == ["assisted"]
+
+
 def test_of_the_same_runs_that_came_in_together_none_is_a_copy(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "mbd.txt", replay(author="mbd"))
     put(runs, "tas.txt", replay(author="tas"))
@@ -218,7 +230,7 @@ def test_of_the_same_runs_that_came_in_together_none_is_a_copy(runs: Path, level
     rows = json.loads(data.read_text("utf-8"))["runs"]
     assert [row["player"] for row in rows] == ["mbd", "tas"]
     page = level_page(site)
-    assert page.count("<td>1</td>") == 2
+    assert page.count('class="place gold">1<') == 2
     assert "the same run as that by mbd in mbd.txt, which came in together with it" in page
     assert "the same run as that by tas in tas-2.txt, which came in together with it" in page
     put(runs, "eve.txt", replay(author="Eve"))

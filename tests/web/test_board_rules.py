@@ -46,7 +46,7 @@ def test_an_assisted_run_is_on_a_ladder_of_its_own(runs: Path, levels: Path, tmp
     assert [each.player for each in ranking.standings[ASSISTED]] == ["Ann"]
     board(runs, levels, "--site", str(tmp_path / "site"))
     page = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
-    assert "<td>unknown</td>" in page, "marked"
+    assert ">unknown</span></td>" in page, "marked"
     assert "edited 3, searched (improve) from a run by Ann" in page
     assert "with &lt;b&gt;Eve&lt;/b&gt;" in page
     assert "Fastest, assisted" in page

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 from random import Random
 
 import pygame
@@ -187,24 +188,37 @@ def names_of(runs: Sequence[Recording]) -> list[str]:
     return [name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 3]}..." for name in labels]
 
 
-def ghosts_of(runs: Sequence[Recording], *, alone: bool = True) -> list[Ghost]:
-    """Runs that go along, each in a colour of its own with a name; ``alone``: as of Ghost."""
+def ghosts_of(runs: Sequence[Recording], among: Sequence[Recording] = (), *, alone: bool = True) -> list[Ghost]:
+    """Runs that go along, each with its name and a colour of its own; ``alone``: as of Ghost.
+
+    ``among``: each keeps the colour that it has by its place among these (on a page of the board, in its picture).
+    """
+    numbers = {id(run): number for number, run in enumerate(among or runs)}
+    colours = [RUN_COLOURS[numbers[id(run)] % len(RUN_COLOURS)] for run in runs]
     return [
-        Ghost(run.inputs, run.level, run.body, alone=alone, shade=RUN_COLOURS[number % len(RUN_COLOURS)], name=name)
-        for number, (run, name) in enumerate(zip(runs, names_of(runs), strict=True))
+        Ghost(run.inputs, run.level, run.body, alone=alone, shade=colour, name=name)
+        for run, colour, name in zip(runs, colours, names_of(runs), strict=True)
     ]
 
 
 def draw_names(
-    surface: pygame.Surface, theme: Theme, ghosts: Iterable[Ghost], fraction: float, size: float = 8.0
+    surface: pygame.Surface, theme: Theme, ghosts: Iterable[Ghost], fraction: float, size: float = 9.0
 ) -> list[pygame.Rect]:
-    """Draw the names of ghosts above them; where, px. ``size``: of the letters, px of the level."""
-    return [
-        theme.text(surface, ghost.name, x, y - 15 - size, size=size, colour=ghost.shade, align="centre")
-        for ghost in ghosts
-        for x, y in [ghost.place(fraction)]
-        if is_near(x, y)
-    ]
+    """Draw the names of ghosts above them, one that would cover another higher; where, px.
+
+    ``size``: of the letters, px of the level.
+    """
+    covered = list[pygame.Rect]()
+    for ghost in ghosts:
+        x, y = ghost.place(fraction)
+        if not is_near(x, y):
+            continue
+        write = partial(theme.text, text=ghost.name, x=x, size=size, colour=ghost.shade, align="centre")
+        above = y - 15 - size
+        while write(None, y=above).collidelist(covered) >= 0:
+            above -= size
+        covered.append(write(surface, y=above))
+    return covered
 
 
 LONGEST_MS = 2000

@@ -33,6 +33,7 @@ SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 NORMAL_SPEED = SPEEDS.index(1.0)
 SHOWN_AFTER_END = 130
 """Ticks that are shown after the end (game.md §2)."""
+MOST_GHOSTS = 8
 _WARM = 12
 """Ticks that are run with their animations before the moment sought, so that it looks as if played."""
 _STILL_MS = 500
@@ -85,8 +86,8 @@ class ReplayScreen(Screen):
         self.view = LevelView(self.app, self.playback.simulation)
         self.view.overlays = self.overlays
         others = [other for other in self.runs if other is not run and other.level == run.level]
-        self._beside = others[:8]
-        self.view.ghosts = self.ghosts = ghosts_of(self._beside, alone=False)
+        self._beside = others[:MOST_GHOSTS]
+        self.view.ghosts = self.ghosts = ghosts_of(self._beside, self.runs, alone=False)
         self.paused = False
         self.still_ms = _STILL_MS
         self.export: FilmJob | None = None

@@ -37,6 +37,8 @@ honest pairs none has so many."""
 FEWEST_PRESSES = 16  # with fewer they do not tell
 SHIFTED = 10  # ticks that all of them may be earlier or later
 
+DOUBTFUL = ": doubtful, as its inputs are others, so it keeps its place"
+
 ALIGNED = 4  # earlier runs whose inputs are aligned with those of a new one: those with the most of its strokes
 
 
@@ -138,15 +140,17 @@ class Courses:
             common.mark(features, column, has=has)
         self._places.mark(course.places, column, has=has)
 
-    def near(self, course: Course) -> Callable[[NDArray[np.bool_]], tuple[list[int], str]]:
-        """A function of columns: the numbers of the runs near a course, nearest first; what the first shares."""
+    def near(self, course: Course) -> Callable[[NDArray[np.bool_]], tuple[list[int], str, bool]]:
+        """A function of columns: the numbers of the runs near a course, nearest first; what the first shares.
+
+        And whether its inputs say so: on a short level with one obvious way people share the path alone.
+        """
         columns = len(self.numbers)
         places, presses = self._places.counts(course.places, columns), np.zeros(columns, np.int64)
         of = self._press_counts
-        if len(course.presses) >= FEWEST_PRESSES:
-            for shift in range(-SHIFTED, SHIFTED + 1):
-                moved = (press + 8 * shift for press in course.presses)
-                presses = np.maximum(presses, self._presses.counts(moved, columns))
+        for shift in range(-SHIFTED, SHIFTED + 1):
+            moved = (press + 8 * shift for press in course.presses)
+            presses = np.maximum(presses, self._presses.counts(moved, columns))
         on_path = (places >= ON_PATH * len(course.places)) & (len(course.strokes) >= FEWEST_STROKES)
         pressed = (presses >= SAME_PRESSES * of) & (presses >= FEWEST_PRESSES)
 
@@ -154,23 +158,25 @@ class Courses:
         of_presses = presses / np.maximum(1, of) * pressed
         alike = np.maximum(of_path, of_presses)
 
-        def nearest(chosen: NDArray[np.bool_]) -> tuple[list[int], str]:
+        def nearest(chosen: NDArray[np.bool_]) -> tuple[list[int], str, bool]:
             near = np.flatnonzero(chosen & (on_path | pressed))
-            if near.size:
-                near = near[np.lexsort((self.numbers[near], -alike[near]))]
+            near = near[np.lexsort((self.numbers[near], -alike[near], ~pressed[near]))]
+            found, said = self.numbers[near].tolist(), ""
+            if found:
                 first = near[0]
-                if of_presses[first] > of_path[first]:
-                    reason = f"{presses[first]} of {of[first]} presses and releases are at the ticks of"
-                else:
-                    reason = f"{places[first]} of the {len(course.places)} places on its way are those of"
-                return self.numbers[near].tolist(), reason
+                said = f"{places[first]} of the {len(course.places)} places on its way, and {presses[first]} of "
+                said += f"{of[first]} presses and releases, are those of"
+                if pressed[first]:
+                    return found, said, True
             # Aligning is slow: only where nothing else tells.
             strokes, ticks = self._strokes.counts(course.strokes, columns), len(course.keys)
             most = nlargest(ALIGNED, np.flatnonzero(chosen).tolist(), key=strokes.__getitem__)
             shared = [(-course.inputs_shared(self._courses[column]), int(self.numbers[column])) for column in most]
             aligned = sorted(pair for pair in shared if pair[0])
-            reason = f"{-aligned[0][0]} of its {ticks} ticks have the inputs of" if aligned else ""
-            return [number for _, number in aligned], reason
+            if aligned:
+                found = [*(number for _, number in aligned), *found]
+                said = f"{-aligned[0][0]} of its {ticks} ticks have the inputs of"
+            return found, said, bool(aligned)
 
         return nearest
 
@@ -248,12 +254,14 @@ def _remarked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Itera
     for _, moment in groupby(runs, key=lambda run: run.added):
         compared.begin_moment()
         for run in moment:
-            reason, earlier = compared.near(run)
+            said, earlier, sure = compared.near(run)
             compared.add(run)
-            near = reason * earlier
-            if not earlier:
-                reason = together.get(run.key, reason + ", of the same moment" * bool(reason and run.added))
-            yield replace(run, remark="; ".join(filter(None, (reason, run.remark))), near=near) if reason else run
+            near = said * (earlier and sure)
+            if earlier:
+                said += DOUBTFUL * (not sure)
+            else:
+                said = together.get(run.key, said + ", of the same moment" * bool(said and run.added))
+            yield replace(run, remark="; ".join(filter(None, (said, run.remark))), near=near) if said else run
 
 
 class _Compared:
@@ -278,10 +286,13 @@ class _Compared:
         self._key = self._key_of(run)
         self._runs.append(run)
 
-    def near(self, run: Run) -> tuple[str, bool]:
-        """Which run by another player a run is nearly, as a sentence, "" for none; if that is of an earlier moment."""
+    def near(self, run: Run) -> tuple[str, bool, bool]:
+        """Which run by another player a run is nearly, as a sentence, "" for none; if that is of an earlier moment.
+
+        And whether its inputs say so, too.
+        """
         noted = self._memo.recall(key := self._key_of(run))
-        if not (isinstance(noted, list) and [*map(type, noted)] == [str, bool]):
+        if not (isinstance(noted, list) and [*map(type, noted)] == [str, bool, bool]):
             before = range(self._known, len(self._runs))
             for number in sorted(nsmallest(MOST_COMPARED, before, key=lambda number: self._runs[number].tick)):
                 self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
@@ -289,9 +300,10 @@ class _Compared:
             course = self._course(run, new=True)
             players = [run.player for run in self._runs]
             near = _near_to_another(run.player, course, self._courses, players, self._earlier)
-            reason = f"{near[1]} the run by {self._runs[near[0]].player} in {self._runs[near[0]].file}" if near else ""
-            self._memo.note(key, noted := [reason, bool(near and near[0] < self._earlier)])
-        return noted[0], noted[1]
+            said = f"{near[1]} the run by {self._runs[near[0]].player} in {self._runs[near[0]].file}" if near else ""
+            earlier, sure = bool(near and near[0] < self._earlier), bool(near and near[2])
+            self._memo.note(key, noted := [said, earlier, sure])
+        return noted[0], noted[1], noted[2]
 
     def _course(self, run: Run, *, new: bool = False) -> Course:
         """What tells whether a run is near to others. ``new``: its page is made, and shows its path."""
@@ -306,8 +318,10 @@ class _Compared:
 
 def _near_to_another(
     player: str, course: Course, earlier: Courses, players: Sequence[str], until_moment: int
-) -> tuple[int, str] | None:
-    """Which run by another player a run is nearest to, and how, of those before the player's own first near one.
+) -> tuple[int, str, bool] | None:
+    """Which run by another player a run is nearest to, how, and whether its inputs say so.
+
+    Of those before the player's own first near one.
 
     ``players``: of the earlier runs; the first ``until_moment`` of these, of earlier moments, go before the others.
     """
@@ -317,7 +331,7 @@ def _near_to_another(
     for _ in range(2):  # inputs are aligned only where nothing else is near
         until = min(near(own & (numbers < until))[0], default=until)
     for last in sorted({min(until, until_moment), until}):
-        others, reason = near(~own & (numbers < last))
+        others, said, sure = near(~own & (numbers < last))
         if others:
-            return others[0], reason
+            return others[0], said, sure
     return None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
 from functools import partial
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
@@ -25,7 +26,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.board.ranking import Leaderboard, Ranked, Ranking
 from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
-from ninja_game.web.board.runs import PLAYED, Run
+from ninja_game.web.board.runs import PLAYED, Key, Run
 from ninja_game.web.pages.frame import (
     GAME,
     REPLAYS,
@@ -50,6 +51,7 @@ from ninja_game.web.pages.gallery import (
     path_data,
     picture,
     picture_name,
+    place_mark,
     run_page,
     shared_text,
     watch_address,
@@ -60,7 +62,9 @@ PER_PAGE = 100  # rows of a table that goes on on another page: a page has at mo
 
 LONGEST_NAME = 40  # characters of a name in a table
 
-RUN_HEADS = ("Watch", "Gold", "Made", "Date", "Medal", "File")
+RUN_HEADS = ("Watch", "Made", "Gold", "Date", "Medal", "File")
+LESSER = {"No.", "Behind", "Better by", "Score", "With", "On", *RUN_HEADS[2:], *map(str.capitalize, MEDALS)}
+"""Heads of columns for which a narrow page has no room."""
 EPISODES = "episodes.html", "Episodes"
 LINKS = [
     ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), EPISODES,
@@ -83,9 +87,8 @@ NEAR = "A run that is nearly somebody else's has no place, until the keeper of t
 HOW_TO_CONFIRM = "The keeper confirms one with: ninja-game board FOLDER --json board.json --confirm FILE"
 
 # The chart, px, before it is fitted to the page.
-WIDTH = 480
-HEIGHT = 150
-MARGIN = 14
+WIDTH, HEIGHT, MARGIN = 640, 200, 12
+BESIDE, BELOW = 72, 28  # what the labels take
 
 PLACE = "place-"  # the anchor of a numbered place in a picture
 MARK_APART = 14  # px from one number to the next, at least
@@ -125,8 +128,12 @@ class LevelPages:
         *before: Content,
         cells: Callable[[Any], tuple[Content, ...]] = tuple,
     ) -> None:
-        """A table on as many pages as it takes. ``rows``: plain values, of which ``cells`` makes what is shown."""
+        """A table on as many pages as it takes. ``rows``: plain values, of which ``cells`` makes what is shown.
+
+        Without heads each row is a card.
+        """
         up, links = (UP, self.deeper) if "/" in name else ("", self.links)
+        current = f"{name}.html"
         parts = [rows[first : first + PER_PAGE] for first in range(0, len(rows), PER_PAGE)] or [()]
         names = [f"{name}{f'-{number}' if number > 1 else ''}.html" for number in range(1, len(parts) + 1)]
         turns = [
@@ -139,14 +146,17 @@ class LevelPages:
             more = tag("p", others, class_="pages") if others else None
 
             def content(part: Sequence[Any] = part, lead: Sequence[Content] = lead, more: Content = more) -> str:
-                return page(title, *lead, table(caption, heads, map(cells, part)), more, up=up, links=links)
+                rows = map(cells, part)
+                shown = table(caption, heads, rows, LESSER) if heads else cards(caption, (row[0] for row in rows))
+                return page(title, *lead, shown, more, up=up, links=links, current=current)
 
             self.pages.make(file, [title, caption, heads, part, lead, more, links], content)
 
     def watch_link(self, runs: Sequence[Run], up: str, text: str = "Watch") -> Markup:
         """A link that watches a run, the others as ghosts."""
         address = watch_address(up + self.game, *(self.stems[run.key] for run in runs))
-        return tag("a", text, href=address, aria_label=f"{text}: {runs[0].player} on {runs[0].entry.title}")
+        said = f"{text}: {runs[0].player} on {runs[0].entry.title}"
+        return tag("a", text, href=address, aria_label=said, class_="watch" if text == "Watch" else None)
 
     def run_link(self, run: Run, up: str, text: str = "") -> Markup:
         """A link to the page of a run that says ``text``, such as its time; without one to its replay."""
@@ -200,17 +210,20 @@ class LevelPages:
     def player_link(self, player: str, up: str = "") -> Content:
         return tag("a", self.shown_name(player), href=f"{up}{player_page(player)}.html") if player else ""
 
-    def run_cells(self, run: Run, *results: Content, timed: bool = True, remark: str = "") -> tuple[Content, ...]:
+    def run_cells(
+        self, run: Run, *results: Content, timed: bool = True, remark: str = "", mark: Content = None
+    ) -> tuple[Content, ...]:
         """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time.
 
-        ``remark``: what stands below the player's name, before the run's own.
+        ``remark``: what stands below the player's name, before the run's own; ``mark``: what stands before it.
         """
         gold, linked = f"{run.gold} of {run.entry.all_gold}", self.run_link(run, UP, str(results[0]))
-        about = gold, run.made or "unknown", run.day, medal_mark(run.medal if timed else ""), self.run_link(run, UP)
+        medal = medal_mark(run.medal if timed else "")
+        about = made_text(run), gold, run.day, medal, self.run_link(run, UP)
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
         notes = [tag("div", text, class_="note") for text in (remark, run.remark) if text]
         return (
-            joined(self.player_link(run.player, UP), others, *notes),
+            joined(mark, self.player_link(run.player, UP), others, *notes),
             linked,
             *results[1:],
             self.watch_link([run], UP),
@@ -259,40 +272,62 @@ class LevelPages:
         tables = self.ranking.tables.get(entry.digest, {})
         if not tables:
             return None, None, section("Runs", tag("p", "Nobody has passed this level here yet."))
-        label = f"All runs: {len(self.ranking.by_level[entry.digest])}"
-        link = tag("p", tag("a", label, href=f"{entry.digest[:16]}-runs.html"))
-        drawn, splits_view = self._side_by_side(*self.ranking.side_by_side(entry.digest, TOGETHER))
-        fell = [board for board in tables if len(self.ranking.history[entry.digest, board]) > 1]
-        first, *others = [self._progression(entry, board, RECORDS * (not at)) for at, board in enumerate(fell)] or [
-            None
-        ]
+        said = f"All runs: {len(self.ranking.by_level[entry.digest])}"
+        link = tag("p", tag("a", said, href=f"{entry.digest[:16]}-runs.html"))
+        category, first_runs = self.ranking.side_by_side(entry.digest, TOGETHER)
+        drawn, beside = self._side_by_side(category, first_runs)
+        marks = {run.key: swatch(number) for number, run in enumerate(first_runs)} if beside else {}
+        fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > 1]
+        first, *others = [self._progression(entry, each, RECORDS * (not at)) for at, each in enumerate(fell)] or [None]
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
         same: dict[str, dict[Leaderboard, list[Ranked]]] = defaultdict(dict)
-        for board, rows in tables.items():
-            same[f"{board[0]} {[(row.place, row.run.key) for row in rows[:FIRST]]}"][board] = rows[:FIRST]
+        far: dict[Leaderboard, list[Ranked]] = {}
+        for each, table_ in tables.items():
+            far[each] = [row for row in table_ if each[1].far(row.values[0], table_[0].values[0])]
+            rows = [row for row in table_ if row not in far[each]]
+            same[f"{each[0]} {[(row.place, row.run.key) for row in rows[:FIRST]]}"][each] = rows[:FIRST]
         near = {row.run.key for rows in tables.values() for row in rows[:FIRST] if row.run.near}
         remarks: set[str] = set()
-        shown, leads = list[Content](), list[tuple[str, str]]()
+        shown, leaders = list[Content](), list[Markup]()
         for number, leaderboards in enumerate(same.values(), 1):
             waiting = [
                 row for board in leaderboards for row in self.ranking.waiting(entry.digest, board, tables[board])
             ]
             near |= {row.run.key for row in waiting}
-            shown.append(self._table(leaderboards, remarks, anchor := f"ranks-{number}"))
-            better = [
-                f"{self.shown_name(row.run.player)} {seconds_text(row.run.tick)} with {row.run.gold} gold"
-                for row in waiting
-            ]
-            shown.append(tag("p", f"Better, and waiting: {', '.join(dict.fromkeys(better))}.") if better else "")
-            for board, (best, *_) in leaderboards.items():
-                leader = f": {self.shown_name(best.run.player)}, {board[1].text(best.values[0])}"
-                leads.append((anchor, self.leaderboard_name(board) + leader * (best.place == 1)))
-        leads += [(tab, tab.capitalize()) for tab, content in ((RECORDS, first), (SPLITS, splits_view)) if content]
+            shown.append(self._table(leaderboards, remarks, marks, anchor := f"ranks-{number}"))
+            shown.append(self._said_of("More than twice as slow", [row for each in leaderboards for row in far[each]]))
+            shown.append(self._said_of("Better, and waiting", waiting))
+            leaders += [self._leader(each, best, anchor) for each, (best, *_) in leaderboards.items()]
+        leads = [(each, each.capitalize()) for each, content in ((RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
-        return on_this_page(leads), drawn, joined(*shown, note, link, first, folded, splits_view)
+        top = tag("ul", *leaders, class_="cards"), on_this_page(leads) if leads else None
+        return joined(*top), drawn, joined(*shown, note, link, first, folded, beside)
 
-    def _table(self, leaderboards: Mapping[Leaderboard, Sequence[Ranked]], above: set[str], anchor: str) -> Markup:
-        """A table of categories with the same runs in order. ``above``: remarks of tables above."""
+    def _said_of(self, what: str, rows: Sequence[Ranked]) -> Content:
+        """What is said below a table of runs that are not in it, each once."""
+        said = [
+            f"{self.shown_name(run.player)} {seconds_text(run.tick)} with {run.gold} gold"
+            for run in {row.run.key: row.run for row in rows[:FIRST]}.values()
+        ]
+        return tag("p", f"{what}: {', '.join(said)}.") if said else None
+
+    def _leader(self, leaderboard: Leaderboard, best: Ranked, anchor: str) -> Markup:
+        """Who leads a table, and a link to it; none leads where all wait for confirmation."""
+        link = tag("a", self.leaderboard_name(leaderboard), href=f"#{anchor}")
+        if best.place != 1:
+            return tag("li", link, class_="card leader")
+        result, run = tag("strong", leaderboard[1].measured(best.values[0])), best.run
+        about = tag("p", self.player_link(run.player, UP), run.day, self.watch_link([run], UP), class_="facts")
+        return tag("li", link, result, about, class_="card leader")
+
+    def _table(
+        self, leaderboards: Mapping[Leaderboard, Sequence[Ranked]], above: set[str], marks: Mapping[Key, Content],
+        anchor: str,
+    ) -> Markup:  # fmt: skip
+        """A table of categories with the same runs in order.
+
+        ``above``: remarks of tables above; ``marks``: colours of the runs in the picture.
+        """
         rows, categories = [], [category for _, category in leaderboards]
         timed = any(category.unit == FASTEST.unit for category in categories)
         for same in zip(*leaderboards.values(), strict=True):
@@ -301,11 +336,12 @@ class LevelPages:
             results = [category.text(row.values[0]) for category, row in zip(categories, same, strict=True)]
             late = self.behind(categories[0], same[0], next(iter(leaderboards.values()))[0])
             unsaid = NOT_SAID * (0 < place <= PODIUM and not run.made)
-            rows.append((place or "", *self.run_cells(shown, *results, late, timed=timed, remark=unsaid)))
+            cells = self.run_cells(shown, *results, late, timed=timed, remark=unsaid, mark=marks.get(run.key))
+            rows.append((place_mark(place), *cells))
             above |= {run.remark} - {""}
         names = [category.name if len(leaderboards) > 1 else category.unit for category in categories]
         heads = ("Place", "Player", *names, "Behind", *RUN_HEADS)
-        ranked = table("Best run of each player", heads, rows)
+        ranked = table("Best run of each player", heads, rows, LESSER.union(names[1:]) - {names[0]})
         return section("; ".join(map(self.leaderboard_name, leaderboards)), ranked, anchor=anchor)
 
     def _progression(self, entry: Entry, leaderboard: Leaderboard, anchor: str) -> Content:
@@ -320,12 +356,18 @@ class LevelPages:
         # Records of one moment are one record.
         moments = [datetime.fromisoformat(run.added).timestamp() if run.added else 0.0 for run in runs]
         start, end = (f"{category.text(numbers[at])} {runs[at].day}" for at in (0, -1))
-        label = f"The record {moved} from {start} to {end} in {counted(len(runs) - 1, 'step')}"
-        heights = [-number if category.rising else number for number in numbers]
-        chart = steps(list(zip(moments, heights, strict=True)), start, end, label)
+        said = f"The record {moved} from {start} to {end} in {counted(len(runs) - 1, 'step')}"
+        heights = [-number if category.rising else number for number in numbers]  # as they are shown
+        named = [f"{self.shown_name(run.player)}: {row[2]} {run.day}" for run, row in zip(runs, rows, strict=True)]
+        # The first records of a level are often runs for gold: beside them no later step would be seen.
+        since = next(at for at, number in enumerate(numbers) if not category.far(number, numbers[-1]))
+        points = list(zip(moments, heights, strict=True))[since:]
+        days = runs[since].day, runs[-1].day
+        chart = steps(points, named[since:], category.difference, days, said) if len(points) > 1 else None
         heads = ("Date", "Player", category.unit, "Better by", "Watch")
         title = f"How the record {moved}: {self.leaderboard_name(leaderboard)}"
-        return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]), anchor=anchor or None)
+        ranked = table("Newest first", heads, rows[: -FIRST - 1 : -1], LESSER)
+        return section(title, chart, ranked, anchor=anchor or None)
 
     def _side_by_side(self, category: Category, runs: Sequence[Run]) -> tuple[Markup, Content]:
         """The paths of the first runs of a category; of several, races of any two of them, and their splits."""
@@ -337,7 +379,8 @@ class LevelPages:
         known = [kept.get(run.key) or path_data(ghost.positions) for run, ghost in zip(runs, ghosts, strict=True)]
         places = [(row.split.x, row.split.y) for row in rows]
         drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)), places)
-        together = tag("p", self.watch_link(runs, UP, f"Watch the first {len(runs)} together"))
+        said = f"Watch the first {len(runs)} together"
+        together = tag("p", f"{category.name}: ", self.watch_link(runs, UP, said))
         pairs = [
             (tag("div", swatch(number), " ", names[number], class_="text"), *(self._pair(run, other) for other in runs))
             for number, run in enumerate(runs)
@@ -350,7 +393,7 @@ class LevelPages:
         note = "Seconds; later than the first: +; numbers are those in the picture"
         splits = table(note, ("No.", "Split", names[0], "Fastest segment", *names[1:]), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
-        drawn = joined(drawn, tag("p", f"The first {len(runs)} runs: {category.name}"), together)
+        drawn = joined(drawn, together)
         where = _where_time_goes(names, ghosts) if len(rows) < ENOUGH_SPLITS else None
         return drawn, joined(
             section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS),
@@ -421,12 +464,22 @@ def level_link(entry: Entry, up: str = "") -> Markup:
     return tag("a", shown_text(entry.title, LONGEST_NAME), href=up + page_name(entry.digest))
 
 
-def pictured(entry: Entry) -> Markup:
-    """A link to a level with its picture, small."""
+def card(entry: Entry, *facts: Content) -> Markup:
+    """A level with its picture, which lead to it, and lines about it. For a page of the board's own folder."""
     image = tag(
         "img", src=picture_name(entry.digest), alt="", width=PICTURE_WIDTH, height=PICTURE_HEIGHT, loading="lazy"
     )
-    return tag("a", image, shown_text(entry.title, LONGEST_NAME), href=page_name(entry.digest))
+    number = tag("span", f"Level {entry.number}", class_="number") if entry.number else None
+    lines = (tag("p", each, class_="facts") for each in facts if each)
+    return tag("li", image, tag("h3", number, level_link(entry)), *lines, class_="card")
+
+
+def cards(caption: str, each: Iterable[Content]) -> Markup:
+    return joined(tag("p", caption, class_="faint"), tag("ul", *each, class_="cards"))
+
+
+def made_text(run: Run) -> Markup:
+    return tag("span", run.made or "unknown", class_="made")
 
 
 def signed(ticks: int) -> str:
@@ -445,20 +498,33 @@ def _stem(run: Run) -> str:
     return sha256("\0".join(held).encode("utf-8", "replace")).hexdigest()[:16]
 
 
-def steps(points: Sequence[tuple[float, float]], top: str, bottom: str, said: str) -> Markup:
-    """A line that keeps each value until the next one: (moment, value) in order; labels of its ends; what it says."""
+def steps(
+    points: Sequence[tuple[float, float]], names: Sequence[str], text: Callable[[float], str], days: tuple[str, str],
+    said: str,
+) -> Markup:  # fmt: skip
+    """A line that keeps each value until the next one: (moment, value) in order, with what each point is called.
+
+    ``text``: of a value; ``days``: of the first and the last moment; ``said``: what the line says.
+    """
     x, y = np.array(points, np.float64).T
-    x = MARGIN + (WIDTH - 2 * MARGIN) * _share(x)
-    y = HEIGHT - MARGIN - (HEIGHT - 2 * MARGIN - 18) * _share(y)
+    low, high, floor = float(y.min()), float(y.max()), HEIGHT - BELOW
+    x = BESIDE + (WIDTH - BESIDE - MARGIN) * _share(x)
+    y = floor - (floor - MARGIN) * _share(y)
     moves = "".join(f"H{left:.1f}V{up:.1f}" for left, up in zip(x[1:], y[1:], strict=True))
     line = tag("path", d=f"M{x[0]:.1f} {y[0]:.1f}{moves}H{WIDTH - MARGIN}", class_="record")
-    dots = [tag("circle", cx=f"{left:.1f}", cy=f"{up:.1f}", r="4") for left, up in zip(x, y, strict=True)]
-    labels = (
-        tag("text", top, x=str(MARGIN), y="16"),
-        tag("text", bottom, x=str(WIDTH - MARGIN), y="16", text_anchor="end"),
-    )
+    dots = [
+        tag("circle", tag("title", name), cx=f"{left:.1f}", cy=f"{up:.1f}", r="4")
+        for left, up, name in zip(x, y, names, strict=True)
+    ]
+    grid = list[Markup]()
+    for share in (0.0, 0.5, 1.0):
+        up = floor - (floor - MARGIN) * share
+        value = tag("text", text(low + share * (high - low)), x=BESIDE - 8, y=f"{up + 4:.0f}", text_anchor="end")
+        grid += [tag("path", d=f"M{BESIDE} {up:.0f}H{WIDTH - MARGIN}", class_="grid"), value]
+    ends = zip(days, (BESIDE, WIDTH - MARGIN), ("start", "end"), strict=True)
+    grid += [tag("text", day, x=at, y=HEIGHT - 4, text_anchor=anchor) for day, at, anchor in ends]
     box = f"0 0 {WIDTH} {HEIGHT}"
-    return tag("svg", line, *dots, *labels, viewBox=box, class_="chart", role="img", aria_label=said)
+    return tag("svg", *grid, line, *dots, viewBox=box, class_="chart", role="img", aria_label=said)
 
 
 def _share(values: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -21,23 +21,38 @@ from ninja_game.web.board.level_pages import (
     EPISODES,
     FIRST,
     HOW_TO_CONFIRM,
+    LESSER,
     NEAR,
     LevelPages,
+    card,
+    cards,
     level_link,
-    pictured,
+    made_text,
     player_page,
 )
 from ninja_game.web.board.ranking import Ranked, Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.rules import HIGHEST
 from ninja_game.web.board.runs import KINDS, PLAYED, Key, Run
-from ninja_game.web.pages.frame import REPLAYS, Content, joined, on_this_page, page, section, table, tag
+from ninja_game.web.pages.frame import (
+    REPLAYS,
+    Content,
+    Markup,
+    definitions,
+    joined,
+    on_this_page,
+    page,
+    section,
+    table,
+    tag,
+)
 from ninja_game.web.pages.gallery import BOARD, UP, medal_mark, page_name
 
 # Rows on the first page.
 NEWEST = 30
 LEADING = 20
-CONTESTED = 10
+CONTESTED = 8
+CARDS = 8  # of the newest records; older ones are rows
 MOST_OF_A_MOMENT = 5  # records that come in at one moment and have a row each
 
 Piece = tuple[str, str, Content]  # of a page: anchor, title, content
@@ -99,29 +114,44 @@ class BoardPages(LevelPages):
     # --- the first page and the feed ---
 
     def _first(self) -> str:
-        rows: list[tuple[Content, ...]] = []
+        newest, rows = list[Markup](), list[tuple[Content, ...]]()
         for records in self._moments():
             if len(rows) >= NEWEST:
                 break
-            rows += self._of_a_moment(records)
+            if len(records) <= MOST_OF_A_MOMENT and not rows and len(newest) < CARDS:
+                newest += map(self._newest, records)
+            else:
+                rows += self._of_a_moment(records)
         heads = ("Level", "Watch", "Player", "Record", "Date")
+        older = table("Newest first", heads, rows[:NEWEST], LESSER) if rows else None
+        older = tag("details", tag("summary", "Earlier records"), older) if newest and older else older
         feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
-        shown = table("Newest first", heads, rows[:NEWEST]), tag("p", ONE_MOMENT), feed
-        newest = [("newest", "Newest records", joined(*shown))] if rows else []
-        leaders = [
+        shown = tag("ul", *newest, class_="cards") if newest else None, older, tag("p", ONE_MOMENT), feed
+        news: list[Piece] = [("newest", "Newest records", joined(*shown))] if newest or rows else []
+        leaders: list[Piece] = [
             (
                 ladder,
                 self._players_of(ladder),
-                table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING])),
+                table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING]), LESSER),
             )
             for ladder, standings in self.ranking.standings.items()
             if standings
         ]
         lead = tag("p", f"{self.ranking.shown.name}: {summary(self.ranking.judged)}.", class_="lead")
         said = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
-        parts = [*leaders, *self._contested(), *self._week(), *newest]
+        parts = [*self._week(), *news, *self._contested(), *leaders]
         contents = [section(title, content, anchor=anchor) for anchor, title, content in parts]
-        return page("Board", lead, said, on_this_page([part[:2] for part in parts]), *contents, links=self.links)
+        leads = on_this_page([each[:2] for each in parts])
+        return page("Board", lead, said, leads, *contents, links=self.links, current="index.html")
+
+    def _newest(self, record: Record) -> Markup:
+        """A record with its level."""
+        run, link = record.run, self.player_link(record.run.player)
+        achieved = (
+            joined(tag("span", name), " ", tag("b", result), " ", tag("span", gain))
+            for name, result, gain in self._achieved(record)
+        )
+        return card(run.entry, joined(link, " ", self.watch_link([run], "")), *achieved, run.moment)
 
     def _moments(self) -> Iterator[list[Record]]:
         """The records of each moment, the newest first."""
@@ -137,7 +167,7 @@ class BoardPages(LevelPages):
                     level_link(run.entry),
                     self.watch_link([run], ""),
                     self.player_link(run.player),
-                    tag("div", *(tag("div", text) for text in self._achieved(record)), class_="text"),
+                    tag("div", *(tag("div", _said(*each)) for each in self._achieved(record)), class_="places"),
                     moment,
                 )
                 for record in records
@@ -147,55 +177,50 @@ class BoardPages(LevelPages):
         where = tag("a", counted(len(levels), "level"), href="levels.html")
         return [(where, "", counted(len(players), "player"), _together(records), moment)]
 
-    def _achieved(self, record: Record) -> Iterator[str]:
-        """The categories of a record, its results in them, and by how much it is better."""
+    def _achieved(self, record: Record) -> Iterator[tuple[str, str, str]]:
+        """The categories of a record, its result in each, and by how much it is better."""
         for category, amount in record.before.items():
             result = category.measured(self.ranking.number(category, record.run))
             gain = "first" if amount is None else f"better by {category.gain(amount)}"
-            yield f"{self.leaderboard_name((record.run.ladder, category))}: {result}, {gain}"
+            yield self.leaderboard_name((record.run.ladder, category)), result, gain
 
     def _week(self) -> list[Piece]:
         if not (chosen := self.ranking.level_of_the_week):
             return []
         digest, players, runs = chosen
-        sent = f": {counted(runs, 'run')} by {counted(players, 'player')} in the seven days up to the newest run."
-        return [("week", "Level of the week", tag("p", level_link(self.entries[digest]), sent))]
+        sent = f"{counted(runs, 'run')} by {counted(players, 'player')} in the seven days up to the newest run"
+        about = tag("ul", card(self.entries[digest], sent, *self._best(digest)), class_="cards wide-card")
+        return [("week", "Level of the week", about)]
 
     def _contested(self) -> list[Piece]:
-        rows: list[list[Content]] = []
+        found: list[Markup] = []
         for digest in self.ranking.contested[:CONTESTED]:
             if ranked := self._placed(digest, PLAYED):
-                counts = self.ranking.beaten[digest], self._counts(digest)[1]
-                spread = [self.main.difference(standing.behind) for standing in ranked[1:5:3]]
-                spread += [""] * (2 - len(spread))
-                rows.append([pictured(self.entries[digest]), *counts, *self._best(digest)])
-                rows[-1][5:5] = spread
-        for at in (1, 2):
-            if len(rows) > 1 and len({row[at] for row in rows}) == 1:
-                for row in rows:
-                    row[at] = ""  # it tells nothing
-        heads = ["Level", "Records beaten", "Players", *self._best_heads()]
-        heads[5:5] = ["Second behind", "Fifth behind"]
+                beaten = self.ranking.beaten[digest]
+                counts = counted(beaten, "record") + " beaten" if beaten else "", self._counts(digest)
+                places = zip(("second", "fifth"), ranked[1:5:3], strict=False)
+                of = f"{PLAYED}: " * (len(self.ranking.ladders) > 1)
+                spread = ", ".join(f"{place} {self.main.difference(each.behind)} behind" for place, each in places)
+                about = joined(*(tag("span", each) for each in counts if each))
+                found.append(card(self.entries[digest], about, *self._best(digest), spread and of + spread))
         often = "By how often records were beaten, of all categories and ladders; results are those in"
         order = often if self.ranking.beaten else "By how close the second is, in"
         caption = f"{order} {self.main.name}{self._of_both()}"
-        return [("contested", "Most contested levels", table(caption, heads, rows))] if rows else []
+        return [("contested", "Most contested levels", cards(caption, found))] if found else []
 
     def _of_both(self) -> str:
         """What a caption says where there are two ladders."""
         return "; runs and players are those of both ladders" * (len(self.ranking.ladders) > 1)
 
-    def _best_heads(self) -> list[str]:
-        ladders = self.ranking.ladders
-        return [head for ladder in ladders for head in (self.leaderboard_name((ladder, self.main)), "First")]
-
     def _best(self, digest: str) -> list[Content]:
-        """The best number and its player in the first category of each ladder, "" where nobody has one."""
-        cells: list[Content] = []
+        """The best number and its player in the first category of each ladder, where somebody has one."""
+        found: list[Content] = []
         for ladder in self.ranking.ladders:
-            first = next(iter(self._placed(digest, ladder)), None)
-            cells += [self.main.text(first.values[0]), self.player_link(first.run.player)] if first else ["", ""]
-        return cells
+            if first := next(iter(self._placed(digest, ladder)), None):
+                name = ladder.capitalize() if len(self.ranking.ladders) > 1 else self.main.name
+                result = tag("b", self.main.measured(first.values[0]))
+                found.append(joined(tag("span", name), " ", result, " ", self.player_link(first.run.player)))
+        return found
 
     def _feed(self) -> str:
         """New records as Atom (RFC 4287); dates are those of the ledger."""
@@ -218,7 +243,7 @@ class BoardPages(LevelPages):
             elif date:
                 for record in records:
                     run, name = record.run, self.shown_name(record.run.player)
-                    title = f"{name}, {run.entry.title}, {'; '.join(self._achieved(record))}"
+                    title = f"{name}, {run.entry.title}, {'; '.join(_said(*each) for each in self._achieved(record))}"
                     yield title, self.stems[run.key], date, name, page_name(run.level)
 
     # --- players ---
@@ -244,8 +269,8 @@ class BoardPages(LevelPages):
             ]
             title, rows = self._players_of(ladder), [*map(self._standing, standings)]
             self.write_table(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", link) for link in links))
-            for standing in standings:
-                sums[standing.player].append(tag("p", _sums(ladder, self.main.name, standing)))
+            for each in standings:
+                sums[each.player].append(_sums(ladder, self.main.name, each))
         runs: dict[str, list[Run]] = defaultdict(list)
         for run in self.ranking.judged.runs:
             runs[run.player].append(run)
@@ -284,8 +309,8 @@ class BoardPages(LevelPages):
             gold = f"{run.gold} of {run.entry.all_gold}"
             time = self.run_link(run, UP, seconds_text(run.tick))
             result = time, self.watch_link([run], UP), medal_mark(run.medal), seconds_text(run.score), gold
-            leads = run.made or "unknown", run.day, self.run_link(run, UP)
-            places = tag("div", *(tag("div", text) for text in row[3]), class_="text") if row[3] else ""
+            leads = made_text(run), run.day, self.run_link(run, UP)
+            places = tag("div", *(tag("div", each) for each in row[3]), class_="places") if row[3] else ""
             return (row[1], level_link(run.entry, UP), *result, places, *leads)
 
         rows = [
@@ -307,24 +332,20 @@ class BoardPages(LevelPages):
     # --- levels, episodes, and what does not count ---
 
     def _levels(self) -> None:
-        rows = [
-            (entry.number, pictured(entry), *self._counts(digest), *self._best(digest))
-            for digest, entry in self.entries.items()
-        ]
-        heads = ("No.", "Level", "Runs", "Players", *self._best_heads())
-        self.write_table(
-            "levels", "Levels", f"In playing order; who is first, in {self.main.name}{self._of_both()}", heads, rows
-        )
+        rows = [(card(entry, self._counts(digest), *self._best(digest)),) for digest, entry in self.entries.items()]
+        caption = f"In playing order; who is first, in {self.main.name}{self._of_both()}"
+        self.write_table("levels", "Levels", caption, (), rows)
 
     def _placed(self, digest: str, ladder: str) -> list[Ranked]:
-        """The runs with a place in the first category of a ladder."""
+        """The runs with a place in the first category of a ladder, without those far behind."""
         table = self.ranking.tables.get(digest, {}).get((ladder, self.main), [])
-        return [row for row in table if row.place]
+        return [each for each in table if each.place and not self.main.far(each.values[0], table[0].values[0])]
 
-    def _counts(self, digest: str) -> tuple[int, int]:
+    def _counts(self, digest: str) -> str:
         """How many runs a level has, and of how many players, in all ladders and categories."""
         runs = self.ranking.by_level.get(digest, [])
-        return len(runs), len({run.player for run in runs})
+        players = {run.player for run in runs}
+        return f"{counted(len(runs), 'run')} by {counted(len(players), 'player')}" if runs else "no run yet"
 
     def _episodes(self) -> list[Content]:
         sections: list[Content] = []
@@ -392,18 +413,25 @@ class BoardPages(LevelPages):
         return tag("a", "Look", href=f"../{REPLAYS}/{self.stems[key]}.html", aria_label=label) if key else ""
 
 
+def _said(name: str, result: str, gain: str) -> str:
+    return f"{name}: {result}, {gain}"
+
+
 def _together(records: Sequence[Record]) -> str:
     return f"{len(records)} runs with records came in together"
 
 
-def _sums(ladder: str, category: str, standing: Standing) -> str:
-    """What a player has reached in a ladder, ranks in a category, in a sentence."""
-    sentence = f"{ladder.capitalize()}: {counted(standing.runs, 'run')} on {counted(standing.levels, 'level')}"
-    if not standing.ranks:
-        return f"{sentence}."
-    ranks = f"total of ranks {sum(standing.ranks)}, {mean(standing.ranks):.2f} on average"
-    close = f"in the median {100 * median(standing.behind):.1f}% slower than the fastest"
-    return f"{sentence}; in {category} first on {standing.ranks.count(1)}; {ranks}; {close}."
+def _sums(ladder: str, category: str, each: Standing) -> Markup:
+    """What a player has reached in a ladder, ranks in a category."""
+    facts: list[tuple[str, Content]] = [("Runs", each.runs), ("Levels", each.levels)]
+    if each.ranks:
+        facts += [
+            (f"First in {category}", each.ranks.count(1)),
+            ("Total of ranks", f"{sum(each.ranks)}, {mean(each.ranks):.2f} on average"),
+        ]
+    if each.behind:
+        facts.append(("Behind the fastest, in the median", f"{100 * median(each.behind):.1f}%"))
+    return section(ladder.capitalize(), definitions(facts))
 
 
 def _about(element: ET.Element, title: str, name: str, date: str) -> None:

@@ -50,7 +50,8 @@ class Record:
 class Standing:
     """A player's sums in a ladder. ``medals``: levels by best medal; ``records``: levels led, by category.
 
-    ``ranks``: places of the best runs in the first category; ``behind``: by what share each is slower than the best.
+    ``ranks``: places of the best runs in the first category; ``behind``: by what share each is slower than the best,
+    unless it is far behind.
     """
 
     player: str
@@ -129,11 +130,16 @@ class Ranking:
         return near_copies
 
     def side_by_side(self, level: str, most: int) -> tuple[Category, list[Run]]:
-        """The first category that a level has runs in, and the first of them: of both ladders in turn, played first."""
+        """The first category that a level has runs in, and the first of them: of both ladders in turn, played first.
+
+        Without those that are far behind: they go another way.
+        """
         tables = self.tables[level]
         category = next(other for other in self.categories if any((ladder, other) in tables for ladder in self.ladders))
         turns = zip_longest(*(tables.get((ladder, category), [])[:most] for ladder in self.ladders))
         runs = [ranked.run for turn in turns for ranked in turn if ranked][:most]
+        best = min(self.number(category, run) for run in runs)
+        runs = [run for run in runs if not category.far(self.number(category, run), best)]
         return category, sorted(runs, key=lambda run: run.ladder != PLAYED)
 
     @cached_property
@@ -195,7 +201,8 @@ class Ranking:
                         standing.levels += 1
                         if ranked.place:
                             standing.ranks.append(ranked.place)
-                            standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
+                            if not category.far(ranked.values[0], table[0].values[0]):
+                                standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
                         if ranked.run.medal:
                             standing.medals[ranked.run.medal] += 1
         return {

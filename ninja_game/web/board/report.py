@@ -139,9 +139,10 @@ def _is_date(text: str, now: datetime) -> bool:
 
 
 def moderate(
-    ledger: Ledger, now: datetime, confirm: Sequence[str], decisions: Sequence[tuple[str, str]], reason: str
-) -> None:
-    """Write into a ledger what its keeper decides of the runs of files.
+    ledger: Ledger, now: datetime, judged: ValidatedRuns, confirm: Sequence[str], decisions: Sequence[tuple[str, str]],
+    reason: str,
+) -> bool:  # fmt: skip
+    """Write into a ledger what its keeper decides of the runs of files; whether anything is decided.
 
     ``confirm``: files with near copies that are none; ``decisions``: files, and which of DECISIONS. Raises
     ArgumentError for a file without such runs, and for a reason that is too long, or missing where a run is rejected.
@@ -153,10 +154,23 @@ def moderate(
         for row in _rows_of(name, near, "--confirm", "that waits"):
             row["confirmed"] = True
     for name, what in decisions:
-        for row in _rows_of(name, [*ledger.runs.values(), *ledger.decisions.values()], what, "in that file"):
+        for row in _rows_of(name, _decidable(ledger, judged), what, "in that file"):
             decided = {"what": what, "reason": reason, "added": now.strftime(DATE)}
             of = {key: row[key] for key in _FIELDS["decisions"] if key not in decided}
             ledger.decisions[_decided(row)] = of | decided
+    return bool(confirm or decisions)
+
+
+def _decidable(ledger: Ledger, judged: ValidatedRuns) -> list[dict[str, Any]]:
+    """A row for each run that may be decided on: what its file holds now, not what lay there once.
+
+    Of a file that is not there any more its rows of the ledger.
+    """
+    known = {(row["way"], folded(row["player"])): row for row in ledger.decisions.values()}
+    rejected = [(each.file, known.get((each.way, folded(each.player)))) for each in judged.rejected]
+    found = [_run_data(run) for run in judged.runs] + [row | {"file": file} for file, row in rejected if row]
+    here = {run.file for run in judged.runs} | {each.file for each in judged.rejected + judged.again}
+    return found + [row for row in (*ledger.runs.values(), *ledger.decisions.values()) if row["file"] not in here]
 
 
 def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -> list[dict[str, Any]]:

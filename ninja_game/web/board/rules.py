@@ -16,6 +16,7 @@ from ninja_game.files.reading import read_utf8
 from ninja_game.files.untrusted import parse_toml
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_number, parse_truth
+from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.web.board.runs import Run
 
 NAMES: dict[str, Callable[[Run], float]] = {
@@ -28,6 +29,7 @@ MOST_BYTES = 2**20  # of a ``board.toml``
 MOST_CATEGORIES = 12
 MOST_RANKS = 4  # formulas that rank a category
 LONGEST_NAME = 40
+FAR = 5 * TICKS_PER_SECOND
 
 _KEYS: Mapping[str, type] = {"name": str, "rank": list, "when": str, "episodes": bool}
 _WORSE = {
@@ -109,6 +111,14 @@ class Category:
         if self.unit == "Value":
             return f"{amount:g}"
         return "-" * (amount < 0) + seconds_text(round(abs(amount)))
+
+    def far(self, value: float, first: float) -> bool:
+        """Whether a time is so much slower than the first that its run was after something else, such as gold.
+
+        >>> FASTEST.far(900, 344), FASTEST.far(60, 23), HIGHEST.far(900, 344)
+        (True, False, False)
+        """
+        return self.unit == "Time" and value > max(2 * first, first + FAR)
 
     def gain(self, amount: float) -> str:
         """By how much a first number is better than that of the record before, or by what else where it is equal.

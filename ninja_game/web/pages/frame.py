@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from html import escape
 from itertools import compress, repeat
 from pathlib import Path
@@ -102,6 +102,8 @@ _ICON_SIZE = 64
 _LONGEST_HEADING = 30
 _LONGEST_LINE = 24  # characters of a cell that stay in one line
 _LONGEST_HEAD = 20  # letters in the first row
+_NUMBER = re.compile(r"(?:<[^>]*>)*[-+]?\d[\d.,]*(?: of \d+| s)?(?:<[^>]*>)*")
+"""A cell with a number, which stands at the right: one below the other they are compared at a glance."""
 
 
 class Pages:
@@ -258,13 +260,22 @@ def definitions(pairs: Iterable[tuple[str, Content]]) -> Markup:
     return tag("dl", *(tag("div", tag("dt", name), tag("dd", value)) for name, value in pairs))
 
 
-def table(caption: str, heads: Iterable[str], rows: Iterable[Iterable[Content]]) -> Markup:
-    """A table with its caption, of the columns with something in them; it scrolls by itself where it is too wide."""
+def table(
+    caption: str, heads: Iterable[str], rows: Iterable[Iterable[Content]], lesser: Collection[str] = ()
+) -> Markup:
+    """A table with its caption, of the columns with something in them; it scrolls by itself where it is too wide.
+
+    ``lesser``: heads of columns that a narrow page leaves out.
+    """
     cells = [list(row) for row in rows]
     filled = [any(cell not in ("", None) for cell in column) for column in zip(*cells, strict=True)] or repeat(True)
-    head = tag("tr", *(tag("th", _wrapping(cell, _LONGEST_HEAD), scope="col") for cell in compress(heads, filled)))
-    lines = [tag("tr", *(tag("td", _wrapping(cell)) for cell in compress(row, filled))) for row in cells]
-    whole = tag("table", tag("caption", caption), tag("thead", head), tag("tbody", *lines))
+    shown, lines = [*compress(heads, filled)], [[*compress(row, filled)] for row in cells]
+    numbers = [all(_NUMBER.fullmatch(str(cell)) for cell in column if cell) for column in zip(*lines, strict=True)]
+    kinds = [f"n{at}" for at, number in enumerate(numbers, 1) if number]
+    kinds += [f"l{at}" for at, name in enumerate(shown, 1) if name in lesser]
+    head = tag("tr", *(tag("th", _wrapping(name, _LONGEST_HEAD), scope="col") for name in shown))
+    body = tag("tbody", *(tag("tr", *(tag("td", _wrapping(cell)) for cell in line)) for line in lines))
+    whole = tag("table", tag("caption", caption), tag("thead", head), body, class_=" ".join(kinds) or None)
     return tag("div", whole, class_="wide", tabindex="0", role="region", aria_label=caption)
 
 

@@ -263,6 +263,11 @@ def _pars(pars: Pars) -> Markup:
     return table("To the exit in at most", ("Medal", "Time"), rows)
 
 
+def place_mark(place: int) -> Content:
+    """A place; the first three stand out."""
+    return tag("span", place, class_=f"place {MEDALS[place]}") if 0 < place < len(MEDALS) else place or ""
+
+
 def medal_mark(medal: str) -> Content:
     """A small mark for a medal, "" for none; known by its letter, not only by its colour."""
     return tag("span", medal[0].upper(), class_=f"medal {medal}", title=medal) if medal in MEDALS else joined()
