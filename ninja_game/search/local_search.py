@@ -16,16 +16,7 @@ from numpy.typing import NDArray
 from ninja_game.backend.memories import compiled
 from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.macros import Keys
-from ninja_game.search.nodes import (
-    MUTATIONS,
-    RandomState,
-    Start,
-    copy_words,
-    random_below,
-    same_words,
-    ticks_at_once,
-    zeroed,
-)
+from ninja_game.search.nodes import MUTATIONS, RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
@@ -213,7 +204,10 @@ def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: 
             if away > LEASH and abs(w.ninja.x - path[then, 0]) + abs(w.ninja.y - path[then, 1]) > LEASH:
                 return k + 1, UNREACHED
             is_back = away == 0.0 and differs <= k + 1 < ticks and score < ticks
-            if is_back and same_words(start.scratch, runs.checkpoints[(k + 1) // CHECKPOINT]):
+            word = 0 if is_back else len(start.scratch)
+            while word < len(start.scratch) and start.scratch[word] == runs.checkpoints[(k + 1) // CHECKPOINT, word]:
+                word += 1
+            if is_back and word == len(start.scratch):
                 return k + 1, score
     return limit, UNREACHED
 

@@ -261,14 +261,6 @@ def copy_words(target: StateWords, source: StateWords) -> None:
 
 
 @fast
-def same_words(words: StateWords, others: StateWords) -> bool:
-    k = 0
-    while k < len(words) and words[k] == others[k]:
-        k += 1
-    return k == len(words)
-
-
-@fast
 def keep_state(words: StateWords, initial: StateWords, node: Node, arrays: SearchArrays) -> bool:
     """Store the first word and those that differ from the start; False, and nothing stored, if the pool is empty."""
     counters = arrays.counters[0]

@@ -36,7 +36,7 @@ def test_equal_runs_and_traces_are_equal(memory: str) -> None:
 
 
 @pytest.mark.parametrize("memory", BOTH)
-@pytest.mark.parametrize("record, death", [("12^130,566", "mine 0"), ("6^130,566,0,0,0,3", "zap 0")])
+@pytest.mark.parametrize("record, death", [("12^130,566", "mine 1"), ("6^130,566,0,0,0,3", "zap drone 1")])
 def test_a_run_tells_what_killed_without_a_copy_of_its_world(
     memory: str, record: str, death: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -27,9 +27,12 @@ class BranchesTab(Tab):
         self.tree: list[tuple[int, int]] = []
         self._looked_at: OtherRun | None = None
         self.list = Rows(
-            self._draw_row, lambda _: self.checkout(), empty="B keeps the run as a branch", opens=True,
+            self._draw_row,
+            lambda _: self.checkout(),
+            empty="B keeps the run as a branch",
+            opens=True,
             hint="Under the mouse, or clicked: shown in level and roll; a second click goes to it",
-        )  # fmt: skip
+        )
         actions = [
             ("Keep", self.keep, "B: keep the run as it is now, as a child of the marked branch"),
             ("Go to it", self.checkout, "The run becomes the chosen branch; undo brings back what was there"),

@@ -321,9 +321,12 @@ class LevelPages:
         return tag("li", link, result, about, class_="card leader")
 
     def _table(
-        self, leaderboards: Mapping[Leaderboard, Sequence[Ranked]], above: set[str], marks: Mapping[Key, Content],
+        self,
+        leaderboards: Mapping[Leaderboard, Sequence[Ranked]],
+        above: set[str],
+        marks: Mapping[Key, Content],
         anchor: str,
-    ) -> Markup:  # fmt: skip
+    ) -> Markup:
         """A table of categories with the same runs in order.
 
         ``above``: remarks of tables above; ``marks``: colours of the runs in the picture.
@@ -499,9 +502,12 @@ def _stem(run: Run) -> str:
 
 
 def steps(
-    points: Sequence[tuple[float, float]], names: Sequence[str], text: Callable[[float], str], days: tuple[str, str],
+    points: Sequence[tuple[float, float]],
+    names: Sequence[str],
+    text: Callable[[float], str],
+    days: tuple[str, str],
     said: str,
-) -> Markup:  # fmt: skip
+) -> Markup:
     """A line that keeps each value until the next one: (moment, value) in order, with what each point is called.
 
     ``text``: of a value; ``days``: of the first and the last moment; ``said``: what the line says.

@@ -139,9 +139,13 @@ def _is_date(text: str, now: datetime) -> bool:
 
 
 def moderate(
-    ledger: Ledger, now: datetime, judged: ValidatedRuns, confirm: Sequence[str], decisions: Sequence[tuple[str, str]],
+    ledger: Ledger,
+    now: datetime,
+    judged: ValidatedRuns,
+    confirm: Sequence[str],
+    decisions: Sequence[tuple[str, str]],
     reason: str,
-) -> bool:  # fmt: skip
+) -> bool:
     """Write into a ledger what its keeper decides of the runs of files; whether anything is decided.
 
     ``confirm``: files with near copies that are none; ``decisions``: files, and which of DECISIONS. Raises
