@@ -40,6 +40,7 @@ def test_equal_runs_and_traces_are_equal(memory: str) -> None:
 def test_a_run_tells_what_killed_without_a_copy_of_its_world(
     memory: str, record: str, death: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    assert run_level(LEVEL, b"\2", memory=memory).outcome == "running"  # the memory has passed its own test
     monkeypatch.setattr("ninja_game.backend.compiled.plain_copy", None)
     run = run_level(parse_level("0" * 713 + f"|5^100,566!{record}"), bytes([2] * 60), memory=memory)
     assert (run.outcome, run.death) == ("dead", death)
