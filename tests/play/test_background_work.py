@@ -85,7 +85,7 @@ def test_a_film_that_cannot_be_made_can_be_tried_again(
 ) -> None:
     screen = ReplayScreen(driver.app, [load_replays(RUN)[0]])
     driver.app.push(screen)
-    monkeypatch.setattr(film, "Film", raising(why))
+    monkeypatch.setattr(film, "write_film", raising(why))
     for _ in range(2):
         driver.app.notify("")
         driver.press("e")

@@ -205,7 +205,7 @@ def test_a_pass_of_ones_own_certifies_the_level_as_it_is(room: Maker, tmp_path: 
     assert (replay.author, str(replay.made), replay.name) == ("Mia", "played", "Room")
     pack = packs.new_pack(tmp_path / "levels", "Pack", "me")
     file = packs.transfer(load_levels(tmp_path / "levels" / "room.txt")[0], pack, keep=False)
-    packs.place(pack, file, 0)
+    packs.place(pack, [file], 0)
     assert not [finding for finding in lint(Pack(pack)) if "certificate" in finding.code]
     ((_, pars),) = make_pars(Pack(pack), tries=1)
     assert (pars.exit, pars.difficulty is not None) == (replay.end_tick, True)

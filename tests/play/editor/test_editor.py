@@ -385,7 +385,7 @@ def test_a_certified_level_needs_no_other_certificate_in_a_pack(room: Maker, tmp
     assert room.player.catalogue.problems == []
     pack = packs.new_pack(levels, "Pack", "me")
     file = packs.transfer(load_levels(levels / "room.txt")[0], pack, keep=False)
-    packs.place(pack, file, 0)
+    packs.place(pack, [file], 0)
     assert not [finding for finding in lint(Pack(pack)) if "certificate" in finding.code]
     session.begin(open_source(pack / file))
     room.drag((300, 300))

@@ -408,7 +408,7 @@ def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(maker: Make
     folder = packs.new_pack(app.player.folder / "levels", "Hills", "Ann")
     file = packs.new_level(folder, "Hill", "Ann")
     number = packs.new_episode(folder, "First", 1)
-    packs.place(folder, file, number)
+    packs.place(folder, [file], number)
     (path,) = folder.glob("*hill.txt")
     maker.open("Editor")
     maker.editor.commands.open_file(path)
