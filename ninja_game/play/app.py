@@ -447,7 +447,7 @@ class App:
         if self.top.plays and len(lines) == 1:
             # In the border: no text covers a level that is being played.
             size, margin, high = IN_BORDER, 1.0, 20.0
-        foot = theme.canvas.logical(theme.canvas.stage.bottomright)[1] - self.top.foot_high
+        foot = theme.canvas.logical((0, theme.canvas.stage.bottom))[1] - self.top.foot_high
         y = foot - high * len(lines) - 2 * margin
         wide = min(most, max(theme.width(line, size) for line in lines)) + 28
         rect = theme.window(self.surface, middle - wide / 2, y, wide, high * len(lines) + 2 * margin)

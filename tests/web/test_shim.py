@@ -79,6 +79,15 @@ def test_it_has_every_name_that_the_game_asks_for() -> None:
     assert not missing
 
 
+def test_its_rectangles_have_what_the_game_asks_of_rectangles() -> None:
+    of_others = {"fit", "normalize", "update"}  # names that are of Theme, Canvas, dictionaries and text here
+    missing = {name for name in dir(pygame.Rect) if name[0] != "_" and not hasattr(shim.Rect, name)} - of_others
+    asked = re.compile(rf"\.({'|'.join(missing)})\b")
+    rooms = (ROOT / "ninja_game" / room for room in ("play", "ui", "view"))
+    files = (path for room in rooms for path in room.rglob("*.py"))
+    assert not {path.name: names for path in files if (names := asked.findall(path.read_text("utf-8")))}
+
+
 def test_constants_are_those_of_sdl() -> None:
     names = [name for name in dir(shim.constants) if name.isupper() and isinstance(getattr(shim.constants, name), int)]
     places = [name for name in dir(pygame) if name.startswith("KSCAN_")]
