@@ -21,6 +21,7 @@ from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.files.user_folder import install_hint
 from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.levels.warnings import object_name
 from ninja_game.runs.run import RunResult, run_level
@@ -212,7 +213,7 @@ class Certifier:
         if search.run is not None and not search.failed:
             gold = f", {search.run.gold} gold" if search.run.gold else ""
             shortening = ", shortening" * self.busy
-            return f"Certified: {search.run.end_tick / TICKS_PER_SECOND:.2f} s{gold}{shortening}"
+            return f"Certified: {seconds_text(search.run.end_tick)} s{gold}{shortening}"
         if search.end == STOPPED and search.progress:
             return f"Stopped: no exit found in {search.progress.seconds:.0f} s"
         if search.end or search.level is None:

@@ -36,6 +36,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import is_pack
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import GAME, YOURS, Entry
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
@@ -48,7 +49,6 @@ from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
-from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.canvas import Point
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
@@ -312,10 +312,9 @@ class EditorSession:
         except (NinjaGameError, OSError) as error:
             self.app.notify(f"{which}no certificate: {reason(error)}")
         else:
-            time = search.run.end_tick / TICKS_PER_SECOND if search.run else 0.0
-            how = f"certified, {time:.2f} s, kept with the level" if time else f"no run in {search.seconds:.0f} s"
             if name:
-                self.app.notify(f"{name}: {how}")
+                time = f"certified, {seconds_text(search.run.end_tick)} s, kept with the level" if search.run else ""
+                self.app.notify(f"{name}: {time or f'no run in {search.seconds:.0f} s'}")
 
     def _file_now(self, path: Path, search: Search) -> NamedLevel | None:
         """The level of a search in its file, or in another of the player's, such as one in a pack; None: it is gone."""

@@ -81,7 +81,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     ready.set()
     session.certifier.solver.job.finish(LONGEST)
     assert (at_once, kept.exists()) == ([False, True], True)
-    assert told[-2:] == ["Room: certified, 0.97 s, kept with the level", "Other: no run in 20 s"]
+    assert told[-2:] == ["Room: certified, 0.975 s, kept with the level", "Other: no run in 20 s"]
 
 
 def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
@@ -115,7 +115,7 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(room: Maker)
     run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
     for progress, best, said in (
         (Progress(seconds=12.2), None, "Stopped: no exit found in 12 s"),
-        (Progress(seconds=3.0), run, "Stopped. Certified: 0.97 s"),
+        (Progress(seconds=3.0), run, "Stopped. Certified: 0.975 s"),
         (None, None, "Stopped"),
     ):
         session.certifier.search = Search(room.draft.level, seconds=20.0, run=best, progress=progress)

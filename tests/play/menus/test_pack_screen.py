@@ -640,7 +640,7 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
     driver.wait(lambda: len(told) == 2)
     assert sorted(told) == [
         "Gap: no certificate, as no file has the level any more. Open it, and press F7",
-        "Walk: certified, 0.97 s, kept with the level",
+        "Walk: certified, 0.975 s, kept with the level",
     ]
     assert (screen.path / "certificates" / "Walk.exit.replay.txt").exists()
     driver.wait(lambda: states() == ["Walk: certified"], "its card says so")
