@@ -149,6 +149,19 @@ def test_constants_that_pages_and_docstrings_name_exist() -> None:
     assert not [f"{named(path)}: {'.'.join(home)}" for path, home in in_docstrings if home not in homes]
 
 
+def test_what_docstrings_of_functions_explain_exists() -> None:
+    """A ``name`` before a colon is a parameter, or stands in the body."""
+    explained = [
+        (named(path), function.name, name, ast.unparse([function.args, *function.body[1:]]))
+        for path in (ROOT / "ninja_game").rglob("*.py")
+        for function in ast.walk(ast.parse(text_of(path)))
+        if isinstance(function, DEFINITIONS[0])
+        for name in re.findall(r"``(\w+)``(?=(?:, ``\w+``)*:)", ast.get_docstring(function) or "")
+    ]
+    assert len(explained) > 300
+    assert not [": ".join(where) for *where, name, code in explained if not re.search(rf"\b{name}\b", code)]
+
+
 def test_the_page_on_latency_says_how_old_a_tap_may_be() -> None:
     page = (ROOT / "docs" / "input-latency.md").read_text("utf-8")
     assert f"within {TAP_SECONDS * 1000:.0f} ms." in page

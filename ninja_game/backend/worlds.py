@@ -75,7 +75,7 @@ class Worlds(ABC):
 
     @abstractmethod
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:
-        """The form of an entry point that takes ``maps`` and ``worlds``: its compiled twin, or itself."""
+        """The form of an entry point that takes maps and worlds: its compiled twin, or itself."""
 
     # --- one world ---
 

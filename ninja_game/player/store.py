@@ -149,7 +149,7 @@ class Store:
             return [], self.problem
 
     def defer(self, work: Work) -> None:
-        """Do ``work`` with the next save or ``flush``: for what need not be on the disk at once."""
+        """Do ``work`` with the next save or ``flush``, for what need not be on the disk at once."""
         self._pending.append(work)
 
     def flush(self) -> None:

@@ -33,9 +33,9 @@ from ninja_game.ui.theme import Theme
 class TasScreen(WorkspaceScreen):
     """The screen on which a run is edited. ``editor``: cursor, selection, layout; ``session``: the run.
 
-    ``others``: other runs of its level; ``found``: what was not saved of the run last time. Raises LevelError for a run
-    on a level that cannot be played, ReplayError for another run that is of another level or has another body,
-    FileError for what another window continues with.
+    ``others``: other runs of its level; ``recovered_run``: what was not saved of the run last time. Raises LevelError
+    for a run on a level that cannot be played, ReplayError for another run that is of another level or has another
+    body, FileError for what another window continues with.
     """
 
     table = TABLE

@@ -98,7 +98,7 @@ def door_middle(values: Sequence[float]) -> tuple[float, float]:
 
 
 def object_values(keyword: str, place: Token, words: Mapping[str, Token]) -> tuple[float, ...]:
-    """The values of the record that a line stands for; ``by_name``: property or keyword to its word.
+    """The values of the record that a line stands for; ``words``: property or keyword to its word.
 
     Raises LevelError with the column of the word that cannot be read.
     """

@@ -232,7 +232,7 @@ def _first_change(before: InputTrack, after: InputTrack) -> int:
 
 
 def _change_text(before: InputTrack, after: InputTrack, first: int, edit_tick: int) -> str:
-    """What was changed, ``first`` tick; ``asked``: that of the edit, which is named where ticks came or went there."""
+    """What was changed, from tick ``first`` on; ``edit_tick``: named instead where ticks came or went there."""
     if before.inputs == after.inputs:
         return f"a marker in tick {first}"
     more = len(after) - len(before)

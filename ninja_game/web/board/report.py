@@ -203,7 +203,7 @@ def read_dates(path: Path, now: datetime) -> dict[str, str]:
 def dates_of(before: Ledger, now: datetime, dates_by_file: Mapping[str, str]) -> Dates:
     """The dates of a ledger. A run that it does not have, or not with this path, is added now.
 
-    ``given``: dates by file that take the place of the ledger's.
+    ``dates_by_file``: dates that take the place of the ledger's.
     """
     for row in before.runs.values():
         row["added"] = dates_by_file.get(row["file"], row["added"])

@@ -185,7 +185,7 @@ def run_page(
     entry: Entry, stem: str, title: str, facts: Links, folder: str, game: str, links: Links, site: str,
     drawn: Content = None, more: Content = None,
 ) -> str:  # fmt: skip
-    """The small page of a run, beside it in ``replays``: what a link to it shows in a chat, and what leads to it.
+    """The small page of a run, in the folder of its replay: what a link to it shows in a chat, and what leads to it.
 
     ``folder``: of the pages with the level's; ``game``, ``links``: as seen from their first one; ``site``: as above;
     ``drawn``: its path over the level; ``more``: what stands below the facts.
