@@ -152,7 +152,7 @@ def test_constants_that_pages_and_docstrings_name_exist() -> None:
 def test_what_docstrings_of_functions_explain_exists() -> None:
     """A ``name`` before a colon is a parameter, or stands in the body."""
     explained = [
-        (named(path), function.name, name, ast.unparse([function.args, *function.body[1:]]))
+        (named(path), function.name, name, ast.unparse(function.args) + ast.unparse(ast.Module(function.body[1:], [])))
         for path in (ROOT / "ninja_game").rglob("*.py")
         for function in ast.walk(ast.parse(text_of(path)))
         if isinstance(function, DEFINITIONS[0])

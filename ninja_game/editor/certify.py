@@ -44,7 +44,7 @@ SECONDS, STOPPED = 20.0, "Stopped"
 """How long the solver looks for better runs; the end of a search that nobody wants any more."""
 
 
-Route = tuple[tuple[float, float], ...]
+PathPoints = tuple[tuple[float, float], ...]
 """Where the ninja was after each tick, px."""
 
 
@@ -60,7 +60,7 @@ class TestMap(NamedTuple):
     """Many tests of a level: in how many the ninja was in each cell, and where it died, px."""
 
     visits: Mapping[Cell, int]
-    deaths: Route
+    deaths: PathPoints
 
 
 NO_TESTS = TestMap({}, ())
@@ -75,7 +75,7 @@ def _played(level: Level, inputs: bytes) -> RunResult | None:
         return None
 
 
-def route_of(level: Level, inputs: bytes) -> Route:
+def route_of(level: Level, inputs: bytes) -> PathPoints:
     """The ninja's route to the end of the run or of the inputs; () where it cannot be played, or costs too much."""
     run = _played(level, inputs)
     return tuple(iter_unpack("<2d", run.places)) if run else ()
@@ -94,7 +94,7 @@ def map_of(tries: Iterable[Try]) -> TestMap:
 
 
 @dataclass(eq=False)
-class Search:
+class Certification:
     """The solver's work on a level: ``run``, the best one found, and its ``route``; ``full``: the best with all gold.
 
     ``progress``: the newest one, None until the solver is ready. ``end``: why it is over, "" as long as it is not, and
@@ -104,14 +104,14 @@ class Search:
 
     level: Level | None = None
     run: Replay | None = None
-    route: Route = ()
+    route: PathPoints = ()
     progress: Progress | None = None
     began: float = field(default_factory=monotonic)
     end: str = ""
     seconds: float = 0.0
     obstacles: tuple[Finding, ...] = ()
     full: Replay | None = None
-    then: Callable[[Search], object] | None = None
+    then: Callable[[Certification], object] | None = None
     failed: bool = False
     stopping: Event = field(default_factory=Event)
 
@@ -153,9 +153,9 @@ def passed_by(level: Level, runs: Sequence[bytes]) -> tuple[Finding, ...]:
     return tuple(findings)
 
 
-def search_of(level: Level, run: Replay) -> Search:
+def search_of(level: Level, run: Replay) -> Certification:
     """A search that has found this run and is over; it has none where the run fails in the level."""
-    search = Search(level, end="Done")
+    search = Certification(level, end="Done")
     played = _played(level, run.inputs + bytes(1))  # the tick of the contact may read no input
     if played and played.outcome == "exit":
         search.take(run)
@@ -170,12 +170,12 @@ class Solver:
     """
 
     def __init__(self) -> None:
-        self.left: list[Search] = []
+        self.left: list[Certification] = []
         self.stopped: set[Level] = set()
-        self.at_work = Search(end=STOPPED)
-        self.job: NewestJob[Search, None] = NewestJob(self._work, every=True)
+        self.at_work = Certification(end=STOPPED)
+        self.job: NewestJob[Certification, None] = NewestJob(self._work, every=True)
 
-    def _work(self, search: Search) -> None:
+    def _work(self, search: Certification) -> None:
         if search.end or search.level is None:
             return
         self.at_work = search
@@ -204,7 +204,7 @@ class Certifier:
     """What is known of the level under edit. ``search``: the newest one of it."""
 
     def __init__(self) -> None:
-        self.seconds, self.solver, self.search = SECONDS, SOLVER, Search()
+        self.seconds, self.solver, self.search = SECONDS, SOLVER, Certification()
 
     @property
     def text(self) -> str:
@@ -253,16 +253,16 @@ class Certifier:
         before = self.search
         longer = 2 * before.seconds if before.obstacles and not before.run and before.level == level else self.seconds
         if not compiled_available():
-            self.search = Search(end=f"Certifying needs Numba: {install_hint('fast')}")
+            self.search = Certification(end=f"Certifying needs Numba: {install_hint('fast')}")
             return
-        self.search = Search(level, seconds=longer)
+        self.search = Certification(level, seconds=longer)
         for run in (before.run, before.full) if before.level == level else ():
             if run:
                 self.search.take(run)
         self.solver.stopped.discard(level)
         self.solver.job.ask(self.search)
 
-    def adopt(self, search: Search) -> None:
+    def adopt(self, search: Certification) -> None:
         """Use a known result of a level until the solver finds a better one; one without a run changes nothing."""
         if search.run and self.search.level != search.level:
             self.stop()
@@ -277,7 +277,7 @@ class Certifier:
             self.solver.stopped |= {self.search.level} if self.search.level and not self.search.run else set()
             self.search.stopping.set()
 
-    def leave(self, then: Callable[[Search], object] | None) -> None:
+    def leave(self, then: Callable[[Certification], object] | None) -> None:
         """The level is left. ``then``: called when its search, which goes on, has ended; None: it is stopped."""
         self.search.then = then
         if then is None:
@@ -286,7 +286,7 @@ class Certifier:
 
     def edit(self, level: Level) -> None:
         """Another level is under edit, perhaps one whose search goes on."""
-        self.search = next((old for old in self.solver.left if old.level == level and not old.end), Search())
+        self.search = next((old for old in self.solver.left if old.level == level and not old.end), Certification())
         self.search.then = None
 
 
@@ -299,7 +299,7 @@ STARTS = {"off": None, "standing": 0.0, "running right": TOP_SPEED, "running lef
 SQUARE = 4.0
 """Px: what is reached is shown in squares of this side."""
 
-Span = tuple[float, float, float]
+SquareRow = tuple[float, float, float]
 """Squares side by side: left edge, top, width, px."""
 
 
@@ -319,11 +319,11 @@ class Reach(NamedTuple):
     """
 
     ask: Ask
-    spans: tuple[Span, ...]
-    deaths: tuple[Span, ...]
-    arcs: tuple[Route, ...]
-    latest: Route
-    dangers: tuple[Route, ...]
+    spans: tuple[SquareRow, ...]
+    deaths: tuple[SquareRow, ...]
+    arcs: tuple[PathPoints, ...]
+    latest: PathPoints
+    dangers: tuple[PathPoints, ...]
 
 
 LANDED = 4
@@ -420,12 +420,12 @@ def find_reach(ask: Ask) -> Reach:
     )
 
 
-def _route(places: Any) -> Route:
+def _route(places: Any) -> PathPoints:
     """The points of an array (ticks, 2) up to the first that is not a number."""
     return tuple(takewhile(lambda point: isfinite(sum(point)), map(tuple, places.tolist())))
 
 
-def _spans(places: Any) -> tuple[Span, ...]:
+def _spans(places: Any) -> tuple[SquareRow, ...]:
     """The squares in which any of these points (points, 2) in the level lie, side by side where they touch."""
     import numpy as np
 

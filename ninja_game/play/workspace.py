@@ -13,7 +13,7 @@ from ninja_game.document import OccupiedError
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.user_folder import asset_rows
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import CANCEL, MOUSE, Action, Menu, MenuScreen, Row, nothing
+from ninja_game.play.menus.menu_screen import CANCEL, MOUSE, Action, Menu, MenuRow, MenuScreen, nothing
 from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.input.bindings import ACTIONS, InputEvent
 from ninja_game.ui.input.gamepad import Gamepads
@@ -87,7 +87,7 @@ class CommandMenu(Menu):
         self,
         app: App,
         title: str,
-        rows: Sequence[Row],
+        rows: Sequence[MenuRow],
         table: CommandTable,
         names: Collection[str],
         run: Callable[[str], object],
@@ -363,7 +363,7 @@ class DocumentCommands:
     def save_as(self, then: Action = nothing) -> None:
         raise NotImplementedError
 
-    def reload_rows(self, path: Path) -> list[Row]:
+    def reload_rows(self, path: Path) -> list[MenuRow]:
         """What else to offer where the document's file was changed by another program."""
         return []
 
@@ -386,7 +386,7 @@ class DocumentCommands:
             (save or self.document.save)(path, replacing=replacing)
         except OccupiedError as error:
             text, replace_it = str(error), partial(self.save_to, path, then, save=save, replacing=True)
-            rows: list[Row] = [
+            rows: list[MenuRow] = [
                 ("Save under another name", lambda: self.save_as(then), ""),
                 *self.reload_rows(path),
                 ("Replace it", replace_it, "What it holds now is lost"),
@@ -405,7 +405,7 @@ class DocumentCommands:
         if self.document.is_saved:
             action()
             return
-        rows: list[Row] = [CANCEL, ("Save", lambda: self.save(action), ""), ("Discard changes", action, "")]
+        rows: list[MenuRow] = [CANCEL, ("Save", lambda: self.save(action), ""), ("Discard changes", action, "")]
         self.app.push(Menu(self.app, f"{self.document.name} is not saved", rows))
 
     def leave(self) -> None:
@@ -417,14 +417,14 @@ class DocumentCommands:
 
     def ask_about_recovered(self, name: str, recover: Action, forget: Callable[[], bool], *, about: str) -> None:
         """Ask what to do with a document that was being edited when the program died. ``about``: how it was left."""
+        keep: MenuRow = "Keep for later", nothing, "It is offered again"
 
         def discard() -> None:
             if not forget():
                 self.app.notify("It stays: another window continues with it")
 
         def ask() -> None:
-            sure: list[Row] = [("Keep for later", nothing, "It is offered again"), ("Discard", discard, "It is lost")]
-            self.app.push(Menu(self.app, f"Discard {name}?", sure))
+            self.app.push(Menu(self.app, f"Discard {name}?", [keep, ("Discard", discard, "It is lost")]))
 
         def try_to_recover() -> None:
             try:
@@ -432,9 +432,5 @@ class DocumentCommands:
             except (NinjaGameError, OSError) as error:
                 self.app.notify(reason(error))
 
-        rows: list[Row] = [
-            ("Recover", try_to_recover, about),
-            ("Keep for later", nothing, "It is offered again"),
-            ("Discard...", ask, ""),
-        ]
+        rows: list[MenuRow] = [("Recover", try_to_recover, about), keep, ("Discard...", ask, "")]
         self.app.push(Menu(self.app, f"Not saved last time: {name}", rows))

@@ -16,7 +16,7 @@ from ninja_game.levels.episodes import Entry, Episode
 from ninja_game.player import progress
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
-from ninja_game.player.progress import LOCKED, UNLOCKED, WITH_HELP, Mark, Marks, Place, Progress, has_all_gold, medal_of
+from ninja_game.player.progress import LOCKED, UNLOCKED, Mark, Marks, PackProgress, Place, has_all_gold, medal_of
 from ninja_game.player.records import Records, Statistics
 from ninja_game.player.settings import Settings, read_settings, write_changes
 from ninja_game.player.store import Store, Work
@@ -42,7 +42,7 @@ class PlayerData:
         self._store = store
         self._messages: list[str] = []
         self._reported: set[str] = set()
-        self._progress: dict[str, Progress] = {}
+        self._progress: dict[str, PackProgress] = {}
         self._is_maker = True
         self._certified: dict[str, tuple[object, Replay | None]] = {}
         if settings is None:
@@ -91,13 +91,13 @@ class PlayerData:
         return Records(self.store)
 
     @property
-    def progress(self) -> Progress:
+    def progress(self) -> PackProgress:
         return self.progress_in("")
 
-    def progress_in(self, pack: str) -> Progress:
+    def progress_in(self, pack: str) -> PackProgress:
         """How far the player has come in a pack, by its key in the catalogue."""
         if pack not in self._progress:
-            self._progress[pack] = Progress(self.store, pack)
+            self._progress[pack] = PackProgress(self.store, pack)
         return self._progress[pack]
 
     def beaten_in(self, episode: Episode) -> Place:
@@ -242,7 +242,7 @@ def count_of(
     def work() -> list[str]:
         data.statistics.attempt_ended(level, killer=killer, passed=passed, ticks=ticks, gold=gold)
         if helped:
-            data.marks.passed(level, ticks, gold, WITH_HELP)
+            data.marks.passed(level, ticks, gold, progress.WITH_HELP)
         return []
 
     return work

@@ -36,7 +36,7 @@ class ColumnProgress(NamedTuple):
 _COLUMN_NAMES = "grid_column, reached_episode, reached_level, beaten_episode, beaten_level"
 
 
-class Progress:
+class PackProgress:
     """Progress in a store: each passed level is merged into what is there, so that two games at once only add to it.
 
     ``pack``: the name of the pack whose episodes these are, "" for the game's own.
@@ -99,7 +99,7 @@ class Progress:
                 self._epoch = -1
 
 
-def complete_columns(progress: Progress, episodes: Collection[int]) -> int:
+def complete_columns(progress: PackProgress, episodes: Collection[int]) -> int:
     """How many columns are complete: all of the ``episodes`` that exist in them are beaten, and there are some."""
     count = 0
     for column in range(COLUMNS):

@@ -202,15 +202,15 @@ def without_idle_keys(
     return with_press_bits(inputs[:first] + bytes(made[-2::-1]) + inputs[last:])
 
 
-Row = tuple[int, int]  # keys that are down, and for how many ticks
+Hold = tuple[int, int]  # keys that are down, and for how many ticks
 
 
-def rows_of(inputs: bytes) -> list[Row]:
+def rows_of(inputs: bytes) -> list[Hold]:
     """Inputs as rows of equal keys; triggers follow from them."""
     return [(keys, len(list(ticks))) for keys, ticks in groupby(keys & KEYS_DOWN for keys in inputs)]
 
 
-def playback(rows: list[Row]) -> bytes:
+def playback(rows: list[Hold]) -> bytes:
     """Rows of keys as inputs, with triggers where the jump key goes down."""
     return with_press_bits([keys for keys, ticks in rows for _ in range(ticks)])
 
@@ -233,7 +233,7 @@ def smooth_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: int 
     return playback(rows).ljust(limit, b"\0")[: run.ticks]
 
 
-def _without_one(rows: list[Row], longest: int, level: Level, body: Body, gold: int, limit: int) -> list[Row] | None:
+def _without_one(rows: list[Hold], longest: int, level: Level, body: Body, gold: int, limit: int) -> list[Hold] | None:
     """The rows with one of at most ``longest`` ticks merged into a neighbour; None if no such run passes."""
     for index, (_, ticks) in enumerate(rows):
         if ticks > longest:

@@ -17,7 +17,7 @@ from ninja_game.formats.links import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.menu_screen import Action, FormPanel, Menu, Row, nothing
+from ninja_game.play.menus.menu_screen import Action, FormPanel, Menu, MenuRow, nothing
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.workspace import CommandMenu, Commands, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.player_data import keep_replay
@@ -74,7 +74,7 @@ class RunCommands(DocumentCommands):
 
     def menu(self) -> None:
         key = {name: key_text(command) for name, command in TABLE.by_name.items()}
-        rows: list[Row] = [
+        rows: list[MenuRow] = [
             ("Save", self.save, key["save"]), ("Save as...", self.save_as, key["save_as"]),
             ("Open another run...", lambda: self._run("open_other"), f"Beside this one: {key['open_other']}"),
             ("New run on this level", self._begin_new, "Empty; Esc, Leave comes back to this one"),
@@ -163,7 +163,7 @@ class RunCommands(DocumentCommands):
         if own:
             self._offer(own)
         elif self.session.moved:
-            rows: list[Row] = [
+            rows: list[MenuRow] = [
                 ("Edit it on this level", nothing, "Its keys stay; it is saved as a new recording"),
                 ("Leave", self.close, ""),
             ]
@@ -178,7 +178,7 @@ class RunCommands(DocumentCommands):
         return opened.track == session.track and same_level(opened.recording, session.about)
 
     def list_recovered(self) -> None:
-        rows: list[Row] = [
+        rows: list[MenuRow] = [
             (_name_of(run), partial(self._offer, run), _when(run))
             for run in islice(recovered(self.app.player.folder), 8)
         ]

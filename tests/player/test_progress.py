@@ -9,7 +9,7 @@ import pytest
 
 from ninja_game.player.player_data import EPISODE_BEST, NEW_BEST
 from ninja_game.player.playthrough import EpisodeRun, LevelRun, Navigation
-from ninja_game.player.progress import CHEATED, LOCKED, UNLOCKED, Progress, complete_columns, new_unlocks
+from ninja_game.player.progress import CHEATED, LOCKED, UNLOCKED, PackProgress, complete_columns, new_unlocks
 from ninja_game.player.store import Store
 from ninja_game.runs.deaths import SELF
 from ninja_game.sim.rules import LIFETIME
@@ -17,21 +17,21 @@ from tests.support.players import EXIT_TICK, deadly_level, entry, episode, playe
 
 
 @pytest.fixture
-def progress() -> Progress:
-    return Progress(Store(None))
+def progress() -> PackProgress:
+    return PackProgress(Store(None))
 
 
-def pass_levels(progress: Progress, number: int, levels: int = 5, *, legitimate: bool = True) -> None:
+def pass_levels(progress: PackProgress, number: int, levels: int = 5, *, legitimate: bool = True) -> None:
     for level in range(levels):
         progress.level_passed((number, level), legitimate=legitimate)
 
 
-def test_first_episode_of_each_column_is_unlocked_at_the_start(progress: Progress) -> None:
+def test_first_episode_of_each_column_is_unlocked_at_the_start(progress: PackProgress) -> None:
     unlocked = [number for number in range(100) if progress.state(number) == UNLOCKED]
     assert unlocked == list(range(0, 100, 10))
 
 
-def test_passing_an_episode_unlocks_the_next_of_its_column(progress: Progress) -> None:
+def test_passing_an_episode_unlocks_the_next_of_its_column(progress: PackProgress) -> None:
     pass_levels(progress, 20, 4)
     assert progress.state(21) == LOCKED
     pass_levels(progress, 20)
@@ -48,13 +48,13 @@ def test_padlock_says_what_opens_an_episode(tmp_path: Path) -> None:
     data.close()
 
 
-def test_illegitimate_passing_only_moves_reached(progress: Progress) -> None:
+def test_illegitimate_passing_only_moves_reached(progress: PackProgress) -> None:
     pass_levels(progress, 0, legitimate=False)
     assert progress.state(1) == CHEATED
     assert not progress.is_beaten(0)
 
 
-def test_tenth_episode_counts_from_its_last_level_on(progress: Progress) -> None:
+def test_tenth_episode_counts_from_its_last_level_on(progress: PackProgress) -> None:
     for number in range(9):
         pass_levels(progress, number)
     pass_levels(progress, 9, 3)
@@ -68,12 +68,12 @@ def test_tenth_episode_counts_from_its_last_level_on(progress: Progress) -> None
 
 def test_progress_is_read_back(tmp_path: Path) -> None:
     store = Store(tmp_path / "r.sqlite")
-    pass_levels(Progress(store), 0)
+    pass_levels(PackProgress(store), 0)
     store.close()
-    assert Progress(Store(tmp_path / "r.sqlite")).state(1) == UNLOCKED
+    assert PackProgress(Store(tmp_path / "r.sqlite")).state(1) == UNLOCKED
 
 
-def test_replaying_an_old_episode_changes_no_progress(progress: Progress) -> None:
+def test_replaying_an_old_episode_changes_no_progress(progress: PackProgress) -> None:
     pass_levels(progress, 0)
     progress.level_passed((1, 0), legitimate=True)
     before = list(progress.columns)
@@ -166,6 +166,6 @@ def test_deaths_are_counted_by_killer(tmp_path: Path) -> None:
     assert data.statistics.played(run.entry.digest).deaths == 3
 
 
-def test_levels_of_an_episode_count_only_from_the_episode_reached(progress: Progress) -> None:
+def test_levels_of_an_episode_count_only_from_the_episode_reached(progress: PackProgress) -> None:
     progress.level_passed((3, 0), legitimate=True)
     assert progress.columns[0].beaten == (0, 0)

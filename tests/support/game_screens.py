@@ -19,7 +19,7 @@ import pygame
 from numpy.typing import NDArray
 
 from ninja_game import __version__
-from ninja_game.editor.certify import Search, TestMap
+from ninja_game.editor.certify import Certification, TestMap
 from ninja_game.editor.files import Source, draft_of
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.files.user_folder import CHECKOUT, bundled_replays
@@ -379,12 +379,12 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     yield "editor-not-certified"
     run = replace(load_replays(bundled_replays()[0])[0].replay, final_tick=156, gold=0)
     route = ((60.0, 542.0), (120.0, 500.0), (180.0, 540.0))
-    certifier.search = Search(screen.session.draft.level, run, route, end="done")
+    certifier.search = Certification(screen.session.draft.level, run, route, end="done")
     yield "editor-certified"
     driver.mouse(300, 300)
     driver.frames()
     yield "editor-stale-certificate"
-    certifier.search = Search(route=route)
+    certifier.search = Certification(route=route)
     driver.press("f5")
     driver.frames(12)
     yield "editor-test"

@@ -45,7 +45,7 @@ class Inputs(NamedTuple):
 Include = Callable[[str], tuple[str, str]]
 """From a name in a text to a file's path and text. Raises ReplayError."""
 
-Run = tuple[int, str, int]  # keys that are down, "!", "-" or "" as mark, number of ticks
+RepeatedKeys = tuple[int, str, int]  # keys that are down, "!", "-" or "" as mark, number of ticks
 
 
 def read_inputs(lines: Iterable[Line], *, file: str = "", include: Include | None = None) -> Inputs:
@@ -67,10 +67,10 @@ class _Block:
     """Runs and the names of markers, in order; ``ticks``: of all runs. ``place``: where it begins."""
 
     place: tuple[str, int, int]
-    items: list[Run | str] = field(default_factory=list)
+    items: list[RepeatedKeys | str] = field(default_factory=list)
     ticks: int = 0
 
-    def add(self, items: Iterable[Run | str], ticks: int, place: tuple[str, int, int]) -> None:
+    def add(self, items: Iterable[RepeatedKeys | str], ticks: int, place: tuple[str, int, int]) -> None:
         """Append runs of this many ticks. Raises ReplayError for more than a million in all."""
         self.ticks += ticks
         if self.ticks > MAX_TICKS:
@@ -171,7 +171,7 @@ def _end_block(text: str, stack: list[_Block], place: tuple[str, int, int]) -> N
     stack[-1].add(block.items, ticks, place)
 
 
-def _as_inputs(items: Iterable[Run | str]) -> Inputs:
+def _as_inputs(items: Iterable[RepeatedKeys | str]) -> Inputs:
     """Runs as ticks: unmarked, the jump triggers where it is held and was not before. A name's first place counts."""
     keys = bytearray()
     markers: dict[str, Marker] = {}

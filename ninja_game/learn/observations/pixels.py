@@ -52,7 +52,7 @@ class Frame(NamedTuple):
     rounded: int
 
 
-class View(NamedTuple):
+class PixelView(NamedTuple):
     """What pictures show. ``frame``: all of one; ``across``, ``down``: pixels of a level's tiles, with their margin."""
 
     frame: Frame
@@ -251,7 +251,7 @@ class Pixels(Part):
         return (
             observe_pixels,
             context.values(picture, self.box.dtype),
-            View(frame, wide, high, int(self.view is not None), NINJA_SHADE * factor),
+            PixelView(frame, wide, high, int(self.view is not None), NINJA_SHADE * factor),
             Layers(context.changed, layers, context.values(later, np.int16), *context.rows(movers, 1)),
             ObjectTables(*context.rows(objects, 7)),
         )
@@ -283,7 +283,7 @@ def tile_picture(
 @entry_point
 def observe_pixels(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    tiles: Any, view: View, layers: Layers, things: ObjectTables,
+    tiles: Any, view: PixelView, layers: Layers, things: ObjectTables,
 ) -> None:  # fmt: skip
     """Draw the pictures of some worlds: the tiles, copied; the objects in the order of their slots; the ninja.
 

@@ -30,7 +30,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, Row, ask_text, nothing
+from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, MenuRow, ask_text, nothing
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
@@ -125,7 +125,7 @@ class EditorCommands(DocumentCommands):
             "grid": {grid.name: partial(view.show_grid, grid) for grid in GRIDS},
             "snap_next": {snap: partial(setattr, tools, "snap", snap) for snap in SNAPS},
         }
-        rows: list[Row] = [(label[0].upper() + label[1:], do, "") for label, do in steps.get(name, {}).items()]
+        rows: list[MenuRow] = [(label[0].upper() + label[1:], do, "") for label, do in steps.get(name, {}).items()]
         if rows:
             title = {"symmetry": "Mirror", "grid": "Grid", "snap_next": "Snap"}[name]
             now = {"symmetry": tools.symmetry, "grid": view.grid.name, "snap_next": tools.snap}[name]
@@ -207,7 +207,7 @@ class EditorCommands(DocumentCommands):
         if any(finding.code in ("no-ninja", "no-exit") for finding in findings):
             self.app.notify("Place a ninja and an exit with its switch first")
         elif any(level.objects[number].kind == EXIT for number in odd):
-            anyway: Row = "Look for a run anyway", start, "It may be reached in a way nobody expects"
+            anyway: MenuRow = "Look for a run anyway", start, "It may be reached in a way nobody expects"
             self.app.push(Menu(self.app, "The ninja cannot reach the exit or its switch", [anyway, CANCEL]))
         else:
             start()
@@ -270,7 +270,7 @@ class EditorCommands(DocumentCommands):
             return None
         return self.session.source.path or free_path(self._levels, file_stem(self.session.draft.name, "level"), SUFFIX)
 
-    def reload_rows(self, path: Path) -> list[Row]:
+    def reload_rows(self, path: Path) -> list[MenuRow]:
         if path != self.session.source.path or not path.exists():
             return []
         return [("Load it again", lambda: self._load(lambda: self.session.take(open_source(path))), _UNDO)]
@@ -288,7 +288,7 @@ class EditorCommands(DocumentCommands):
                 session.take(source)
                 self.app.notify(f"Another program has changed the file: this is the new level. {_UNDO}")
                 return
-            rows: list[Row] = [
+            rows: list[MenuRow] = [
                 ("Keep what is here", nothing, "Saving asks again"),
                 ("Load the file", lambda: session.take(source), _UNDO),
             ]
@@ -386,7 +386,7 @@ class EditorCommands(DocumentCommands):
 
     def new(self) -> None:
         begin, author = self.session.begin, self.app.settings.name
-        rows: list[Row] = [
+        rows: list[MenuRow] = [
             ("A room", lambda: begin(new_source(author, room=True)), "A floor, the ninja, the exit and its switch"),
             ("Empty", lambda: begin(new_source(author)), "Nothing at all"),
             CANCEL,

@@ -34,7 +34,7 @@ from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
 from ninja_game.play.level.places import Things
 from ninja_game.play.level.sayings import shown_ticks
-from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow, MenuScreen
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME, TICKS_PER_SECOND
@@ -232,7 +232,7 @@ class MessagesScreen(MenuScreen):
             message.detail = {"death": "3", "at": "{},{}".format(*self._here)}.get(when, "")
             self.enter()
 
-        rows: list[Row] = [(name, partial(choose, when), about) for when, (name, about) in _WHEN.items()]
+        rows: list[MenuRow] = [(name, partial(choose, when), about) for when, (name, about) in _WHEN.items()]
         self.app.push(Menu(self.app, "When is it said?", [*rows, CANCEL], at=list(_WHEN).index(message.when)))
 
     @property
@@ -291,7 +291,7 @@ class MessagesScreen(MenuScreen):
 
     def close(self) -> None:
         """Ask what is to become of changes."""
-        rows: list[Row] = [("Keep the changes", self._accept, ""), ("Discard changes", self.app.pop, ""), CANCEL]
+        rows: list[MenuRow] = [("Keep the changes", self._accept, ""), ("Discard changes", self.app.pop, ""), CANCEL]
         if self.source == self._before:
             super().close()
         else:

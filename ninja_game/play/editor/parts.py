@@ -33,7 +33,7 @@ from ninja_game.play.editor.commands import TABLE
 from ninja_game.play.editor.palette_view import PaletteView, live_changes
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
-from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row, ask_text
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow, ask_text
 from ninja_game.play.workspace import Pane
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.rules import CELL
@@ -101,7 +101,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         rows.append(_turning(view))
         rows += [_arranging(tools, head) for head in _ARRANGING]
         remake = partial(_ask_kind, view) if any(map(can_be_remade, tools.subjects)) else None
-        last: list[Row] = [
+        last: list[MenuRow] = [
             ("Move...", partial(_ask_move, view), "Move what is selected by columns and rows, or by px"),
             ("Kind...", remake, "What the selected objects become, in their places: not ninjas, exits, doors"),
             ("Delete", tools.delete, TABLE.hint("delete")),
@@ -150,7 +150,7 @@ def _arranging(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widge
     return _row(buttons, head, 30)
 
 
-def _row(buttons: Sequence[Row], head: str = "", room: int = 0) -> Callable[[Area], Sequence[Widget]]:
+def _row(buttons: Sequence[MenuRow], head: str = "", room: int = 0) -> Callable[[Area], Sequence[Widget]]:
     """Buttons side by side, behind a word with so much room."""
 
     def make(area: Area) -> Sequence[Widget]:
@@ -180,7 +180,7 @@ def _ask_move(view: EditorView) -> None:
 def _ask_kind(view: EditorView) -> None:
     """Ask what the selected objects become."""
     change = view.session.tools.change_each
-    rows: list[Row] = [(kind.capitalize(), partial(change, partial(remade, name=kind)), "") for kind in OTHER_KINDS]
+    rows: list[MenuRow] = [(kind.capitalize(), partial(change, partial(remade, name=kind)), "") for kind in OTHER_KINDS]
     view.app.push(Menu(view.app, "Selected objects become", [*rows, CANCEL]))
 
 

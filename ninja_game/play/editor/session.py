@@ -12,10 +12,10 @@ from ninja_game.document import History
 from ninja_game.editor.certify import (
     STARTS,
     Ask,
+    Certification,
     Certifier,
+    PathPoints,
     Reach,
-    Route,
-    Search,
     TestMap,
     Try,
     find_reach,
@@ -111,11 +111,11 @@ class EditorSession:
         self._checks: NewestJob[Question, Examined] = NewestJob(_examine)
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
-        self._known_runs: NewestJob[tuple[Level, Replay], Search] = NewestJob(lambda known: search_of(*known))
+        self._known_runs: NewestJob[tuple[Level, Replay], Certification] = NewestJob(lambda known: search_of(*known))
         self.start = "off"
         self._start_asked: Ask | None = None
         self.tries: tuple[Try, ...] = ()
-        self.last_try: Route = ()
+        self.last_try: PathPoints = ()
         self._file_stamp, self._looked_at = NO_FILE, 0.0
         self._certified: tuple[object, ...] = ()
         self._asked: Question | None = None
@@ -296,7 +296,7 @@ class EditorSession:
             self._certified = known
             self._keep(path, search)
 
-    def _keep(self, path: Path, search: Search, *, name: str = "") -> None:
+    def _keep(self, path: Path, search: Certification, *, name: str = "") -> None:
         """Put the runs of a search beside a file that holds its level. ``name``: what is left by now, to be told of."""
         from ninja_game.search.certificate import update_certificates
 
@@ -316,7 +316,7 @@ class EditorSession:
                 time = f"certified, {seconds_text(search.run.end_tick)} s, kept with the level" if search.run else ""
                 self.app.notify(f"{name}: {time or f'no run in {search.seconds:.0f} s'}")
 
-    def _file_now(self, path: Path, search: Search) -> NamedLevel | None:
+    def _file_now(self, path: Path, search: Certification) -> NamedLevel | None:
         """The level of a search in its file, or in another of the player's, such as one in a pack; None: it is gone."""
         with suppress(NinjaGameError, OSError):
             if (named := load_levels(path)[0]).level == search.level:

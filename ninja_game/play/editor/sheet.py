@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.editor.certify import Route, TestMap
+from ninja_game.editor.certify import PathPoints, TestMap
 from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
 from ninja_game.formats.ascii.places import Cell, middle_of
@@ -231,7 +231,7 @@ def line_mark(canvas: Canvas, colour: Colour, a: Point, b: Point, width: float =
     return LevelMark(lambda target: target.line(colour, *a, *b, width), tuple(_rects(canvas, a, b)))
 
 
-def route_mark(canvas: Canvas, colour: Colour, route: Route) -> LevelMark:
+def route_mark(canvas: Canvas, colour: Colour, route: PathPoints) -> LevelMark:
     """The route of a run, as far as it is near the level, with a dot at its end."""
     shown = [point for point in route if is_near(*point)]
     if len(shown) < 2:
@@ -309,7 +309,7 @@ def finding_points(level: Level, finding: Finding) -> list[Point]:
 
 def level_marks(
     canvas: Canvas, palette: Palette, draft: Draft, before: Mapping[Hashable, LevelMark], *, lines: bool,
-    routes: Sequence[tuple[Route, Colour]], tests: TestMap, signs: Sequence[Point], said: Sequence[Point],
+    routes: Sequence[tuple[PathPoints, Colour]], tests: TestMap, signs: Sequence[Point], said: Sequence[Point],
     axes: Sequence[tuple[Point, Point]],
 ) -> dict[Hashable, LevelMark]:  # fmt: skip
     """All marks by what they show: equal keys, equal marks. Those of ``before`` are used again."""

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.editor.certify import NO_TESTS, SQUARE, Reach, Route
+from ninja_game.editor.certify import NO_TESTS, SQUARE, PathPoints, Reach
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
@@ -389,7 +389,7 @@ class EditorView(Pane):
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
             return
         self._marked = state
-        routes: list[tuple[Route, Colour]] = [(session.last_try, palette.ghost)]
+        routes: list[tuple[PathPoints, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(
             self.sheet.flat,

@@ -18,7 +18,7 @@ from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, LATE_JUMP, STUCK_AFTER, LevelPlay, Phase
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.menu_screen import Menu, Panel, Row, nothing
+from ninja_game.play.menus.menu_screen import Menu, MenuRow, Panel, nothing
 from ninja_game.play.menus.passed import EpisodePassed
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import SettingsScreen
@@ -181,7 +181,7 @@ class LevelScreen(Screen):
         watch_it = partial(self._watch, run), "See the author of the level do it"
         why = f"after {STUCK_AFTER} failed tries" if run else "no run recorded"
         skip_it = self.go_on, "The next one opens. This one counts only once you pass it"
-        rows: list[Row] = [
+        rows: list[MenuRow] = [
             ("Try again", self.retry, ""),
             ("Watch how", *watch_it) if run and seen else (f"Watch how ({why})", None, ""),
             full if app.settings.game_speed < 100 else slow,
@@ -369,7 +369,7 @@ class PausePanel(Panel):
         super().__init__(app, "Paused")
         self.playing = playing
 
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[MenuRow]:
         playing = self.playing
         practice = playing.context.practice_mode
         skip, helped = (SKIP, playing.skip) if practice else (HELP, partial(playing.ask_for_help, paused=True))

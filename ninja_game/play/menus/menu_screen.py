@@ -279,7 +279,7 @@ PANEL_WIDTH = 300
 ROW = 40
 
 Action = Callable[[], object]
-Row = tuple[str, Action | None, str]
+MenuRow = tuple[str, Action | None, str]
 """Text, action, hint; without an action it is seen, but cannot be chosen: the hint says why."""
 
 
@@ -287,7 +287,7 @@ def nothing() -> None:
     """The action of a button that does nothing but close; what is done behind saving, as a rule."""
 
 
-CANCEL: Row = ("Cancel", nothing, "")
+CANCEL: MenuRow = ("Cancel", nothing, "")
 
 
 class Panel(MenuScreen):
@@ -312,7 +312,7 @@ class Panel(MenuScreen):
     def theme(self) -> Theme:
         return self.app.menu_theme
 
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[MenuRow]:
         raise NotImplementedError
 
     @property
@@ -355,10 +355,10 @@ class Menu(Panel):
     ``at``: the row that has the focus first.
     """
 
-    def __init__(self, app: App, title: str, rows: Sequence[Row], then: Action = nothing, *, at: int = 0) -> None:
+    def __init__(self, app: App, title: str, rows: Sequence[MenuRow], then: Action = nothing, *, at: int = 0) -> None:
         super().__init__(app, title)
         self._then, self._begins = then, at
-        self._rows: list[Row] = [(text, action and self._closing(action), hint) for text, action, hint in rows]
+        self._rows: list[MenuRow] = [(text, action and self._closing(action), hint) for text, action, hint in rows]
 
     def enter(self) -> None:
         first = self.focus is None
@@ -377,13 +377,13 @@ class Menu(Panel):
 
         return close_and_do
 
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[MenuRow]:
         return self._rows
 
 
 def ask_received(app: App, pack: str, copy: Action, change: Action) -> None:
     """Ask whether a copy is changed of what came by a link, or that itself."""
-    rows: list[Row] = [
+    rows: list[MenuRow] = [
         ("Copy it, to change that", copy, "What was received stays as it is"),
         ("Change it all the same", change, "It is yours from now on"),
         CANCEL,
@@ -418,7 +418,7 @@ class FormPanel(Menu):
         self._fields = fields
         super().__init__(app, title, [(yes, lambda: action(self.texts), ""), CANCEL])
 
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[MenuRow]:
         """The buttons, below as many empty rows as there are fields."""
         return [("", nothing, "")] * len(self._fields) + self._rows
 

@@ -26,7 +26,7 @@ PULL = 6
 """px that the mouse moves with its button down before it takes something along."""
 
 
-class Cell(NamedTuple):
+class PackCell(NamedTuple):
     """A place on the shelves or beside them. ``episode``: None in the row for a new one; ``level``: None if free."""
 
     episode: EpisodeIndex | None
@@ -49,17 +49,17 @@ class Rack(ListView):
         status: PackStatus,
         thumbnails: Thumbnails,
         marked: Collection[str],
-        pull: Callable[[Cell, tuple[float, float]], object],
-        choose: Callable[[Cell], object],
+        pull: Callable[[PackCell, tuple[float, float]], object],
+        choose: Callable[[PackCell], object],
     ) -> None:
         super().__init__(area, HIGH, self._draw_cell, lambda index: choose(self.cells[index]), opens=True)
         self.columns, self.status, self.thumbnails, self.pull = columns, status, thumbnails, pull
-        self.cells: Sequence[Cell] = ()
+        self.cells: Sequence[PackCell] = ()
         self.marked, self.lifted, self.gap = marked, set[str](), 0
         self._pressed = (0.0, 0.0)
         self._again = False
 
-    def show(self, cells: Sequence[Cell]) -> None:
+    def show(self, cells: Sequence[PackCell]) -> None:
         self.cells = cells
         self.fill(cells)
 
@@ -85,8 +85,8 @@ class Rack(ListView):
             self.choose(self.index)
 
     @property
-    def chosen(self) -> Cell:
-        return self.cells[self.index] if self.cells else Cell(None)
+    def chosen(self) -> PackCell:
+        return self.cells[self.index] if self.cells else PackCell(None)
 
     def shift(self, index: int) -> float:
         """By how many px a cell makes room."""
@@ -135,7 +135,7 @@ class Rack(ListView):
             canvas.circle(surface, palette.panel, (right - 9, y + 9), 8)
             theme.text(surface, "!", right - 9, y + 3, size=11, bold=True, colour=palette.bad, align="centre")
 
-    def _draw_head(self, surface: pygame.Surface, theme: Theme, cell: Cell, area: Area) -> None:
+    def _draw_head(self, surface: pygame.Surface, theme: Theme, cell: PackCell, area: Area) -> None:
         x, y, w, h = area
         theme.panel(surface, *area)
         if cell.episode is None:

@@ -26,9 +26,9 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
-from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_received, ask_text
+from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, MenuRow, Question, ask_received, ask_text
 from ninja_game.play.menus.pack_list import PackList
-from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Cell, Rack
+from ninja_game.play.menus.pack_shelves import HIGH, WIDE, PackCell, Rack
 from ninja_game.play.menus.packer import PackStatus, packer_of
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.replays import watch
@@ -79,7 +79,7 @@ class PackScreen(ThumbnailScreen):
         self.mine: list[EpisodeSet] = []
         self.sets: list[EpisodeSet] = []
         self.beside = "none"
-        self.held: Cell | None = None
+        self.held: PackCell | None = None
         self.chosen: Widget | None = None
         self.pointer: tuple[float, float] | None = None
         self.marked = set[str]()
@@ -116,13 +116,13 @@ class PackScreen(ThumbnailScreen):
         self.status.show(pack)
         if not self.packer.busy:
             self.packer.follow(next((shelf.pack for shelf in self.mine if shelf.path == self.packer.path), None))
-        cells: list[Cell] = []
+        cells: list[PackCell] = []
         if pack and pack.pack:
             for episode in pack.pack.index.episodes:
                 levels = pack.episodes[episode.number].levels if episode.number in pack.episodes else ()
-                cells += [Cell(episode, head=True), *(Cell(episode, level) for level in levels)]
-                cells += [Cell(episode)] * (LEVELS_PER_EPISODE - len(levels))
-            cells += [Cell(None, head=True), *[Cell(None)] * LEVELS_PER_EPISODE]
+                cells += [PackCell(episode, head=True), *(PackCell(episode, level) for level in levels)]
+                cells += [PackCell(episode)] * (LEVELS_PER_EPISODE - len(levels))
+            cells += [PackCell(None, head=True), *[PackCell(None)] * LEVELS_PER_EPISODE]
         entries: Sequence[Entry] = pack.singles if pack else ()
         if self.beside == "yours":
             entries = self.player.catalogue.own()
@@ -131,7 +131,7 @@ class PackScreen(ThumbnailScreen):
         goals = {"none": "take it out of its episode", "yours": "put it into your folder"}
         self.tray.empty = f"Drag a level here to {goals.get(self.beside, 'put it into this pack')}"
         self.shelves.show(cells)
-        self.tray.show([Cell(None, entry) for entry in entries])
+        self.tray.show([PackCell(None, entry) for entry in entries])
         self.marked &= {level.named.file for level in self._levels()}
         self.redraw = True
 
@@ -293,7 +293,7 @@ class PackScreen(ThumbnailScreen):
         older = [each.pack for each in self.mine if each.pack and each.received and each.pack.name == pack.name]
         if there := next((each for each in self.mine if each.pack and packs.same_pack(pack, each.pack)), None):
             self._read(there.path)
-            rows: list[Row] = [
+            rows: list[MenuRow] = [
                 ("Play it", self._view, "") if there.received else ("Show it as received", self._view, PREVIEW),
                 ("Receive it once more", receive, "Beside this one"),
                 CANCEL,
@@ -342,7 +342,7 @@ class PackScreen(ThumbnailScreen):
         gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
         key, own = (self.pack.key, not self.pack.received) if self.pack else ("", True)
         without = "No episode has levels" * empty
-        rows: list[Row] = [
+        rows: list[MenuRow] = [
             ("Play it", None if empty else lambda: self.app.push(EpisodeGrid(self.app, key)), without),
             *[("Show it as received", None if empty else self._view, without or PREVIEW)] * own,
             ("Name, author, version...", self._form, ""),
@@ -364,7 +364,7 @@ class PackScreen(ThumbnailScreen):
         step = partial(self.do, delete, f"Delete {shown_text(name)}")
         self.app.push(Question(self.app, title, "Delete it", step, hint))
 
-    def _choose(self, cell: Cell) -> None:
+    def _choose(self, cell: PackCell) -> None:
         if self.held:
             self._drop(cell if self.focus is self.shelves else None)
         elif cell.level:
@@ -383,7 +383,7 @@ class PackScreen(ThumbnailScreen):
         numbers = [cell.episode.number for cell in self.shelves.cells if cell.episode]
         return max(numbers, default=0) // EPISODES_PER_COLUMN
 
-    def _level_menu(self, cell: Cell) -> None:
+    def _level_menu(self, cell: PackCell) -> None:
         level, episode = cell.level, cell.episode
         if level is None:
             return
@@ -399,7 +399,7 @@ class PackScreen(ThumbnailScreen):
             if why := play_level(self.app, level):
                 self.app.notify(why)
 
-        rows: list[Row] = [
+        rows: list[MenuRow] = [
             ("Edit", partial(self.change, edit, "Edit") if file.parent == self.path else edit, ""),
             ("Play", play, ""),
             ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
@@ -413,7 +413,7 @@ class PackScreen(ThumbnailScreen):
             rows.append(("Take out", away, "Into no episode") if episode else ("Delete", away, "Undo brings it back"))
         self.app.push(Menu(self.app, title, [*rows, CANCEL]))
 
-    def _away(self, cell: Cell) -> Callable[[], object] | None:
+    def _away(self, cell: PackCell) -> Callable[[], object] | None:
         """What takes a level out of its episode, or one of the player's in none off the disk; None for any other."""
         levels = self._taken(cell.level) if cell.level else []
         title = _called(levels)
@@ -454,10 +454,10 @@ class PackScreen(ThumbnailScreen):
 
         rename, remove = partial(packs.rename_episode, path, number), partial(packs.remove_episode, path, number)
         begin = partial(packs.new_episode, path, column=self._column() + 1)
-        rows: list[Row] = [
+        rows: list[MenuRow] = [
             ("New level...", lambda: self.ask("New level: its name", "New level", level), "Made, and opened"),
             ("Rename...", lambda: self.ask(f"Rename {episode.name}", episode.name, rename), ""),
-            ("Move...", lambda: self._hold(Cell(episode, head=True)), ""),
+            ("Move...", lambda: self._hold(PackCell(episode, head=True)), ""),
             ("Sort by difficulty", sort, "Easiest first, those not measured last"),
             ("Name of the column...", lambda: self.ask("Name of the column", columns[column], name_column), ""),
             ("Begin a column...", lambda: self.ask("Column: first episode", self._next_name, begin), "Beside these"),
@@ -504,7 +504,7 @@ class PackScreen(ThumbnailScreen):
 
     # --- moving ---
 
-    def _pull(self, cell: Cell, pointer: tuple[float, float]) -> None:
+    def _pull(self, cell: PackCell, pointer: tuple[float, float]) -> None:
         """The mouse takes a cell along, or moves on with it."""
         if self.held is None and (cell.level or (cell.head and cell.episode)):
             self.held = cell
@@ -512,7 +512,7 @@ class PackScreen(ThumbnailScreen):
         if (over := self.shelves.at(*pointer)) is not None:
             self.focus, self.shelves.index = self.shelves, over
 
-    def _hold(self, cell: Cell) -> None:
+    def _hold(self, cell: PackCell) -> None:
         self.held = cell
         self.app.notify("Choose its new place; Enter or a click puts it there, Esc leaves it where it is")
 
@@ -524,7 +524,7 @@ class PackScreen(ThumbnailScreen):
         else:
             super().back()
 
-    def _drop(self, goal: Cell | None, *, after: bool = False) -> None:
+    def _drop(self, goal: PackCell | None, *, after: bool = False) -> None:
         held, self.held, self.pointer = self.held, None, None
         levels = self._taken(held.level) if held and held.level else []
         if levels and not (goal and goal.level in levels and len(levels) == 1):
@@ -550,7 +550,7 @@ class PackScreen(ThumbnailScreen):
             index, after = next((k for k in row if not (cells[k].head or cells[k].level)), row[-1]), False
         return index, after
 
-    def _put_levels(self, levels: Sequence[Entry], goal: Cell | None, *, after: bool) -> None:
+    def _put_levels(self, levels: Sequence[Entry], goal: PackCell | None, *, after: bool) -> None:
         target = self.path
         if goal is None and self.beside != "none":
             target = next((pack.path for pack in self.sets if pack.key == self.beside and pack.path), self.folder)
@@ -672,7 +672,7 @@ class PackScreen(ThumbnailScreen):
     def _ask_about(self, ready: ReadyPack) -> None:
         self.packer.open_problems = None
         self._read(ready.pack.files.path)
-        rows: list[Row] = [
+        rows: list[MenuRow] = [
             ("Show the problems", self._show_problems, "Make ready asks again"),
             ("Zip and link all the same", lambda: self.packer.publish(ready), ""),
             CANCEL,

@@ -11,7 +11,7 @@ import pygame
 from ninja_game.files.user_folder import LEVELS, short_path
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App, Screen
-from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 from ninja_game.player.settings import BY_COLUMN, GHOSTS, RULES
@@ -178,7 +178,7 @@ class BindingTable(ListView):
             share()
             return
         labels = " and ".join(ACTIONS[other].label for other in others)
-        rows: list[Row] = [CANCEL, (f"Only {ACTIONS[action].label}", take, ""), ("Use it for both", share, "")]
+        rows: list[MenuRow] = [CANCEL, (f"Only {ACTIONS[action].label}", take, ""), ("Use it for both", share, "")]
         self.screen.app.push(Menu(self.screen.app, f"{input_label(self.device, name)} already means {labels}", rows))
 
     def put(self, action: str, slot: int, name: str) -> None:

@@ -202,7 +202,7 @@ class LevelPart(TasPart):
             self._known, self._positions = known, timeline.positions
         return self._positions
 
-    def _follow_others(self, positions: paths.Positions) -> list[paths.RunPath]:
+    def _follow_others(self, positions: paths.Positions) -> list[paths.OtherRunPath]:
         """The paths of other runs, and of the run before the last edit where it differs; their ghosts go along."""
         editor = self.editor
         kept, self._ghosts = self._ghosts, {}
@@ -222,9 +222,9 @@ class LevelPart(TasPart):
         self.picture.follow(self.ghosts)
         # Not at each tick of a run that is taken over is the other one shorter.
         first, last = paths.shown_span(editor.cursor)
-        other_paths = [paths.RunPath(run.trajectory, colour, first, last) for run, colour in runs]
+        other_paths = [paths.OtherRunPath(run.trajectory, colour, first, last) for run, colour in runs]
         return [
-            paths.RunPath(before, palette.ghost, max(first, at - at % paths.BRIGHT_TICKS - 1), last, paths.FAINT),
+            paths.OtherRunPath(before, palette.ghost, max(first, at - at % paths.BRIGHT_TICKS - 1), last, paths.FAINT),
             *other_paths,
         ]
 

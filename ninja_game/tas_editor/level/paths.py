@@ -41,7 +41,7 @@ def shown_span(cursor: int) -> Span:
     return max(0, middle - 2 * _BLOCK), middle + 4 * _BLOCK
 
 
-class RunPath(NamedTuple):
+class OtherRunPath(NamedTuple):
     """The path of another run in the ticks ``first`` … ``last`` - 1; ``alpha``: of 255, how solid."""
 
     trajectory: Trajectory
@@ -82,7 +82,7 @@ class LevelPaths:
         self._present = PathLayer(canvas, shaded(theme.palette.accent, FAINT), self._px(_THIN))
         self._under = pygame.Surface(canvas.window, pygame.SRCALPHA)
         self._covered = pygame.Rect(0, 0, 0, 0)
-        self._beside: tuple[RunPath, ...] = ()
+        self._beside: tuple[OtherRunPath, ...] = ()
         self._labels: list[pygame.Rect] = []
 
     def _px(self, length: float) -> float:
@@ -93,7 +93,7 @@ class LevelPaths:
         seen = covered.clip(self.canvas.stage)
         surface.blit(layer, seen, seen)
 
-    def draw_beside(self, surface: pygame.Surface, paths: Sequence[RunPath]) -> None:
+    def draw_beside(self, surface: pygame.Surface, paths: Sequence[OtherRunPath]) -> None:
         """The other runs; a picture begins."""
         self._labels.clear()
         if tuple(paths) != self._beside:

@@ -138,7 +138,7 @@ def _draw_line(surface: pygame.Surface, colour: pygame.Color, points: Values, wi
 WatchableObject = tuple[int, int, float, float]  # id, kind, x and y (px) of an object
 
 
-class ObjectList(MenuScreen):
+class ObjectChoice(MenuScreen):
     """All objects. ``choose`` is called with a formula about the one that is chosen."""
 
     title = "Objects of this level"
@@ -299,7 +299,7 @@ class ValuesTab(Tab):
 
     def show_objects(self) -> None:
         """The list of all objects; one that is chosen is proposed to be watched."""
-        self.editor.app.push(ObjectList(self.editor.app, self.editor.session.timeline.objects, self.ask))
+        self.editor.app.push(ObjectChoice(self.editor.app, self.editor.session.timeline.objects, self.ask))
 
     def _toggle(self, index: int) -> None:
         watched = self.watched[index]

@@ -169,7 +169,7 @@ def _jumps_and_chooses(inputs: Inputs, menu: Mapping[str, str]) -> set[str]:
     return {*inputs["jump"]} & chosen
 
 
-class Action(NamedTuple):
+class KeyAction(NamedTuple):
     """``where``: "level", "replay", "run" (either) or "everywhere", menus too; ``label``: for the settings screen.
 
     ``keys``, ``pad``: names of the default inputs.
@@ -181,10 +181,10 @@ class Action(NamedTuple):
     pad: tuple[str, ...] = ()
 
 
-def _read_actions() -> dict[str, Action]:
+def _read_actions() -> dict[str, KeyAction]:
     """The actions of the bundled table, whose head says what its columns are."""
     return {
-        name: Action(where, label, tuple(keys.split()), tuple(" ".join(pad).split()))
+        name: KeyAction(where, label, tuple(keys.split()), tuple(" ".join(pad).split()))
         for name, where, label, keys, *pad in asset_rows("commands/game.txt")
     }
 

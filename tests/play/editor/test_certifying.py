@@ -14,7 +14,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.brush import object_of_type, placed, with_switch
-from ninja_game.editor.certify import LANDED, Ask, Search, find_reach, passed_by, search_of
+from ninja_game.editor.certify import LANDED, Ask, Certification, find_reach, passed_by, search_of
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import open_source
 from ninja_game.editor.specs import BODY, SWITCH, points
@@ -118,12 +118,12 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(room: Maker)
         (Progress(seconds=3.0), run, "Stopped. Certified: 0.975 s"),
         (None, None, "Stopped"),
     ):
-        session.certifier.search = Search(room.draft.level, seconds=20.0, run=best, progress=progress)
+        session.certifier.search = Certification(room.draft.level, seconds=20.0, run=best, progress=progress)
         if progress:
             assert f"text 'Stop {progress.seconds:.0f} s'" in drawn(room.app)
         room.mouse(*next(each for each in room.editor.widgets if getattr(each, "name", "") == "certify").centre)
         assert (room.app.notice, session.certify_text) == (said, "Certify")
-    session.certifier.search = Search(room.draft.level, seconds=20.0, progress=Progress(seconds=1.0))
+    session.certifier.search = Certification(room.draft.level, seconds=20.0, progress=Progress(seconds=1.0))
     room.drag((300, 300))
     assert session.certify_text == "Certify", "it would search the level as it is now"
     assert "The solver looks at" in drawn(room.app), "and so says the card"
@@ -132,10 +132,10 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(room: Maker)
 
 
 def test_a_search_that_waits_is_of_the_level_as_it_is_by_then(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
-    session, asked = room.editor.session, list[Search]()
+    session, asked = room.editor.session, list[Certification]()
     monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
     monkeypatch.setattr(session.certifier.solver.job, "ask", asked.append)
-    monkeypatch.setattr(session.certifier.solver, "at_work", Search(ROOM.level))
+    monkeypatch.setattr(session.certifier.solver, "at_work", Certification(ROOM.level))
     room.press("f7")
     room.drag((300, 300))
     room.chord("z", pygame.KMOD_LCTRL)

@@ -14,7 +14,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, object_type_of, placed
-from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Reach, Search
+from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Certification, Reach
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, open_source
 from ninja_game.editor.specs import SWITCH, points
@@ -364,7 +364,9 @@ def certified(room: Maker, late: int) -> None:
     """Have the solver found a run that begins so many ticks late."""
     session = room.editor.session
     inputs = with_press_bits(bytes(late) + bytes([2]) * 100)
-    session.certifier.search = Search(session.draft.level, run=verified_run(session.draft.level, inputs), end="Done")
+    session.certifier.search = Certification(
+        session.draft.level, run=verified_run(session.draft.level, inputs), end="Done"
+    )
     room.frames()
 
 
@@ -398,7 +400,7 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
     session, level = room.editor.session, room.draft.level
     exit_ = next(number for number, record in enumerate(level.objects) if record.kind == EXIT)
     why = obstacle(level, 0, Progress(untouched=(exit_,)))
-    session.certifier.search = Search(level, seconds=20.0, obstacles=(why,), end="No run in 20 s")
+    session.certifier.search = Certification(level, seconds=20.0, obstacles=(why,), end="No run in 20 s")
     room.wait(lambda: session.findings[:1] == [why], "the problem")
     room.press("f4")
     assert room.editor.view.hint.endswith("Make the way there easier, or give the solver more time.")
@@ -646,7 +648,7 @@ def test_slopes_and_spacing_are_set_in_the_panel_and_the_wheel_bends_a_line(room
 def test_a_new_level_knows_nothing_of_the_one_before(room: Maker) -> None:
     session = room.editor.session
     level, route = session.draft.level, ((60.0, 542.0), (61.0, 542.0))
-    session.certifier.search = Search(level, route=route, end="Done")
+    session.certifier.search = Certification(level, route=route, end="Done")
     session.tried(level, bytes([2] * 20), over=True)
     room.frames(2)
     assert sum(key[0] == "route" and bool(mark.rects) for key, mark in room.editor.view.sheet.marks.items()) == 2  # type: ignore[index]
@@ -836,7 +838,7 @@ def test_what_a_search_has_found_is_kept_when_its_level_is_left(room: Maker, tmp
     room.chord("s", pygame.KMOD_LCTRL)
     kept = tmp_path / "levels" / "certificates" / "room.exit.replay.txt"
     with patch.object(type(certifier.solver.job), "idle", False):
-        certifier.search = Search(session.draft.level)
+        certifier.search = Certification(session.draft.level)
         certifier.search.run = verified_run(session.draft.level, with_press_bits(bytes([2]) * 100))
         room.frames()
         assert certifier.text.endswith(", shortening")
@@ -848,7 +850,7 @@ def test_what_a_search_has_found_is_kept_when_its_level_is_left(room: Maker, tmp
 
 def test_f7_after_a_change_looks_at_the_level_as_it_is(room: Maker) -> None:
     certifier = room.editor.session.certifier
-    asked: list[Search] = []
+    asked: list[Certification] = []
     with (
         patch.object(type(certifier.solver.job), "idle", False),
         patch.object(certifier.solver.job, "ask", asked.append),

@@ -11,7 +11,7 @@ import pygame
 import pytest
 
 from ninja_game.editor.brush import object_of_type
-from ninja_game.editor.certify import Search, search_of
+from ninja_game.editor.certify import Certification, search_of
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.stamp import everything
 from ninja_game.files.user_folder import short_path
@@ -112,7 +112,7 @@ def test_the_certificate_of_the_same_level_counts_wherever_it_lies(
     levels, name = tmp_path / "levels", "00-0-first-steps"
     session, players = room.editor.session, []
 
-    def played(*of: Any) -> Search:
+    def played(*of: Any) -> Certification:
         players.append(current_thread())
         return search_of(*of)
 

@@ -31,7 +31,7 @@ from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
 from ninja_game.play.menus.pack_list import PackList
-from ninja_game.play.menus.pack_shelves import GAP, Cell
+from ninja_game.play.menus.pack_shelves import GAP, PackCell
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
@@ -1032,7 +1032,9 @@ def test_a_card_has_room_for_a_long_name_and_no_gold_where_there_is_none(driver:
     assert level
     assert level.pars
     rich = replace(level, pars=replace(level.pars, gold=level.pars.exit))
-    screen.shelves.show([Cell(None, each) for each in (rich, replace(rich, named=replace(rich.named, level=Level())))])
+    screen.shelves.show(
+        [PackCell(None, each) for each in (rich, replace(rich, named=replace(rich.named, level=Level())))]
+    )
     with patch("ninja_game.play.menus.pack_shelves.draw_all_gold") as mark:
         drawn(driver.app)
     assert mark.call_count == 1

@@ -13,7 +13,7 @@ from ninja_game.play.menus.menu_screen import FormPanel
 from ninja_game.sim.inputs import Input
 from ninja_game.simulation import Simulation
 from ninja_game.tas.tracks import InputTrack
-from ninja_game.tas_editor.tabs.values_tab import ObjectList, TickRange, ValuesTab, shown_value, watched_values
+from ninja_game.tas_editor.tabs.values_tab import ObjectChoice, TickRange, ValuesTab, shown_value, watched_values
 from tests.support.tas_driver import TasDriver
 
 
@@ -71,7 +71,7 @@ def test_what_is_wrong_with_a_formula_is_told_with_its_column_and_asked_again(at
 
 def test_an_object_is_found_by_its_id(at: TasDriver, tab: ValuesTab) -> None:
     at.choose("Objects")
-    assert isinstance(at.top(), ObjectList)
+    assert isinstance(at.top(), ObjectChoice)
     at.press("return")
     form = at.shown(FormPanel)
     at.press("return")
