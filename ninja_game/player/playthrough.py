@@ -173,7 +173,7 @@ class LevelContext:
         return Navigation.BACK
 
 
-class LevelRun(LevelContext):
+class LevelSession(LevelContext):
     """A level by itself (single level, time trial): every attempt starts with the full lifetime.
 
     Its file is read again when it has changed and the level starts again. ``following``: the levels after it in the
@@ -255,7 +255,7 @@ class LevelRun(LevelContext):
                 return
 
 
-class FileRun(LevelRun):
+class FileSession(LevelSession):
     """The levels of a file, one after the other; after the last one the first again."""
 
     def __init__(
@@ -275,7 +275,7 @@ class FileRun(LevelRun):
         return super().advance()
 
 
-class EpisodeRun(LevelContext):
+class EpisodeSession(LevelContext):
     """An episode from its first level on. ``position``: of the present one, from 0.
 
     ``legitimate``: neither practice nor a "cheated" episode; else nothing is a best and only "reached" moves on.
@@ -414,7 +414,7 @@ def note_progress(
         save_unfinished(data.store, following.key if following else "")
 
 
-def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | None:
+def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeSession | None:
     """Where play goes on: behind the level played last, or else in the first episode that has not been passed.
 
     None where there are no episodes.
@@ -427,12 +427,12 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
     chosen = next(iter(opened or ahead or episodes), None)
     if chosen is None:
         return None
-    run = EpisodeRun(data, chosen, practice_mode=practice_mode)
+    run = EpisodeSession(data, chosen, practice_mode=practice_mode)
     run.skip_to_furthest()
     return run
 
 
-def unfinished_run(data: PlayerData, chosen: Episode | None = None) -> EpisodeRun | None:
+def unfinished_run(data: PlayerData, chosen: Episode | None = None) -> EpisodeSession | None:
     """The run of an episode, or of that played last, where it was left; None where it has not been begun or is over."""
     key, replays = load_unfinished(data.store)
     if chosen is None:
@@ -442,7 +442,7 @@ def unfinished_run(data: PlayerData, chosen: Episode | None = None) -> EpisodeRu
         replays = []
     if chosen is None or len(replays) >= len(chosen.levels):
         return None
-    run = EpisodeRun(data, chosen)
+    run = EpisodeSession(data, chosen)
     if replays:
         run.resume(replays)
     else:

@@ -22,7 +22,7 @@ from ninja_game.files.tree import Tree
 from ninja_game.player import backup, schema
 from ninja_game.player.backup import MOST_REPLAYS, MOST_ROWS, _TargetFolder, read_backup, write_backup
 from ninja_game.player.player_data import PlayerData, keep_replay
-from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.playthrough import LevelSession
 from tests.support.level_maker import ROOM
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 
@@ -30,7 +30,7 @@ from tests.support.players import deadly_level, entry, episode, played, player_d
 def filled(folder: Path) -> Path:
     """A player's folder with one of everything; the zip of it."""
     data = player_data(folder)
-    run = LevelRun(data, entry(short_level()))
+    run = LevelSession(data, entry(short_level()))
     assert run.passed(played(short_level()))
     keep_replay(data, played(deadly_level()).replay("dead"))
     levels = episode()
@@ -69,7 +69,7 @@ def test_what_is_better_stays_and_files_of_one_name_stand_beside_each_other(tmp_
     backup = filled(tmp_path / "from")
     here = player_data(tmp_path / "to")
     rich = short_level()
-    run = LevelRun(here, entry(rich))
+    run = LevelSession(here, entry(rich))
     assert run.passed(played(rich))
     here.records.episode_passed(
         episode().key, 1000, [played(each.named.level).replay("mine") for each in episode().levels]
@@ -317,7 +317,7 @@ def test_what_replays_claim_and_do_not_do_is_left_out(tmp_path: Path) -> None:
     data = with_records(filled(tmp_path / "from"), forged, "UPDATE episode_best SET score = 99999")
     here = player_data(tmp_path / "to")
     level = short_level()
-    assert LevelRun(here, entry(level)).passed(played(level))
+    assert LevelSession(here, entry(level)).passed(played(level))
     words = read_backup(here, data)
     assert words[0] == "0 new replays in the records"
     assert [word for word in words if "does not do what it says" in word], words

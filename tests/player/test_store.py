@@ -15,7 +15,7 @@ from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.player import schema
 from ninja_game.player.player_data import PlayerData, keep_replay, save_work
-from ninja_game.player.playthrough import EpisodeRun, LevelRun
+from ninja_game.player.playthrough import EpisodeSession, LevelSession
 from ninja_game.player.progress import UNLOCKED
 from ninja_game.player.schema import VERSION
 from ninja_game.player.store import Store
@@ -25,7 +25,7 @@ from tests.support.players import deadly_level, entry, episode, played, player_d
 def saved_record(folder: Path) -> str:
     """Pass a level in this folder; the level's digest."""
     data = player_data(folder)
-    run = LevelRun(data, entry(short_level()))
+    run = LevelSession(data, entry(short_level()))
     assert run.passed(played(short_level()))
     data.close()
     return run.entry.digest
@@ -129,7 +129,7 @@ def test_failed_change_leaves_nothing_behind(tmp_path: Path) -> None:
 def test_unusable_place_keeps_the_records_in_memory_and_says_so(tmp_path: Path) -> None:
     (tmp_path / "player").write_text("in the way")
     data = player_data(tmp_path / "player")
-    run = LevelRun(data, entry(short_level()))
+    run = LevelSession(data, entry(short_level()))
     notices = run.passed(played(short_level()))
     assert not any("saved" in notice for notice in notices[:-1])
     assert notices[-1].startswith("Not saved yet: the records cannot be opened")
@@ -141,7 +141,7 @@ def test_unusable_place_keeps_the_records_in_memory_and_says_so(tmp_path: Path) 
 def test_what_was_kept_in_memory_is_saved_as_soon_as_the_place_can_be_used(tmp_path: Path) -> None:
     (tmp_path / "player").write_text("in the way")
     data = player_data(tmp_path / "player", episode())
-    EpisodeRun(data, episode()).passed(played(short_level()))
+    EpisodeSession(data, episode()).passed(played(short_level()))
     (tmp_path / "player").unlink()
     assert keep_replay(data, played(deadly_level()).replay()) == "Replay: saved"
     data.close()
@@ -162,7 +162,7 @@ def test_locked_records_hold_nobody_up_and_nothing_is_lost(tmp_path: Path) -> No
     data = player_data(tmp_path, episode())
     assert not data.records.replays()
     other = lock(tmp_path)
-    run = EpisodeRun(data, episode())
+    run = EpisodeSession(data, episode())
     attempt = played(short_level())
     assert data.store.connection.execute("PRAGMA busy_timeout").fetchone() == (200,), "ms"
     assert run.passed(attempt) == ["Not saved yet: database is locked"]
@@ -197,7 +197,7 @@ def test_what_waits_is_saved_at_the_end(tmp_path: Path) -> None:
     data = player_data(tmp_path)
     assert not data.records.replays()
     other = lock(tmp_path)
-    LevelRun(data, entry(short_level())).passed(played(short_level()))
+    LevelSession(data, entry(short_level())).passed(played(short_level()))
     other.execute("ROLLBACK")
     other.close()
     data.close()
@@ -221,7 +221,7 @@ def test_records_that_may_only_be_read_are_shown(tmp_path: Path, monkeypatch: py
 
 def test_failed_commit_advances_nothing(tmp_path: Path) -> None:
     data = player_data(tmp_path, episode())
-    run = EpisodeRun(data, episode())
+    run = EpisodeSession(data, episode())
     # A constraint that is looked at when the transaction ends.
     data.store.connection.executescript(
         "CREATE TABLE a (id INTEGER PRIMARY KEY); CREATE TABLE b (a REFERENCES a DEFERRABLE INITIALLY DEFERRED);"

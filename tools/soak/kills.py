@@ -37,7 +37,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.levels.episodes import Entry
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.playthrough import LevelSession
 from ninja_game.sim.level import Level
 from ninja_game.tas import journal
 from ninja_game.tas.files import open_run
@@ -81,7 +81,7 @@ def play_records(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
     while True:
         level = level_of(rng.randrange(40))
         attempt = passed_attempt(level, rng.randrange(30))
-        LevelRun(data, entry_of(level)).passed(attempt)
+        LevelSession(data, entry_of(level)).passed(attempt)
         pipe.send(("best", level_digest(level), attempt.score))
         pipe.send(("replay", "", data.records.keep_replay(attempt.replay())))
         volume = rng.randrange(100)
@@ -101,7 +101,7 @@ def play_in_window(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
     driver = MenuDriver(folder)
     while True:
         level = level_of(rng.randrange(40))
-        screen = LevelScreen(driver.app, LevelRun(driver.player, entry_of(level)))
+        screen = LevelScreen(driver.app, LevelSession(driver.player, entry_of(level)))
         driver.app.push(screen)
         for _ in range(3):
             driver.keys.script = [1] * rng.randrange(1, 15) + [2] * 120

@@ -25,7 +25,7 @@ from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import PlayerData, keep_replay
-from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
+from ninja_game.player.playthrough import EpisodeSession, LevelContext, LevelSession, Navigation
 from ninja_game.player.progress import opens_author
 from ninja_game.sim.inputs import JUMP_HELD
 from ninja_game.ui.audio.music import BY_COLUMN, SILENCE
@@ -139,19 +139,19 @@ class LevelScreen(Screen):
         elif where is Navigation.NEXT_LEVEL:
             self.app.wipe_from(self)
             self._start_level()
-        elif where is Navigation.BACK and isinstance(self.context, EpisodeRun):
+        elif where is Navigation.BACK and isinstance(self.context, EpisodeSession):
             self._skip_the_last(self.context)
         else:
             self._leave_to(where)
 
-    def _skip_the_last(self, run: EpisodeRun) -> None:
+    def _skip_the_last(self, run: EpisodeSession) -> None:
         """An episode whose last level is left out leads to the next episode."""
         following = run.data.catalogue.following(run.episode)
         if following is None:
             self._leave_to(Navigation.BACK)
             self.app.notify("That was the last episode")
             return
-        afresh = EpisodeRun(run.data, following, practice_mode=run.practice_mode)
+        afresh = EpisodeSession(run.data, following, practice_mode=run.practice_mode)
         self.app.replace(LevelScreen(self.app, afresh))
         self.app.notify(f"Skipped. Now episode {following.code}: {following.name}")
 
@@ -208,7 +208,7 @@ class LevelScreen(Screen):
 
     def _leave_to(self, where: Navigation) -> None:
         app = self.app
-        if where is Navigation.EPISODE_END and isinstance(self.context, EpisodeRun):
+        if where is Navigation.EPISODE_END and isinstance(self.context, EpisodeSession):
             app.replace(EpisodePassed(app, self.context, lambda run: app.replace(LevelScreen(app, run))))
         else:
             app.pop()
@@ -323,7 +323,9 @@ def play_level(
     app: App, entry: Entry, *, practice: bool = False, following: Sequence[Entry] = (), player: PlayerData | None = None
 ) -> str:
     """Play a level by itself, then those that follow it in a list; why that is impossible, or ''."""
-    run = LevelRun(player or app.player, entry, practice_mode=practice or app.settings.practice, following=following)
+    run = LevelSession(
+        player or app.player, entry, practice_mode=practice or app.settings.practice, following=following
+    )
     try:
         app.push(LevelScreen(app, run))
     except LevelError as error:

@@ -18,7 +18,7 @@ from ninja_game.play.menus.problems import of_files, problems_button
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.playthrough import EpisodeRun, unfinished_run
+from ninja_game.player.playthrough import EpisodeSession, unfinished_run
 from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, tally, worst_medal
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR, ListView
@@ -242,7 +242,7 @@ class EpisodeGrid(ThumbnailScreen):
         if self.episode is None or self._state(self.number) == LOCKED:
             return
         practice_mode = self.player.settings.practice
-        afresh = EpisodeRun(self.player, self.episode, practice_mode=practice_mode)
+        afresh = EpisodeSession(self.player, self.episode, practice_mode=practice_mode)
         left = None if practice_mode else unfinished_run(self.player, self.episode)
         if left is None or not left.position:
             self.app.push(LevelScreen(self.app, afresh))

@@ -27,7 +27,7 @@ from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.window import LOGO
-from ninja_game.player.playthrough import EpisodeRun, next_run
+from ninja_game.player.playthrough import EpisodeSession, next_run
 from ninja_game.runtime import in_page_or_not
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.music import MENU
@@ -53,7 +53,7 @@ class MainMenu(MenuScreen):
     def __init__(self, app: App) -> None:
         super().__init__(app)
         self.attract = Attract(app)
-        self.run: EpisodeRun | None = None
+        self.run: EpisodeSession | None = None
         self._lost = ""
 
     @property

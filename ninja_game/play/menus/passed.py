@@ -17,7 +17,7 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
-from ninja_game.player.playthrough import EpisodeRun
+from ninja_game.player.playthrough import EpisodeSession
 from ninja_game.player.progress import Mark, worst_medal
 from ninja_game.player.records import EpisodeBest
 from ninja_game.sim.rules import TICK_MS
@@ -49,7 +49,7 @@ class EpisodePassed(ThumbnailScreen):
     ``medal``: what all its levels have, or better; "" where one has none.
     """
 
-    def __init__(self, app: App, run: EpisodeRun, play: Callable[[EpisodeRun], object]) -> None:
+    def __init__(self, app: App, run: EpisodeSession, play: Callable[[EpisodeSession], object]) -> None:
         super().__init__(app)
         self.run, self.player = run, run.data
         self._play = play
@@ -115,7 +115,7 @@ class EpisodePassed(ThumbnailScreen):
     def go_on(self) -> None:
         if self.next_episode is not None:
             practice_mode = self.player.settings.practice
-            self._play(EpisodeRun(self.player, self.next_episode, practice_mode=practice_mode))
+            self._play(EpisodeSession(self.player, self.next_episode, practice_mode=practice_mode))
 
     def watch(self) -> None:
         if self._best is not None:

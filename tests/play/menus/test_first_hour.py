@@ -33,7 +33,7 @@ from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.rooms import room_level
-from ninja_game.player.playthrough import EpisodeRun, LevelRun
+from ninja_game.player.playthrough import EpisodeSession, LevelSession
 from ninja_game.runs.deaths import SELF
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
 from ninja_game.sim.kinds import EXIT, SWITCH
@@ -128,7 +128,7 @@ def test_text_of_the_start_covers_what_is_solid_and_no_way() -> None:
 def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: MenuDriver) -> None:
     app, hidden, bands, texts = driver.app, [], 0, 0
     for each in app.player.catalogue.ours.levels:
-        play = LevelScreen(app, LevelRun(app.player, each)).play
+        play = LevelScreen(app, LevelSession(app.player, each)).play
         shown = hud_view(play).said
         run = app.player.catalogue.author_run(each)
         if shown is None or run is None:
@@ -252,7 +252,7 @@ def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, 
 
 
 def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
-    run = LevelRun(driver.player, entry(deadly_level()))
+    run = LevelSession(driver.player, entry(deadly_level()))
     driver.app.push(LevelScreen(driver.app, run))
     level = driver.shown(LevelScreen)
     texts = []
@@ -324,11 +324,11 @@ def test_texts_of_a_level_come_back_after_its_author_was_watched(driver: MenuDri
 
 
 def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
-    level = LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level())))
+    level = LevelScreen(driver.app, LevelSession(driver.player, entry(deadly_level())))
     level.play.killer = SELF
     assert cause_of_death(level.play) == f"You hit the ground too hard. {FALL_HELP}"
     driver.player.marks.passed(level.context.entry.digest, 100, 0)
-    level = LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level())))
+    level = LevelScreen(driver.app, LevelSession(driver.player, entry(deadly_level())))
     level.play.killer = SELF
     assert cause_of_death(level.play) == "You hit the ground too hard."
 
@@ -416,7 +416,7 @@ def test_gold_medal_opens_the_authors_run(driver: MenuDriver) -> None:
 def test_level_without_its_certificate_races_the_best_run(driver: MenuDriver) -> None:
     driver.app.change_settings(ghost="gold")
     own = replace(entry(short_level()), source="yours")
-    assert LevelRun(driver.player, own).ghosts() == []
+    assert LevelSession(driver.player, own).ghosts() == []
 
 
 def stuck_level(driver: MenuDriver) -> LevelScreen:
@@ -446,7 +446,7 @@ def test_nobody_is_stopped_by_one_level(driver: MenuDriver) -> None:
     ]  # fmt: skip
     driver.choose("Skip this level")
     run = level.context
-    assert isinstance(run, EpisodeRun)
+    assert isinstance(run, EpisodeSession)
     assert driver.top() is level
     assert run.position == 1
     assert not run.whole
@@ -554,7 +554,7 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
 def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
     driver: MenuDriver, place: tuple[float, float], words: int
 ) -> None:
-    level, text = LevelScreen(driver.app, LevelRun(driver.player, entry(short_level()))), " ".join(["word"] * words)
+    level, text = LevelScreen(driver.app, LevelSession(driver.player, entry(short_level()))), " ".join(["word"] * words)
     level.play.sayings._say((text, 99, place))
     level.play.about = (10.0, 10.0)
     view = hud_view(level.play)
@@ -665,7 +665,7 @@ def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: Men
     driver.press("return")
     level = driver.shown(LevelScreen)
     run = level.context
-    assert isinstance(run, EpisodeRun)
+    assert isinstance(run, EpisodeSession)
     count = len(run.episode.levels)
     for _ in range(count):
         driver.press("n")
@@ -673,7 +673,7 @@ def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: Men
     following = driver.player.catalogue.following(run.episode)
     assert following
     after = driver.shown(LevelScreen).context
-    assert isinstance(after, EpisodeRun)
+    assert isinstance(after, EpisodeSession)
     assert (after.episode.key, after.position) == (following.key, 0)
     assert driver.app.notice == f"Skipped. Now episode {following.code}: {following.name}"
     last = driver.shown(LevelScreen)

@@ -16,7 +16,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.passed import FEAST_TICKS, EpisodePassed
 from ninja_game.play.rooms import room_level
 from ninja_game.play.window import WIPE_MS
-from ninja_game.player.playthrough import EpisodeRun, LevelRun
+from ninja_game.player.playthrough import EpisodeSession, LevelSession
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from ninja_game.sim.kinds import EXIT
 from ninja_game.simulation import Simulation
@@ -120,7 +120,7 @@ def test_an_episode_passed_is_a_feast_unless_motion_is_reduced(driver: MenuDrive
     for each in episode.levels:
         assert each.pars
         driver.player.marks.passed(each.digest, each.pars.par("silver"), 0)
-    run = EpisodeRun(driver.player, episode)
+    run = EpisodeSession(driver.player, episode)
     screen = EpisodePassed(driver.app, run, lambda _: None)
     driver.app.push(screen)
     driver.frames(FEAST_TICKS + 2)
@@ -236,7 +236,7 @@ def test_wipe_shows_both_pictures_and_delays_no_key(driver: MenuDriver) -> None:
 
 
 def test_cause_of_death_stands_large_at_once(driver: MenuDriver) -> None:
-    driver.app.push(LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level()))))
+    driver.app.push(LevelScreen(driver.app, LevelSession(driver.player, entry(deadly_level()))))
     level = driver.shown(LevelScreen)
     level.begin()
     driver.keys.script = [2] * 60
@@ -294,7 +294,7 @@ def test_panel_of_an_end_leaves_free_where_the_run_ended(driver: MenuDriver, siz
 @pytest.mark.parametrize("shake", [0, 100])
 def test_explosion_shakes_the_picture_as_much_as_is_wished(driver: MenuDriver, shake: int) -> None:
     driver.app.change_settings(shake=shake)
-    driver.app.push(LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level()))))
+    driver.app.push(LevelScreen(driver.app, LevelSession(driver.player, entry(deadly_level()))))
     level = driver.shown(LevelScreen)
     level.begin()
     driver.keys.script = [2] * 60
