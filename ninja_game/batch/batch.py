@@ -40,6 +40,9 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.simulation import is_box
 
+Keys = NDArray[np.uint8]
+"""Keys that are down, one byte per tick or choice: a sum of left, right and jump."""
+
 __all__ = ["OBJECT_FIELDS", "OUTCOME_NAMES", "Batch", "BatchState"]
 
 Indices = NDArray[np.intp]  # indices of worlds or levels
@@ -178,7 +181,7 @@ class Batch:
             ticks += pool.share(work, self.count, len(part))
         return ticks
 
-    def _pressed(self, keys: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    def _pressed(self, keys: Keys) -> Keys:
         """The keys with JUMP_PRESSED in every tick in which the jump key goes down, and in no other."""
         held = keys & JUMP_HELD
         before = np.vstack([self.records["ninja"]["jump_held"].astype(np.uint8) * JUMP_HELD, held[:-1]])

@@ -11,6 +11,7 @@ from random import Random
 from threading import Event
 
 from ninja_game.batch.difficulty import TRIES, difficulty
+from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.replay.text import Replay
 from ninja_game.generator.compose import compose
@@ -18,7 +19,7 @@ from ninja_game.generator.gold import lay_trails
 from ninja_game.generator.layouts import LAYOUTS, name_for
 from ninja_game.generator.obstacles import more_beside, nearest_hazard
 from ninja_game.generator.packed import named_level
-from ninja_game.generator.scene import Point, Scene
+from ninja_game.generator.scene import Scene
 from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import UnverifiedRunError, verified_run

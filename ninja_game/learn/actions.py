@@ -7,12 +7,10 @@ from typing import Any
 import numpy as np
 from gymnasium.error import InvalidAction
 from gymnasium.spaces import Discrete, MultiBinary, Space
-from numpy.typing import NDArray
 
+from ninja_game.batch.batch import Keys
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
-
-Keys = NDArray[np.uint8]
 
 ACTION_NAMES = ("left", "none", "right", "left+jump", "jump", "right+jump")
 """The discrete actions, by number: 3 * jump + (0 left, 1 none, 2 right)."""

@@ -22,10 +22,9 @@ from numpy.typing import NDArray
 
 from ninja_game.backend.memories import open_worlds
 from ninja_game.backend.plain import save_plain
-from ninja_game.batch.batch import Indices, WorldChoice, numbers_of
+from ninja_game.batch.batch import Indices, Keys, WorldChoice, numbers_of
 from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.actions import Keys
 from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.levels.origins import Origin, level_source
 from ninja_game.learn.levels.source import LevelChoice, LevelSequences

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.batch.batch import Keys
 from ninja_game.search.heuristics import UNREACHED, open_mask
 from ninja_game.search.nodes import Start, copy_words
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bit
@@ -30,7 +31,7 @@ class KnownRun(NamedTuple):
     """A run of n ticks to the exit. Row k is what is so after k ticks; row 0 is the start."""
 
     moves: NDArray[np.float64]  #: x, y (px), velocity (px/tick); (n + 1, 4)
-    keys: NDArray[np.uint8]  #: of each tick, without triggers
+    keys: Keys  #: of each tick, without triggers
     masks: NDArray[np.int64]  #: what is open
     gold: NDArray[np.int64]  #: pieces that whoever is as far must have collected
     span: tuple[int, int]  #: its first tick, and the tick behind its last, in which a search may fall behind the run

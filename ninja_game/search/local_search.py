@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import compiled
+from ninja_game.batch.batch import Keys
 from ninja_game.search.heuristics import UNREACHED
-from ninja_game.search.macros import Keys
 from ninja_game.search.nodes import MUTATIONS, RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.kinds import EXIT

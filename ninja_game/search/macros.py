@@ -9,16 +9,11 @@ from __future__ import annotations
 
 from functools import cache
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ninja_game.batch.batch import Keys
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bit
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.world import step
-
-Keys = NDArray[np.uint8]
-"""Keys that are down, one byte per tick: a sum of left, right and jump."""
 
 RELEASED, PRESSED, PRESSED_AGAIN = 0, 1, 2
 """Modes of the jump key: up; down (a press if it was up); up for one tick, then down."""

@@ -14,13 +14,14 @@ import pygame
 from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError, reason
+from ninja_game.formats.ascii.places import Point
 from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, Pane
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.session import Session
 from ninja_game.tas.timeline import Timeline, Trajectory
 from ninja_game.tas.tracks import InputTrack
-from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Widget
 

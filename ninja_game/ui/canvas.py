@@ -7,10 +7,11 @@ from math import log
 
 import pygame
 
+from ninja_game.formats.ascii.places import Point
+
 WIDTH, HEIGHT = 792, 600
 """Logical size of the stage, px."""
 
-Point = tuple[float, float]
 Colour = str | tuple[int, int, int] | tuple[int, int, int, int] | pygame.Color
 
 

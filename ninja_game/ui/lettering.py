@@ -15,7 +15,8 @@ import pygame
 
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import asset_lines
-from ninja_game.ui.canvas import Canvas, Colour, Point, draw_limb
+from ninja_game.formats.ascii.places import Point
+from ninja_game.ui.canvas import Canvas, Colour, draw_limb
 
 _KEPT = 400  # texts kept; a changing time adds one a picture
 

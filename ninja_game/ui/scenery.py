@@ -8,7 +8,8 @@ from math import cos, pi, sin
 
 import pygame
 
-from ninja_game.ui.canvas import Colour, Point
+from ninja_game.formats.ascii.places import Point
+from ninja_game.ui.canvas import Colour
 from ninja_game.ui.theme import GROUND_ROLES, Palette, mixed
 
 # The sheet on which the layers are painted, px.

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import pygame
 
+from ninja_game.formats.ascii.places import Point
 from ninja_game.player.settings import Settings
 from ninja_game.sim.events import DIED, MINE_EXPLODED, ROCKET_EXPLODED
 from ninja_game.sim.kinds import EXIT
@@ -18,7 +19,7 @@ from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.player import AudioOutput
 from ninja_game.ui.audio.table import warning_of
-from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.theme import Palette, Theme, palette_named
 from ninja_game.view.effects.effects import Effects
 from ninja_game.view.effects.particles import Particles

@@ -13,7 +13,7 @@ from ninja_game.editor.brush import EMPTY
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import BODY, SWITCH, object_type_name, points
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
+from ninja_game.formats.ascii.places import Cell, Point, cell_of, is_inside, middle_of
 from ninja_game.formats.messages import (
     BAR,
     KEYS,
@@ -39,7 +39,7 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
-from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Area, Palette, Theme, inside

@@ -14,13 +14,13 @@ from ninja_game.editor.motion import TILE_IDS
 from ninja_game.editor.specs import BODY, points, properties, word
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.places import Cell, cell_of
+from ninja_game.formats.ascii.places import Cell, Point, cell_of
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
 from ninja_game.sim.rules import CELL
 from ninja_game.sim.states import TRAP
 from ninja_game.simulation import Simulation
-from ninja_game.ui.canvas import Canvas, Point
+from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.keys import key_label_of
 from ninja_game.ui.theme import PALETTES, Area, Palette, Theme, inside, mixed
 from ninja_game.ui.widgets import Widget

@@ -16,7 +16,7 @@ import pygame
 from ninja_game.editor.certify import PathPoints, TestMap
 from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
-from ninja_game.formats.ascii.places import Cell, middle_of
+from ninja_game.formats.ascii.places import Cell, Point, middle_of
 from ninja_game.formats.messages import parse_messages
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
@@ -24,7 +24,7 @@ from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.rules import CELL, STRIDE
-from ninja_game.ui.canvas import Canvas, Colour, Lens, Point
+from ninja_game.ui.canvas import Canvas, Colour, Lens
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import DrawTarget, is_near, shared_book
 from ninja_game.view.sprites.tile_sheet import TileSheet, around, scrolled

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from ninja_game.backend.plain import restore_plain, save_plain
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
+from ninja_game.formats.ascii.places import Point
 from ninja_game.play.lab.cells import BODIES
 from ninja_game.play.lab.figure import ELSEWHERE, Call, Control, Figure, FigureSetting, Sheet, View, room_world, watch
 from ninja_game.play.rooms import room_level
@@ -21,7 +22,6 @@ from ninja_game.sim.level import BODIES as BODY_NAMES
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import RADIUS
 from ninja_game.simulation import Simulation
-from ninja_game.ui.canvas import Point
 
 COLUMN, ROW = 8, 5
 

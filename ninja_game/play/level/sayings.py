@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import hypot
 
+from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.messages import NEAR, LevelMessage, arrow_targets
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
 from ninja_game.sim.states import SLIDING
-from ninja_game.ui.canvas import Point
 
 SHOWN_TICKS = 240  # for which a text stays after its event
 START_TICKS = 480  # likewise, in play those of the start and of the switch, which tell the way

@@ -11,6 +11,7 @@ from ninja_game.editor.files import recovered
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import bundled_replays
+from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.episodes import Entry, Mood
@@ -31,7 +32,7 @@ from ninja_game.player.playthrough import EpisodeSession, next_run
 from ninja_game.runtime import in_page_or_not
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.music import MENU
-from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
+from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.level_view import LevelView

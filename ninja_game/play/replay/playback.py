@@ -9,6 +9,7 @@ from random import Random
 import pygame
 
 from ninja_game.budget import TURN_WORK, tick_cost
+from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.save_states import SPACING, SaveStates
 from ninja_game.sim.inputs import MAX_TICKS
@@ -16,7 +17,6 @@ from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import SaveState, Simulation
-from ninja_game.ui.canvas import Point
 from ninja_game.ui.theme import RUN_COLOURS, Palette, Theme
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.view.sprites.drawing import is_near

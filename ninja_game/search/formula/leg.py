@@ -7,7 +7,8 @@ from functools import partial
 import numpy as np
 
 from ninja_game.backend.memories import compiled
-from ninja_game.search.formula.task import Keys, SpanTask
+from ninja_game.batch.batch import Keys
+from ninja_game.search.formula.task import SpanTask
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.known_run import known_run, play_known
 from ninja_game.search.legs import UNBOUNDED, FieldOf, Leg, Spend

@@ -9,11 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import compiled
-from ninja_game.batch.batch import Batch
+from ninja_game.batch.batch import Batch, Keys
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.leg import LegSearch
 from ninja_game.search.formula.task import (
-    Keys,
     ReportMiss,
     ReportResults,
     SpanResult,

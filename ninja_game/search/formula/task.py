@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.batch.batch import Batch
+from ninja_game.batch.batch import Batch, Keys
 from ninja_game.errors import ArgumentError
 from ninja_game.search.certificate import without_idle_keys
 from ninja_game.search.formula.language import UNTRUE, Formula, FormulaError, Values, parse_number, parse_truth
@@ -17,9 +17,6 @@ from ninja_game.search.formula.names import FACTS, SPAN_NAMES, UNREACHABLE, diff
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Body, Level
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
-
-Keys = NDArray[np.uint8]
-"""Keys that are down, a sum of left, right and jump."""
 
 LONGEST_SPAN = 4000
 """Ticks of a span."""

@@ -10,6 +10,7 @@ from math import hypot
 import numpy as np
 import pygame
 
+from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.replay.notations import KEY_NAMES
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.workspace import Commands
@@ -22,7 +23,6 @@ from ninja_game.tas_editor.level.other_runs import OtherRuns
 from ninja_game.tas_editor.level.picture import LevelPicture, RunGhost
 from ninja_game.tas_editor.level.playing import Playing, TakeOver
 from ninja_game.tas_editor.tabs.values_tab import colour_of, proposal
-from ninja_game.ui.canvas import Point
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
 from ninja_game.view.overlays import OVERLAY_ACTIONS

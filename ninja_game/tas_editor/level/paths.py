@@ -9,13 +9,14 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
+from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.replay.notations import Marker
 from ninja_game.play.replay.paths import draw_path
 from ninja_game.sim.rules import RADIUS
 from ninja_game.simulation import ObjectView
 from ninja_game.tas.timeline import Trajectory
 from ninja_game.tas_editor.editor import Span
-from ninja_game.ui.canvas import Canvas, Point
+from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import Theme
 
 Positions = NDArray[np.float64]

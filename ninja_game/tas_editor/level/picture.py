@@ -6,12 +6,13 @@ from random import Random
 
 import pygame
 
+from ninja_game.formats.ascii.places import Point
 from ninja_game.sim.inputs import fit_inputs
 from ninja_game.sim.memory.schema import World
 from ninja_game.simulation import SaveState, Simulation
 from ninja_game.tas.timeline import Trajectory
 from ninja_game.tas_editor.editor import TasEditor
-from ninja_game.ui.canvas import Camera, Canvas, Point
+from ninja_game.ui.canvas import Camera, Canvas
 from ninja_game.ui.theme import Palette
 from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation

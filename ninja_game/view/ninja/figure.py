@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.ui.canvas import Point
+from ninja_game.formats.ascii.places import Point
 from ninja_game.ui.theme import Palette, mixed
 from ninja_game.view.sprites.sketch import Sketch, Sprite
 

@@ -6,7 +6,8 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.ui.canvas import LARGEST_SCALE, Point
+from ninja_game.formats.ascii.places import Point
+from ninja_game.ui.canvas import LARGEST_SCALE
 from tests.support.tas_driver import TasDriver
 
 
