@@ -219,20 +219,25 @@ class Certifier:
         if search.end or search.level is None:
             return search.end
         if search.progress is None:
-            queued = self.waited[0] == "#"
-            waits = f"Another level's search comes first: {self.waited} in the queue" if queued else COMPILING
+            place = self.place_in_queue
+            waits = f"Another level's search comes first: #{place} in the queue" if place else COMPILING
             return f"{waits}. Go on editing, or save and leave"
         ticks = search.progress.ticks
         tried = f"{ticks / 1e6:.1f} million" if ticks >= 1e6 else f"{ticks // 1000} thousand"
         return f"Looking for a run: {tried} ticks tried"
 
     @property
+    def place_in_queue(self) -> int:
+        """Its place among the searches that wait, from 1; 0 while it is at work."""
+        queued = self.search is not self.solver.at_work and not self.solver.at_work.end
+        return queued * (1 + sum(not other.end for other in self.solver.left))
+
+    @property
     def waited(self) -> str:
         """Its place in the queue, or for how long it has been at work."""
-        search, solver = self.search, self.solver
-        if search is not solver.at_work and not solver.at_work.end:
-            return f"#{1 + sum(not other.end for other in solver.left)}"
-        return f"{search.progress.seconds if search.progress else monotonic() - search.began:.0f} s"
+        search, place = self.search, self.place_in_queue
+        seconds = search.progress.seconds if search.progress else monotonic() - search.began
+        return f"#{place}" if place else f"{seconds:.0f} s"
 
     @property
     def busy(self) -> bool:

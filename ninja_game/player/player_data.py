@@ -132,12 +132,14 @@ class PlayerData:
         episode = None if mark else self.catalogue.episode_of(entry)
         if episode and entry.position and self.beaten_in(episode) > entry.position:
             return "Skipped, not passed yet"
-        run = self._certificate(entry) if mark is None and self._is_maker and self.catalogue.is_own(entry) else None
+        run = None if mark else self.own_certificate(entry)
         certified = f"Certified: {seconds_text(run.end_tick)} s" if run else ""
         return progress.reached(entry, mark) or certified or "Not passed yet"
 
-    def _certificate(self, entry: Entry) -> Replay | None:
-        """A level's certificate to the exit, read again when its file has changed: lists ask in each picture."""
+    def own_certificate(self, entry: Entry) -> Replay | None:
+        """The certificate to the exit of a level that the player has made; lists ask in each picture."""
+        if not self._is_maker or not self.catalogue.is_own(entry):
+            return None
         file = Path(entry.named.file)
         stamp = file, stamp_of(file.parent / certificate_name(file.name, "exit"))
         if self._certified.get(entry.digest, ("", None))[0] != stamp:
@@ -179,10 +181,9 @@ class PlayerData:
             self._store.close()
 
 
-SAVED = ": saved"
 OF_A_LEVEL = NEW_BEST, FIRST_PASS, NEW_MEDAL, NEW_ALL_GOLD = "Your best time", "First pass", "New medal", "All gold"
 EPISODE_BEST = "Your best for this episode"
-REPLAY_KEPT = "Replay" + SAVED
+REPLAY_KEPT = "Replay: saved"
 NOT_SAVED = "Not saved yet: {}"
 
 
@@ -206,11 +207,9 @@ def forget_replay(data: PlayerData, number: int) -> str:
 
 
 def save_work(data: PlayerData, work: Work) -> list[str]:
-    """Save ``work``; its notices, none of which says "saved" about what is not on the disk."""
+    """Save ``work``; its notices, and at the end why it is not on the disk, if so."""
     notices, problem = data.store.save(work)
-    if not problem:
-        return list(notices)
-    return [*(notice.removesuffix(SAVED) for notice in notices), NOT_SAVED.format(problem)]
+    return [*notices, *([NOT_SAVED.format(problem)] if problem else [])]
 
 
 def replay_of(data: PlayerData, entry: Entry, attempt: Attempt) -> Replay:

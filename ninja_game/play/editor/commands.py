@@ -198,8 +198,7 @@ class EditorCommands(DocumentCommands):
         level = self.session.draft.level
         if certifier.busy and not certifier.is_stale(level):
             certifier.stop()
-            text = certifier.text
-            self.app.notify(text if text.startswith("Stopped") else f"Stopped. {text}", here=True)
+            self.app.notify("Stopped. " * (certifier.search.run is not None) + certifier.text, here=True)
             return
         start, findings = partial(certifier.start, level), self.session.examine()
         odd = [number for finding in findings if finding.code in UNREACHABLE for number in finding.records]

@@ -284,7 +284,7 @@ class Browser(ThumbnailScreen):
         if mark:
             time = f"{seconds_text(mark.fastest)} s"
             theme.text(surface, time, x + w - 8, y + 11, size=12, colour=palette.good, align="right", width=100)
-        elif self.player.reached(entry, None).startswith("Certified"):
+        elif self.player.own_certificate(entry):
             theme.text(surface, "certified", x + w - 8, y + 11, size=10, colour=palette.good, align="right", width=100)
         all_gold_and_medal(surface, theme, entry, mark, x + w - 16, y + 37)
 
