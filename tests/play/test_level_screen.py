@@ -240,7 +240,7 @@ def test_it_says_what_the_ninja_died_of(stage: tuple[App, ScriptedControls], rec
     screen.play._note_end()
     frames(app, DEATH_PAUSE + 4)
     assert screen.play.crushed
-    assert cause_of_death(screen.play) == "You were crushed."
+    assert cause_of_death(screen.play) == ("You were crushed", "")
 
 
 def test_the_time_bar_is_linear_and_what_gold_adds_to_a_full_one_is_seen(app: App) -> None:

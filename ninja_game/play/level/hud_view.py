@@ -47,8 +47,8 @@ def hud_view(play: LevelPlay) -> HudView:
     where = context.level.tiles, play.things, place or play.about, covers, place is not None
     message_said = Said(named_keys(text, key), *where) if text else None
     if play.phase is Phase.DEAD:
-        cause, _, why = cause_of_death(play).partition(". ")
-        end = EndPanel(cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], *_covering(play))
+        cause, help_text = cause_of_death(play)
+        end = EndPanel(cause, [*filter(None, [help_text]), _after_death(play, key)], *_covering(play))
     if play.phase is Phase.PASSED:
         next_label = "go on" if context.way_out is Navigation.EPISODE_END else context.next_label
         keys = f"{key('confirm')}: {next_label}    {key('retry')}: play again    {key('replay')}: replay"
@@ -160,13 +160,14 @@ def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> st
     return begin
 
 
-def cause_of_death(play: LevelPlay) -> str:
+def cause_of_death(play: LevelPlay) -> tuple[str, str]:
+    """The cause of the ninja's death, and what helps against it, "" where the level has been passed."""
     if play.attempt.self_inflicted:
-        return "You gave up."
+        return "You gave up", ""
     if play.killer != SELF:
-        return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.sayings.helps
+        return f"Killed by a {play.killer}", WHY[play.killer] * play.sayings.helps
     if play.crushed:
-        return "You were crushed."
+        return "You were crushed", ""
     if play.attempt.lifetime <= 0:
-        return "Out of time."
-    return "You hit the ground too hard." + f" {FALL_HELP}" * play.sayings.helps
+        return "Out of time", ""
+    return "You hit the ground too hard", FALL_HELP * play.sayings.helps

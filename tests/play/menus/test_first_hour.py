@@ -264,8 +264,8 @@ def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDrive
         assert level.phase is Phase.DEAD
         texts.append(cause_of_death(level.play))
         level.retry()
-    tip = "Killed by a mine. Mines never move: give them some room."
-    assert texts == [tip, tip, "Killed by a mine."]
+    tip = "Killed by a mine", "Mines never move: give them some room."
+    assert texts == [tip, tip, ("Killed by a mine", "")]
 
 
 def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(driver: MenuDriver) -> None:
@@ -326,11 +326,11 @@ def test_texts_of_a_level_come_back_after_its_author_was_watched(driver: MenuDri
 def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
     level = LevelScreen(driver.app, LevelSession(driver.player, entry(deadly_level())))
     level.play.killer = SELF
-    assert cause_of_death(level.play) == f"You hit the ground too hard. {FALL_HELP}"
+    assert cause_of_death(level.play) == ("You hit the ground too hard", FALL_HELP)
     driver.player.marks.passed(level.context.entry.digest, 100, 0)
     level = LevelScreen(driver.app, LevelSession(driver.player, entry(deadly_level())))
     level.play.killer = SELF
-    assert cause_of_death(level.play) == "You hit the ground too hard."
+    assert cause_of_death(level.play) == ("You hit the ground too hard", "")
 
 
 def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) -> None:
@@ -653,12 +653,14 @@ def test_text_of_the_start_covers_no_name_of_a_thing(driver: MenuDriver) -> None
     level = driver.shown(LevelScreen)
     play, hud = level.play, Hud(driver.app.theme)
     text, tiles, *_ = hud_view(play).said or ("", ())
-    for o in play.attempt.simulation.world.objects[1:]:
-        if o.kind in {SWITCH, EXIT}:
-            lines, left, y, w, high, margin, _ = hud.box(Said(text, tiles, play.things, None, covers=True))
-            middle = tag_top(o.y) + 8
-            assert not (left < o.x < left + w and y < middle < y + high * len(lines) + 2 * margin)
-            assert (o.x - 12, middle, MUST) in play.things
+    named = [o for o in play.attempt.simulation.world.objects[1:] if o.kind in {SWITCH, EXIT}]
+    assert text
+    assert len(named) == 2
+    for o in named:
+        lines, left, y, w, high, margin, _ = hud.box(Said(text, tiles, play.things, None, covers=True))
+        middle = tag_top(o.y) + 8
+        assert not (left < o.x < left + w and y < middle < y + high * len(lines) + 2 * margin)
+        assert (o.x - 12, middle, MUST) in play.things
 
 
 def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: MenuDriver) -> None:
