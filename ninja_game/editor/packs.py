@@ -27,7 +27,7 @@ from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path, install_hint
 from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_COLUMNS, parse_index
 from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_FILES, PARS, RECEIVED, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.episodes import episode_set
@@ -278,11 +278,12 @@ def new_episode(path: Path, name: str, column: int) -> int:
 
 def _free_number(numbers: set[int], column: int) -> int:
     """The number behind the last one of a column, or the first that is free."""
-    places = range(column * EPISODES_PER_COLUMN, min(MOST_EPISODES, (column + 1) * EPISODES_PER_COLUMN))
+    places = range(column * EPISODES_PER_COLUMN, min(column + 1, MOST_COLUMNS) * EPISODES_PER_COLUMN)
     last = max((number for number in numbers if number in places), default=places.start - 1)
     free = [number for number in places if number not in numbers]
     if not free:
-        raise PackError(f"column {column + 1} is full", expected="at most ten episodes in each of ten columns")
+        most = f"at most {EPISODES_PER_COLUMN} episodes in each of {MOST_COLUMNS} columns"
+        raise PackError(f"column {column + 1} is full", expected=most)
     return next((number for number in free if number > last), free[0])
 
 

@@ -6,13 +6,11 @@ import re
 from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
-from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_COLUMNS
 from ninja_game.formats.pack.pars import MEDALS, Pars
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.player.store import Store
-
-COLUMNS = 10
 
 COLOURS = 9  # colours of the ninja beyond the first one; each complete column unlocks one (presentation.md §3)
 
@@ -52,7 +50,7 @@ class PackProgress:
     def columns(self) -> list[ColumnProgress]:
         """What is in the store, read again whenever that may have changed; damaged columns start again."""
         if self._epoch != self.store.epoch:
-            self._columns = [ColumnProgress(*[(c * EPISODES_PER_COLUMN, 0)] * 2) for c in range(COLUMNS)]
+            self._columns = [ColumnProgress(*[(c * EPISODES_PER_COLUMN, 0)] * 2) for c in range(MOST_COLUMNS)]
             query = f"SELECT {_COLUMN_NAMES} FROM progress WHERE pack = ?"
             for number, *places in self.store.rows(query, (self.pack,), [int] * 5):
                 column = ColumnProgress((places[0], places[1]), (places[2], places[3]))
@@ -102,7 +100,7 @@ class PackProgress:
 def complete_columns(progress: PackProgress, episodes: Collection[int]) -> int:
     """How many columns are complete: all of the ``episodes`` that exist in them are beaten, and there are some."""
     count = 0
-    for column in range(COLUMNS):
+    for column in range(MOST_COLUMNS):
         present = [episode for episode in episodes if episode // EPISODES_PER_COLUMN == column]
         count += bool(present) and progress.is_beaten(max(present))
     return count
@@ -140,7 +138,7 @@ def new_unlocks(store: Store, columns: int, present: int) -> list[str]:
 
 
 def is_place(place: Place, column: int) -> bool:
-    return place[0] // EPISODES_PER_COLUMN == column in range(COLUMNS) and place[1] in range(LEVELS_PER_EPISODE)
+    return place[0] // EPISODES_PER_COLUMN == column in range(MOST_COLUMNS) and place[1] in range(LEVELS_PER_EPISODE)
 
 
 def _ends_column(episode: int) -> bool:

@@ -10,7 +10,8 @@ from typing import Any
 from ninja_game.errors import PackError
 from ninja_game.files.untrusted import parse_toml
 
-MOST_EPISODES, EPISODES_PER_COLUMN, LEVELS_PER_EPISODE = 100, 10, 5
+MOST_COLUMNS, EPISODES_PER_COLUMN, LEVELS_PER_EPISODE = 10, 10, 5
+MOST_EPISODES = MOST_COLUMNS * EPISODES_PER_COLUMN
 
 _LINE = re.compile(r"\(at line (\d+), column (\d+)\)")
 _KEYS = ("name", "author", "comment", "version", "columns", "episode", "accept")
@@ -96,13 +97,13 @@ def parse_index(text: str, *, file: str = "") -> PackIndex:
     if not name:
         raise PackError("a pack without a name", file, whole.line("name"), expected='name = "…"')
     columns = whole.texts("columns") or ()
-    most = MOST_EPISODES // EPISODES_PER_COLUMN
-    if len(columns) > most:
-        raise PackError("too many columns", file, whole.line("columns"), 0, str(len(columns)), f"at most {most}")
+    if len(columns) > MOST_COLUMNS:
+        most = f"at most {MOST_COLUMNS}"
+        raise PackError("too many columns", file, whole.line("columns"), 0, str(len(columns)), most)
     accepted = []
     for entry in whole.tables("accept"):
         entry.check(_ACCEPT_KEYS)
-        values = {key: entry.text(key) for key in ("file", "code", "reason")}
+        values = {key: entry.text(key) for key in _ACCEPT_KEYS}
         if missing := next((key for key, value in values.items() if not value), ""):
             raise PackError(f"accept without its {missing}", file, entry.start, expected=f'{missing} = "…"')
         accepted.append(Accepted(**values, line=entry.start))
@@ -123,15 +124,15 @@ def _episodes(whole: _Table) -> tuple[EpisodeIndex, ...]:
         table.check(_EPISODE_KEYS)
         number, file = table.table.get("number"), whole.file
         if type(number) is not int or not 0 <= number < MOST_EPISODES:
-            place, shown_value = table.line("number") or table.start, repr(number)[:40]
-            raise PackError("an episode's number", file, place, found=shown_value, expected="a number from 0 to 99")
+            place, expected = table.line("number") or table.start, f"a number from 0 to {MOST_EPISODES - 1}"
+            raise PackError("an episode's number", file, place, found=repr(number)[:40], expected=expected)
         if number in indexes:
             other = f"line {indexes[number].line} too"
             raise PackError(f"episode {number} is there twice", file, table.start, found=other)
         levels = table.texts("levels")
         if levels and len(levels) > LEVELS_PER_EPISODE:
-            what, shown_value = f"the levels of episode {number}", str(len(levels))
-            raise PackError(what, file, table.line("levels"), 0, shown_value, "at most five files")
+            what, expected = f"the levels of episode {number}", f"at most {LEVELS_PER_EPISODE} files"
+            raise PackError(what, file, table.line("levels"), 0, str(len(levels)), expected)
         indexes[number] = EpisodeIndex(number, table.text("name"), levels, table.start)
     return tuple(indexes[number] for number in sorted(indexes))
 
