@@ -35,7 +35,7 @@ from ninja_game.formats.run_time import level_score
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import WITH_HELP, is_place
 from ninja_game.player.records import Records
-from ninja_game.player.schema import SCHEMA, TABLES, VERSION, OtherVersionError, bounded
+from ninja_game.player.schema import SCHEMA, VERSION, OtherVersionError, bounded
 from ninja_game.player.settings import read_settings
 from ninja_game.player.store import Store
 from ninja_game.runs.deaths import KILLERS
@@ -191,7 +191,7 @@ def _open_records(path: Path) -> Store:
             ((state,),) = db.execute("PRAGMA quick_check(1)")
             if state != "ok":
                 raise ValueError(f"damaged records: {state}")
-            for name in TABLES & {name for _, name, *_ in there}:
+            for name in SCHEMA.keys() & {name for _, name, *_ in there}:
                 ((rows,),) = db.execute(f"SELECT count(*) FROM {name}")
                 if rows > (most := MOST_REPLAYS if name == "replay" else MOST_ROWS):
                     raise ValueError(f"{rows:,} rows in the table {name}, of which at most {most:,} are accepted")
@@ -216,7 +216,7 @@ def _open_records(path: Path) -> Store:
 @cache
 def _our_schema() -> set[tuple[str, ...]]:
     with closing(sqlite3.connect(":memory:")) as db:
-        for statement in SCHEMA:
+        for statement in SCHEMA.values():
             db.execute(statement)
         return set(db.execute(_SCHEMA))
 

@@ -23,8 +23,8 @@ _WRITE_VERSION = 18  # place of the byte in a file's header that is 1 or 2 where
 
 VERSION = 7  # the version of the tables, in a file's header; raise it with every change of them
 
-SCHEMA = (
-    """CREATE TABLE replay (
+_TABLES = {
+    "replay": """(
         id INTEGER PRIMARY KEY,
         level TEXT NOT NULL,          -- digest of the level
         level_text TEXT NOT NULL,     -- the level itself, exact
@@ -42,48 +42,49 @@ SCHEMA = (
         made TEXT NOT NULL,           -- how, as in a replay text
         co_authors TEXT NOT NULL
     )""",
-    """CREATE TABLE level_best (
+    "level_best": """(
         level TEXT NOT NULL, body TEXT NOT NULL,
         replay INTEGER NOT NULL REFERENCES replay (id),
         PRIMARY KEY (level, body)
     ) WITHOUT ROWID""",
-    "CREATE TABLE death (killer TEXT PRIMARY KEY, times INTEGER NOT NULL) WITHOUT ROWID",
-    """CREATE TABLE played (
+    "death": "(killer TEXT PRIMARY KEY, times INTEGER NOT NULL) WITHOUT ROWID",
+    "played": """(
         level TEXT PRIMARY KEY,
         attempts INTEGER NOT NULL, passes INTEGER NOT NULL, deaths INTEGER NOT NULL,
         ticks INTEGER NOT NULL, gold INTEGER NOT NULL
     ) WITHOUT ROWID""",
-    "CREATE TABLE fact (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
-    """CREATE TABLE episode_replay (
+    "fact": "(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
+    "episode_replay": """(
         episode TEXT NOT NULL, body TEXT NOT NULL,
         place INTEGER NOT NULL,       -- of its level in the episode, from 0
         replay INTEGER NOT NULL REFERENCES replay (id),
         PRIMARY KEY (episode, body, place)
     ) WITHOUT ROWID""",
-    """CREATE TABLE episode_best (
+    "episode_best": """(
         episode TEXT NOT NULL,        -- digest of its levels
         body TEXT NOT NULL,
         score INTEGER NOT NULL,
         made_at TEXT NOT NULL,
         PRIMARY KEY (episode, body)
     ) WITHOUT ROWID""",
-    """CREATE TABLE level_mark (
+    "level_mark": """(
         level TEXT NOT NULL, body TEXT NOT NULL,
         fastest INTEGER NOT NULL,     -- tick of the earliest exit contact
         most_gold INTEGER NOT NULL,   -- pieces in the passed run that took the most
         PRIMARY KEY (level, body)
     ) WITHOUT ROWID""",
-    """CREATE TABLE progress (
+    "progress": """(
         pack TEXT NOT NULL,           -- its name; '' for the game's own
         grid_column INTEGER NOT NULL,
         reached_episode INTEGER NOT NULL, reached_level INTEGER NOT NULL,
         beaten_episode INTEGER NOT NULL, beaten_level INTEGER NOT NULL,
         PRIMARY KEY (pack, grid_column)
     ) WITHOUT ROWID""",
-)
-"""A backup's tables are compared with these to the letter: in a file of this version they are written exactly so."""
+}
+"""The tables by name: their columns and keys."""
 
-TABLES = {"replay", "level_best", "level_mark", "episode_best", "episode_replay", "progress", "death", "played", "fact"}
+SCHEMA = {name: f"CREATE TABLE {name} {columns}" for name, columns in _TABLES.items()}
+"""A backup's tables are compared with these to the letter: in a file of this version they are written exactly so."""
 
 
 class OtherVersionError(Exception):
@@ -208,7 +209,7 @@ def _create(connection: sqlite3.Connection) -> None:
     connection.execute("BEGIN IMMEDIATE")
     try:
         if connection.execute("PRAGMA user_version").fetchone()[0] != VERSION:
-            for statement in SCHEMA:
+            for statement in SCHEMA.values():
                 connection.execute(statement)
             connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
             connection.execute(f"PRAGMA user_version = {VERSION}")
@@ -222,9 +223,9 @@ def _check_tables(connection: sqlite3.Connection) -> None:
     """Raise sqlite3.DatabaseError where a table is missing, too many or other than in a sound file of its version."""
     version = connection.execute("PRAGMA user_version").fetchone()[0]
     with closing(sqlite3.connect(":memory:", isolation_level=None)) as sound:
-        for statement in SCHEMA if version else ():
+        for statement in SCHEMA.values() if version else ():
             sound.execute(statement)
-        for table in sorted(TABLES):
+        for table in sorted(SCHEMA):
             if _shape(connection, table) != _shape(sound, table):
                 raise sqlite3.DatabaseError(f"the table {table} is not as it should be")
 

@@ -102,7 +102,7 @@ def test_file_of_this_version_opens_with_its_records(tmp_path: Path) -> None:
 
 
 def test_tables_are_made_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(schema, "SCHEMA", (*schema.SCHEMA, "CREATE TABLE death (x)"))
+    monkeypatch.setattr(schema, "SCHEMA", schema.SCHEMA | {"again": "CREATE TABLE death (x)"})
     with pytest.raises(sqlite3.OperationalError):
         schema.open_database(str(tmp_path / "records.sqlite"))
     with sqlite3.connect(tmp_path / "records.sqlite") as db:
