@@ -83,7 +83,9 @@ class NewestJob(Generic[Job, Result]):
     def ask(self, job: Job) -> None:
         """Do this job next: instead of any that still waits, or after those."""
         with self._news:
-            self._waiting[:] = [*self._waiting * self._every, job]
+            if not self._every:
+                self._waiting.clear()
+            self._waiting.append(job)
             if not self._busy:
                 self._busy = True
                 run_in_background(self._run, self._fail)

@@ -73,10 +73,8 @@ def splits(
     from ninja_game.runs.compare import SPLIT_EVENTS, run_splits
     from ninja_game.runs.recording_reader import recordings_in
 
-    level, events = (
-        options.load_level_option(level_path),
-        [name for name in SPLIT_EVENTS if gold or name != "gold-taken"],
-    )
+    level = options.load_level_option(level_path)
+    events = [name for name in SPLIT_EVENTS if gold or name != "gold-taken"]
     read = Readable(recordings_in(files, level))
     recordings = list(read)
     best = list(Readable(recordings_in([against], level)))[:1] if against else []

@@ -169,11 +169,6 @@ class Palette:
     name: str
     danger_by_shape: bool
 
-    @property
-    def base(self) -> Palette:
-        """The mood of a tone, whose colours are the same but for rock and scenery; of any other palette itself."""
-        return self.mood or self
-
     # The stage and the interface.
     background: pygame.Color
     tile: pygame.Color
@@ -227,6 +222,11 @@ class Palette:
 
     scenery: str = ""
     mood: Palette | None = None
+
+    @property
+    def base(self) -> Palette:
+        """The mood of a tone, whose colours are the same but for rock and scenery; of any other palette itself."""
+        return self.mood or self
 
 
 ROLES = tuple(entry.name for entry in fields(Palette) if entry.type == "pygame.Color")
