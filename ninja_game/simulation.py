@@ -31,11 +31,11 @@ from ninja_game.sim.digest import differences, replay_digest, world_digest
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bit
 from ninja_game.sim.kinds import KIND_OF
-from ninja_game.sim.level import BODIES, Body, Level
+from ninja_game.sim.level import Body, Level, is_box
 from ninja_game.sim.memory.schema import Event, TileMap, World
 from ninja_game.sim.states import CAUSE_NAMES, NO_CAUSE, OUTCOME_NAMES, STATE_NAMES
 
-__all__ = ["EventView", "NinjaView", "ObjectView", "SaveState", "Simulation", "is_box"]
+__all__ = ["EventView", "NinjaView", "ObjectView", "SaveState", "Simulation"]
 
 
 @dataclass(frozen=True)
@@ -254,13 +254,6 @@ class Simulation:
     def first_difference(self, other: Simulation) -> tuple[str, Any, Any] | None:
         """The first field in which two runs' states differ: (name, value here, value there); None if they are equal."""
         return next(differences(self.world, other.world), None)
-
-
-def is_box(body: str) -> bool:
-    """Whether a body is the box. Raises ArgumentError for any other word."""
-    if body not in BODIES:
-        raise ArgumentError(f"body is {body!r}; expected 'circle' or 'box'")
-    return body == "box"
 
 
 def _event_view(e: Event) -> EventView:

@@ -34,11 +34,10 @@ from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import state_digest, world_digest
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, JUMP_PRESSED, KEYS_DOWN
 from ninja_game.sim.kinds import KINDS
-from ninja_game.sim.level import Body, Level
+from ninja_game.sim.level import Body, Level, is_box
 from ninja_game.sim.memory.declare import fields_of
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_NAMES
-from ninja_game.simulation import is_box
 
 Keys = NDArray[np.uint8]
 """Keys that are down, one byte per tick or choice: a sum of left, right and jump."""

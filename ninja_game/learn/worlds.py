@@ -35,13 +35,13 @@ from ninja_game.learn.rewards import DistanceShaping, RewardLike, Shaping, rewar
 from ninja_game.sim.digest import world_digest
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, MINE_EXPLODED
 from ninja_game.sim.inputs import with_press_bit
-from ninja_game.sim.level import Body
+from ninja_game.sim.level import Body, is_box
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.memory.schema import MAX_EVENTS, World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 from ninja_game.sim.world import step
-from ninja_game.simulation import SaveState, Simulation, is_box
+from ninja_game.simulation import SaveState, Simulation
 
 EXIT_WEIGHT, DEATH_WEIGHT, GOLD_WEIGHT, TICK_WEIGHT = range(4)  # indices of ``weights``
 OUTCOME, TICKS, GOLD, EVENTS, ENDED, PLAYED, WAIT, RANDOM = range(8)

@@ -27,10 +27,9 @@ from ninja_game.formats.run_time import level_score
 from ninja_game.runs.deaths import death_text
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.inputs import ALL_KEYS, check_inputs, fit_inputs
-from ninja_game.sim.level import Body, Level
+from ninja_game.sim.level import Body, Level, is_box
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_NAMES, STATE_NAMES
-from ninja_game.simulation import is_box
 
 if TYPE_CHECKING:
     import numpy as np

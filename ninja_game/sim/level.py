@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
+from ninja_game.errors import ArgumentError
 from ninja_game.sim.kinds import GOLD, VALUE_COUNTS
 
 COLUMNS = 31
@@ -16,6 +17,13 @@ Body = Literal["circle", "box"]
 
 BODIES: tuple[Body, ...] = ("circle", "box")
 """The shapes that the ninja can have: the circle of the classic rules, and a box of the same size."""
+
+
+def is_box(body: str) -> bool:
+    """Whether a body is the box. Raises ArgumentError for any other word."""
+    if body not in BODIES:
+        raise ArgumentError(f"body is {body!r}; expected 'circle' or 'box'")
+    return body == "box"
 
 
 class ObjectSpec(NamedTuple):

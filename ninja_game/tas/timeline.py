@@ -20,10 +20,10 @@ from ninja_game.search.formula.language import Formula, Values, parse_number, pa
 from ninja_game.search.formula.names import FACTS, NAMES, flag_field, id_of, ninja_view, no_object
 from ninja_game.sim.inputs import MAX_TICKS, fit_inputs
 from ninja_game.sim.kinds import EXIT, KIND_OF
-from ninja_game.sim.level import Body, Level
+from ninja_game.sim.level import Body, Level, is_box
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_NAMES
-from ninja_game.simulation import SaveState, is_box
+from ninja_game.simulation import SaveState
 from ninja_game.tas.tracks import first_difference
 
 AFTERMATH = 40
