@@ -163,8 +163,10 @@ def test_nothing_is_read_once_the_device_is_closed(tmp_path: Path, monkeypatch: 
 
 def test_missing_files_are_silent(tmp_path: Path) -> None:
     sound = AudioPlayer(tmp_path)
+    assert sound.works
     sound.play("gold-1")
     sound.corpse(5.0)
+    assert not pygame.mixer.get_busy()
 
 
 def test_a_variant_never_sounds_twice_in_a_row() -> None:
