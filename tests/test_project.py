@@ -83,13 +83,6 @@ def test_no_files_import_one_another_in_a_circle() -> None:
         TopologicalSorter({name: graph.find_modules_directly_imported_by(name) for name in graph.modules}).prepare()
 
 
-@pytest.mark.parametrize("part, without", [("formats/**/*", "backend"), ("web/board/judge", "ui"), ("runs/*", "ui")])
-def test_files_need_no_memory_and_judges_no_window(part: str, without: str) -> None:
-    files = [*(ROOT / "ninja_game").glob(f"{part}.py")]
-    assert files
-    assert not [file for file in files if f"from ninja_game.{without}." in file.read_text("utf-8")]
-
-
 ELSEWHERE = 8  # lines that a skip saves outside of a table of data, at least
 
 
