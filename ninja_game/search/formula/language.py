@@ -22,7 +22,7 @@ from ninja_game.errors import FormatError
 Values = NDArray[np.float64]
 """One number a world; 1 and 0 are true and false."""
 
-Names = Mapping[str, Callable[..., Values]]
+Scope = Mapping[str, Callable[..., Values]]
 """What the names of a formula mean in some worlds: functions of their arguments, which are numbers."""
 
 UNTRUE = -1000.0
@@ -70,8 +70,8 @@ class Formula:
     """A formula that was read. ``truth``: whether it is true or false, not a number, whose margin is itself."""
 
     truth: bool
-    value: Callable[[Names], Any]
-    margin: Callable[[Names], Any]
+    value: Callable[[Scope], Any]
+    margin: Callable[[Scope], Any]
 
 
 def parse_truth(text: str, names: Mapping[str, int], facts: Sequence[str]) -> Formula:
@@ -164,7 +164,7 @@ class _Reader:
             raise self.error(node, "a number beside 'and', 'or' or 'not'", "a comparison, such as x > 400")
         return formula
 
-    def number(self, node: ast.expr) -> Callable[[Names], Any]:
+    def number(self, node: ast.expr) -> Callable[[Scope], Any]:
         """The value of a part that must be a number."""
         formula = self.formula(node)
         if formula.truth:
@@ -187,25 +187,25 @@ class _Reader:
             raise self.error(node, f"'{name}' with {len(parts)} numbers", usage)
         numbers = [self.number(part) for part in parts]
 
-        def value(view: Names) -> Any:
+        def value(view: Scope) -> Any:
             return (function or view[name])(*(number(view) for number in numbers))
 
         if name not in self.facts:
             return _number(value)
 
-        def margin(view: Names) -> Any:
+        def margin(view: Scope) -> Any:
             far = view[name + FAR](*(number(view) for number in numbers)) if name + FAR in view else UNTRUE
             return np.where(value(view) > 0, 0.0, far)
 
         return Formula(True, value, margin)
 
 
-def _number(value: Callable[[Names], Any]) -> Formula:
+def _number(value: Callable[[Scope], Any]) -> Formula:
     return Formula(False, value, value)
 
 
 def _comparison(
-    a: Callable[[Names], Any], b: Callable[[Names], Any], compare: Callable[..., Any], margin: Callable[[Any, Any], Any]
+    a: Callable[[Scope], Any], b: Callable[[Scope], Any], compare: Callable[..., Any], margin: Callable[[Any, Any], Any]
 ) -> Formula:
     return Formula(
         True, lambda view: np.asarray(compare(a(view), b(view)), np.float64), lambda view: margin(a(view), b(view))

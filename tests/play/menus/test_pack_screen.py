@@ -1170,5 +1170,7 @@ def test_a_certificate_that_comes_while_a_list_is_shown_is_seen(driver: MenuDriv
     shown = driver.shown(Browser).shown
     entry = next(each for each in shown if each.named.file == str(path / "00-1-mind-the-gap.txt"))
     assert driver.player.reached(entry, None) == "Not passed yet"
+    assert driver.player.own_certificate(entry) is None
     certificate.write_bytes(text)
+    assert driver.player.own_certificate(entry)
     assert driver.player.reached(entry, None).startswith("Certified: "), "the pack was read before"
