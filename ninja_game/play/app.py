@@ -15,8 +15,9 @@ from ninja_game.files.user_folder import data_folder, export_path, short_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.episodes import Mood
-from ninja_game.play.boss import draw_spreadsheet
-from ninja_game.play.window import TITLE, Window, Wipe, save_picture
+from ninja_game.play.boss import BossScreen
+from ninja_game.play.screen import Aside, BaseScreen, ScreenStack
+from ninja_game.play.window import Window, Wipe, save_picture
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import BY_COLUMN, Settings
@@ -28,158 +29,10 @@ from ninja_game.ui.input.bindings import Bindings, InputEvent
 from ninja_game.ui.theme import PALETTES, Palette, Theme, palette_named, wrapped
 
 
-class Screen:
-    """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does.
+class Screen(BaseScreen):
+    """A screen whose app is known by its type."""
 
-    ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
-    app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
-    comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written.
-    ``hides_game``: it shows that nobody plays, and no notice. ``foot_high``: px at the foot that notices leave free.
-    """
-
-    see_through = False
-    wipes = True
-    below_runs = False
-    plays = False
-    hides_game = False
-    foot_high = 1.0
-
-    def __init__(self, app: App) -> None:
-        self.app = app
-        self.redraw = True
-
-    @property
-    def theme(self) -> Theme:
-        """The look of what it draws, and where on the window that is."""
-        return self.app.theme
-
-    @property
-    def notice_room(self) -> tuple[float, float]:
-        """From where to where notices may reach, logical px."""
-        canvas = self.theme.canvas
-        return canvas.logical((0, 0))[0], canvas.logical(canvas.window)[0]
-
-    @property
-    def mood(self) -> Mood:
-        """Its look; by default that of the screen before."""
-        return self.app.mood
-
-    @property
-    def music(self) -> str:
-        """The music while it is on top (ui/audio/music.py); "": whatever plays already."""
-        return ""
-
-    def enter(self) -> None:
-        """Called when this becomes the top screen: pushed, or uncovered again."""
-
-    def look_again(self) -> None:
-        """Called when levels or packs on the disk have changed behind it."""
-
-    def leave(self) -> None:
-        """Called when this is no longer the top screen: covered or popped. Loops of sound end here."""
-
-    def capture(self, event: InputEvent) -> bool:
-        """Take an event before the keys that the app has on every screen; whether it was taken."""
-        return False
-
-    def handle(self, event: InputEvent) -> None:
-        """React to an event of the window."""
-
-    def update(self, real_ms: int) -> None:
-        """Let ``real_ms`` of real time pass, whole ms since the last picture."""
-
-    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """Draw; the px rectangles that changed, or None if everything may have."""
-        raise NotImplementedError
-
-
-class Aside:
-    """Work that goes on whatever screen is on top."""
-
-    def update(self) -> None:
-        """Called in each turn of the loop."""
-
-    def end(self) -> None:
-        """Called when the program ends."""
-
-
-class ScreenStack:
-    def __init__(self) -> None:
-        self._screens: list[Screen] = []
-
-    def __bool__(self) -> bool:
-        return bool(self._screens)
-
-    def __len__(self) -> int:
-        return len(self._screens)
-
-    def __contains__(self, screen: Screen) -> bool:
-        return screen in self._screens
-
-    @property
-    def top(self) -> Screen:
-        """The screen that gets the events. Raises IndexError if there is none."""
-        return self._screens[-1]
-
-    @property
-    def below(self) -> Screen | None:
-        """The screen to which the top one goes back, if any."""
-        return self._screens[-2] if len(self) > 1 else None
-
-    def push(self, screen: Screen) -> None:
-        if self._screens:
-            self.top.leave()
-        self._screens.append(screen)
-        self._uncover()
-
-    def pop(self) -> None:
-        """Go back to the screen below."""
-        self._screens.pop().leave()
-        self._uncover()
-
-    def replace(self, screen: Screen) -> None:
-        self._screens.pop().leave()
-        self._screens.append(screen)
-        self._uncover()
-
-    def clear(self) -> None:
-        while self._screens:
-            self._screens.pop().leave()
-
-    def _uncover(self) -> None:
-        self.redraw_all()
-        if self._screens:
-            self.top.enter()
-
-    def redraw_all(self) -> None:
-        for screen in self._screens:
-            screen.redraw = True
-
-    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """Draw the screens that are seen; the px rectangles that changed, or None if everything may have."""
-        first = len(self._screens) - 1
-        while first > 0 and self._screens[first].see_through:
-            first -= 1
-        visible = self._screens[max(first, 0) :]
-        if len(visible) > 1 and any(screen.redraw or screen.below_runs for screen in visible[1:]):
-            visible[0].redraw = True
-        changed: list[pygame.Rect] | None = []
-        for screen in visible:
-            whole = screen.redraw
-            if not whole and screen is not self.top:
-                # Covered by another screen, and unchanged: drawing it again would paint over that.
-                continue
-            rects = screen.draw(surface)
-            screen.redraw = False
-            changed = None if whole or rects is None or changed is None else changed + rects
-        return changed
-
-    def running(self) -> list[Screen]:
-        """The screens for which time passes, lowest first."""
-        first = len(self._screens) - 1
-        while first > 0 and self._screens[first].below_runs:
-            first -= 1
-        return self._screens[max(first, 0) :]
+    app: App
 
 
 CALM = Mood()
@@ -235,7 +88,7 @@ class App:
         self.mood = Mood()
         self.notice = ""
         self._notice_ms = 0
-        self._notice_on: Screen | None = None
+        self._notice_on: BaseScreen | None = None
         self.window = window or Window(size, self.settings)
         self.wipe = Wipe()
         # In a page, several whole pictures in a row are too slow.
@@ -310,18 +163,18 @@ class App:
     # --- the screens ---
 
     @property
-    def top(self) -> Screen:
+    def top(self) -> BaseScreen:
         return self.stack.top
 
-    def push(self, screen: Screen) -> None:
+    def push(self, screen: BaseScreen) -> None:
         self.wipe_from(screen)
         self.stack.push(screen)
 
-    def replace(self, screen: Screen) -> None:
+    def replace(self, screen: BaseScreen) -> None:
         self.wipe_from(screen)
         self.stack.replace(screen)
 
-    def wipe_from(self, screen: Screen) -> None:
+    def wipe_from(self, screen: BaseScreen) -> None:
         """Let what is seen now give way to another screen, or another level, within a moment."""
         wipes = self.wipes and screen.wipes and not screen.see_through and not self.settings.reduced_motion
         if wipes and self.stack:
@@ -380,8 +233,7 @@ class App:
             self._handle(event)
             if not (self.running and self.stack):
                 return
-        if self.wipe.going_on:
-            self.wipe.update(real_ms)
+        if self.wipe.update(real_ms):
             self.stack.redraw_all()
         for task in self.aside:
             task.update()
@@ -508,27 +360,3 @@ def build_app(
         player.report(f"settings.toml: there is no palette {palette}: {', '.join((BY_COLUMN, *PALETTES))}.")
     app.report_problems()
     return app
-
-
-class BossScreen(Screen):
-    """The key that hides the game comes back to it, and so does Esc; the key for leaving ends the program."""
-
-    hides_game = True
-
-    def enter(self) -> None:
-        pygame.display.set_caption("Budget")
-
-    def leave(self) -> None:
-        pygame.display.set_caption(TITLE)
-
-    def handle(self, event: InputEvent) -> None:
-        if event.source == ("keys", "escape"):
-            self.app.pop()
-        elif "quit" in event.pressed:
-            self.app.quit()
-
-    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        if not self.redraw:
-            return []
-        draw_spreadsheet(surface, self.theme)
-        return None

@@ -1,4 +1,4 @@
-"""What hides the game from the boss: a picture of a spreadsheet."""
+"""The screen that hides the game from the boss: a spreadsheet."""
 
 from __future__ import annotations
 
@@ -6,6 +6,9 @@ from random import Random
 
 import pygame
 
+from ninja_game.play.screen import BaseScreen
+from ninja_game.play.window import TITLE
+from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
 
 _PAPER, _LINE, _HEAD, _INK = "#ffffff", "#d0d4da", "#eef0f3", "#3a3f47"
@@ -34,3 +37,27 @@ def draw_spreadsheet(surface: pygame.Surface, theme: Theme) -> None:
             if row < _ROWS:
                 text(surface, cell, x + 8, y + 6, size=9, colour=_INK)
             x += width
+
+
+class BossScreen(BaseScreen):
+    """The key that hides the game comes back to it, and so does Esc; the key for leaving ends the program."""
+
+    hides_game = True
+
+    def enter(self) -> None:
+        pygame.display.set_caption("Budget")
+
+    def leave(self) -> None:
+        pygame.display.set_caption(TITLE)
+
+    def handle(self, event: InputEvent) -> None:
+        if event.source == ("keys", "escape"):
+            self.app.pop()
+        elif "quit" in event.pressed:
+            self.app.quit()
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        if not self.redraw:
+            return []
+        draw_spreadsheet(surface, self.theme)
+        return None

@@ -208,17 +208,15 @@ class Wipe:
         self._before: pygame.Surface | None = None
         self._left = 0
 
-    @property
-    def going_on(self) -> bool:
-        return self._before is not None
-
     def begin(self, surface: pygame.Surface) -> None:
         self._before, self._left = surface.copy(), WIPE_MS
 
-    def update(self, real_ms: int) -> None:
-        self._left -= real_ms
+    def update(self, real_ms: int) -> bool:
+        """Let time pass; whether it was going on."""
+        going_on, self._left = self._before is not None, self._left - real_ms
         if self._left <= 0:
             self._before = None
+        return going_on
 
     def draw(self, surface: pygame.Surface, theme: Theme) -> None:
         if self._before is None:

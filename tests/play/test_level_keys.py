@@ -11,7 +11,7 @@ import pytest
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
-from ninja_game.play.app import App, Screen
+from ninja_game.play.app import App
 from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, LATE_JUMP, Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
@@ -93,7 +93,7 @@ def test_escape_pauses_a_level_from_its_first_picture_to_its_pass(
         screen.give_up()
     for _ in range(2):
         tap(app, key)
-        panel: Screen = app.top
+        panel: object = app.top
         assert isinstance(panel, PausePanel)
         tap(app, key)
         assert screen is app.stack.top

@@ -12,10 +12,11 @@ import pygame
 
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
-from ninja_game.play.app import Screen, build_app
+from ninja_game.play.app import build_app
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import FormPanel
 from ninja_game.play.menus.settings import SettingsScreen
+from ninja_game.play.screen import BaseScreen
 from ninja_game.player.player_data import PlayerData
 from ninja_game.tas_editor.opening import open_tas_editor
 from ninja_game.ui.audio.player import AudioOutput
@@ -26,7 +27,7 @@ from ninja_game.ui.widgets import Widget
 from tests.support.waiting import LONGEST
 
 FRAME_MS = 25
-S = TypeVar("S", bound=Screen)
+S = TypeVar("S", bound=BaseScreen)
 
 
 class ScriptedKeys(Bindings):
@@ -62,7 +63,7 @@ class MenuDriver:
             if entry.pars:
                 self.player.marks.passed(entry.digest, entry.pars.par("gold"), 0)
 
-    def top(self) -> Screen:
+    def top(self) -> BaseScreen:
         """The screen on top."""
         return self.app.top
 
@@ -174,7 +175,7 @@ class MenuDriver:
             pygame.event.post(pygame.Event(kind, instance_id=77, button=button))
         self.frames(1)
 
-    def open(self, entry: str) -> Screen:
+    def open(self, entry: str) -> BaseScreen:
         """Choose an entry of the main menu by its text."""
         menu = self.top()
         assert isinstance(menu, MainMenu)

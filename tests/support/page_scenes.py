@@ -13,7 +13,8 @@ from ninja_game.files.user_folder import bundled_levels, bundled_replays
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.levels.episodes import Entry
-from ninja_game.play.app import App, BossScreen, Screen
+from ninja_game.play.app import App
+from ninja_game.play.boss import BossScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level import level_play
@@ -24,6 +25,7 @@ from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.replays import RecordsScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.play.screen import BaseScreen
 from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 Scene = tuple[str, str, Callable[[App], object]]
@@ -86,7 +88,7 @@ def paused(ticks: int, make: Any) -> Callable[[App], object]:
     return show
 
 
-def screen(make: Callable[[App], Screen]) -> Callable[[App], object]:
+def screen(make: Callable[[App], BaseScreen]) -> Callable[[App], object]:
     """A screen by itself."""
 
     def show(app: App) -> None:

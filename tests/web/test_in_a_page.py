@@ -52,7 +52,7 @@ def findings():
     frames(40)
     return app.top.session._checks.result is not None
 def picture():
-    app.push(__import__("ninja_game.play.app", fromlist=["BossScreen"]).BossScreen(app))
+    app.push(__import__("ninja_game.play.boss", fromlist=["BossScreen"]).BossScreen(app))
     frames()
     app.keep_screenshot()
     return head_of(app.notice)

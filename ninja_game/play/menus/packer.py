@@ -17,8 +17,9 @@ from ninja_game.formats.pack.pack import Pack, certificate_name
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry, EpisodeSet
 from ninja_game.levels.findings import PackFinding
-from ninja_game.play.app import App, Aside, Screen
+from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
+from ninja_game.play.screen import Aside
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.runs.packs import file_of
 from ninja_game.runtime import NewestJob, cores

@@ -1,0 +1,164 @@
+"""What fills the window, the stack of it, and what goes on beside it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pygame
+
+from ninja_game.levels.episodes import Mood
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.theme import Theme
+
+
+class BaseScreen:
+    """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does.
+
+    ``app``: its App, whose type only ``Screen`` in app.py knows. ``see_through``: the screen below is drawn first.
+    ``below_runs``: the screen below is updated too. ``redraw``: the app sets it when the whole window must be drawn
+    again (resized, uncovered, another palette). ``wipes``: whether it comes and goes with a wipe. ``plays``: a level is
+    played in it, over which nothing is to be written. ``hides_game``: it shows that nobody plays, and no notice.
+    ``foot_high``: px at the foot that notices leave free.
+    """
+
+    see_through = False
+    wipes = True
+    below_runs = False
+    plays = False
+    hides_game = False
+    foot_high = 1.0
+
+    def __init__(self, app: Any) -> None:
+        self.app = app
+        self.redraw = True
+
+    @property
+    def theme(self) -> Theme:
+        """The look of what it draws, and where on the window that is."""
+        theme: Theme = self.app.theme
+        return theme
+
+    @property
+    def notice_room(self) -> tuple[float, float]:
+        """From where to where notices may reach, logical px."""
+        canvas = self.theme.canvas
+        return canvas.logical((0, 0))[0], canvas.logical(canvas.window)[0]
+
+    @property
+    def mood(self) -> Mood:
+        """Its look; by default that of the screen before."""
+        mood: Mood = self.app.mood
+        return mood
+
+    @property
+    def music(self) -> str:
+        """The music while it is on top (ui/audio/music.py); "": whatever plays already."""
+        return ""
+
+    def enter(self) -> None:
+        """Called when this becomes the top screen: pushed, or uncovered again."""
+
+    def look_again(self) -> None:
+        """Called when levels or packs on the disk have changed behind it."""
+
+    def leave(self) -> None:
+        """Called when this is no longer the top screen: covered or popped. Loops of sound end here."""
+
+    def capture(self, event: InputEvent) -> bool:
+        """Take an event before the keys that the app has on every screen; whether it was taken."""
+        return False
+
+    def handle(self, event: InputEvent) -> None:
+        """React to an event of the window."""
+
+    def update(self, real_ms: int) -> None:
+        """Let ``real_ms`` of real time pass, whole ms since the last picture."""
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """Draw; the px rectangles that changed, or None if everything may have."""
+        raise NotImplementedError
+
+
+class Aside:
+    """Work that goes on whatever screen is on top."""
+
+    def update(self) -> None:
+        """Called in each turn of the loop."""
+
+    def end(self) -> None:
+        """Called when the program ends."""
+
+
+class ScreenStack:
+    def __init__(self) -> None:
+        self._screens: list[BaseScreen] = []
+
+    def __len__(self) -> int:
+        return len(self._screens)
+
+    def __contains__(self, screen: BaseScreen) -> bool:
+        return screen in self._screens
+
+    @property
+    def top(self) -> BaseScreen:
+        """The screen that gets the events. Raises IndexError if there is none."""
+        return self._screens[-1]
+
+    @property
+    def below(self) -> BaseScreen | None:
+        """The screen to which the top one goes back, if any."""
+        return self._screens[-2] if len(self) > 1 else None
+
+    def push(self, screen: BaseScreen) -> None:
+        if self._screens:
+            self.top.leave()
+        self._screens.append(screen)
+        self._uncover()
+
+    def pop(self) -> None:
+        """Go back to the screen below."""
+        self._screens.pop().leave()
+        self._uncover()
+
+    def replace(self, screen: BaseScreen) -> None:
+        self._screens.pop().leave()
+        self._screens.append(screen)
+        self._uncover()
+
+    def clear(self) -> None:
+        while self._screens:
+            self._screens.pop().leave()
+
+    def _uncover(self) -> None:
+        self.redraw_all()
+        if self._screens:
+            self.top.enter()
+
+    def redraw_all(self) -> None:
+        for screen in self._screens:
+            screen.redraw = True
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """Draw the screens that are seen; the px rectangles that changed, or None if everything may have."""
+        visible = self._from_last("see_through")
+        if len(visible) > 1 and any(screen.redraw or screen.below_runs for screen in visible[1:]):
+            visible[0].redraw = True
+        changed: list[pygame.Rect] | None = []
+        for screen in visible:
+            whole = screen.redraw
+            if not whole and screen is not self.top:
+                # Covered by another screen, and unchanged: drawing it again would paint over that.
+                continue
+            rects = screen.draw(surface)
+            screen.redraw = False
+            changed = None if whole or rects is None or changed is None else changed + rects
+        return changed
+
+    def running(self) -> list[BaseScreen]:
+        """The screens for which time passes, lowest first."""
+        return self._from_last("below_runs")
+
+    def _from_last(self, attribute: str) -> list[BaseScreen]:
+        """The screens from the last one that has not this attribute, or from the first."""
+        ends = [index for index, screen in enumerate(self._screens) if not getattr(screen, attribute)]
+        return self._screens[max(ends, default=0) :]
