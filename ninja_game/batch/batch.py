@@ -39,8 +39,7 @@ from ninja_game.sim.memory.declare import fields_of
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_NAMES
 
-Keys = NDArray[np.uint8]
-"""Keys that are down, one byte per tick or choice: a sum of left, right and jump."""
+Keys = NDArray[np.uint8]  # keys that are down, one byte per tick or choice: a sum of left, right and jump
 
 __all__ = ["OBJECT_FIELDS", "OUTCOME_NAMES", "Batch", "BatchState"]
 

@@ -353,8 +353,8 @@ class EditorTools:
         return stamps.Selection(selection.area or before.area, selection.parts | before.parts)
 
     def _choose(self, *, add: bool) -> None:
-        part = self.near(PICK_REACH)
-        if not add and (part in self.selection.parts or self._in_area()):
+        part, area = self.near(PICK_REACH), self.selection.area
+        if not add and (part in self.selection.parts or (area and self.cell in stamps.cells_of(area))):
             self._begin_drag()
             return
         self._chosen_before = self.selection if add else stamps.Selection()
@@ -368,9 +368,6 @@ class EditorTools:
         else:
             self.selection = self._joined(stamps.Selection(parts=frozenset({part})))
             self._begin_drag()
-
-    def _in_area(self) -> bool:
-        return self.selection.area is not None and self.cell in stamps.cells_of(self.selection.area)
 
     def _begin_drag(self) -> None:
         self.history.begin()

@@ -183,8 +183,6 @@ class PlayerData:
 
 OF_A_LEVEL = NEW_BEST, FIRST_PASS, NEW_MEDAL, NEW_ALL_GOLD = "Your best time", "First pass", "New medal", "All gold"
 EPISODE_BEST = "Your best for this episode"
-REPLAY_KEPT = "Replay: saved"
-NOT_SAVED = "Not saved yet: {}"
 
 
 def keep_replay(data: PlayerData, replay: Replay) -> str:
@@ -192,7 +190,7 @@ def keep_replay(data: PlayerData, replay: Replay) -> str:
 
     def work() -> list[str]:
         data.records.keep_replay(replay)
-        return [REPLAY_KEPT]
+        return ["Replay: saved"]
 
     return save_work(data, work)[-1]
 
@@ -209,7 +207,7 @@ def forget_replay(data: PlayerData, number: int) -> str:
 def save_work(data: PlayerData, work: Work) -> list[str]:
     """Save ``work``; its notices, and at the end why it is not on the disk, if so."""
     notices, problem = data.store.save(work)
-    return [*notices, *([NOT_SAVED.format(problem)] if problem else [])]
+    return [*notices, *([f"Not saved yet: {problem}"] if problem else [])]
 
 
 def replay_of(data: PlayerData, entry: Entry, attempt: Attempt) -> Replay:

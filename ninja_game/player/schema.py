@@ -81,7 +81,6 @@ _TABLES = {
         PRIMARY KEY (pack, grid_column)
     ) WITHOUT ROWID""",
 }
-"""The tables by name: their columns and keys."""
 
 SCHEMA = {name: f"CREATE TABLE {name} {columns}" for name, columns in _TABLES.items()}
 """A backup's tables are compared with these to the letter: in a file of this version they are written exactly so."""

@@ -222,10 +222,6 @@ class Heuristics:
         """The switch state of one of some worlds."""
         return int(compiled_if_possible(open_mask_at)(worlds, index, self.slots))
 
-    def routines(self, world: Any) -> bytes:
-        """What the moving enemies of a world do."""
-        return bytes(world["objects"]["routine"][self.enemies].astype(np.uint8))
-
     def tour_fields(self, switch_state: int) -> DistanceField:
         """Ticks to each piece of gold and, last, to the exit by way of its switch (pieces + 1 x points).
 

@@ -170,7 +170,7 @@ class Search:
         """The scratch world as a checkpoint."""
         world, heuristics = self.start.worlds[1], self.heuristics
         ninja = world["ninja"]
-        variety = heuristics.routines(world)
+        variety = bytes(world["objects"]["routine"][heuristics.enemies].astype(np.uint8))
         if by_velocity:
             moved = (float(ninja["x"] - ninja["prev_x"]) / 1.5, float(ninja["y"] - ninja["prev_y"]) / 1.5)
             variety += bytes(128 + max(-100, min(100, round(part))) for part in moved)

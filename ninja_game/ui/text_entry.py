@@ -262,7 +262,7 @@ class EditedText:
     def select_word(self, place: int) -> None:
         """Select the word, or the gap between two words, around a place."""
         place = min(place, len(self.text) - 1)
-        kind = [_character_class(char) for char in self.text]
+        kind = [0 if char.isspace() else 1 if char.isalnum() else 2 for char in self.text]
         first = last = max(0, place)
         while first > 0 and kind[first - 1] == kind[place]:
             first -= 1
@@ -301,7 +301,3 @@ class EditedText:
         while place != end and self.text[place - behind].isalnum():
             place += direction
         return place
-
-
-def _character_class(char: str) -> int:
-    return 0 if char.isspace() else 1 if char.isalnum() else 2

@@ -98,8 +98,8 @@ def parse_index(text: str, *, file: str = "") -> PackIndex:
         raise PackError("a pack without a name", file, whole.line("name"), expected='name = "…"')
     columns = whole.texts("columns") or ()
     if len(columns) > MOST_COLUMNS:
-        most = f"at most {MOST_COLUMNS}"
-        raise PackError("too many columns", file, whole.line("columns"), 0, str(len(columns)), most)
+        found, expected = str(len(columns)), f"at most {MOST_COLUMNS}"
+        raise PackError("too many columns", file, whole.line("columns"), found=found, expected=expected)
     accepted = []
     for entry in whole.tables("accept"):
         entry.check(_ACCEPT_KEYS)

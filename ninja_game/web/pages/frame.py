@@ -41,11 +41,8 @@ def joined(*contents: Content) -> Markup:
     >>> joined("a < b", None, 7)
     'a &lt; b7'
     """
-    return Markup("".join(_escaped(content) for content in contents if content is not None))
-
-
-def _escaped(content: Content) -> str:
-    return content if isinstance(content, Markup) else escape(shown_text(str(content), LONGEST))
+    present = filter(lambda content: content is not None, contents)
+    return Markup("".join(c if isinstance(c, Markup) else escape(shown_text(str(c), LONGEST)) for c in present))
 
 
 def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None) -> Markup:

@@ -117,11 +117,6 @@ def shared_text(replay: Replay, level: Level) -> str:
     )
 
 
-def shared_name(text: str) -> str:
-    """The stem of the file in ``replays`` that holds a text."""
-    return sha256(text.encode()).hexdigest()[:16]
-
-
 def watch_address(game: str, *stems: str) -> str:
     """Where runs are watched: ``game`` is the address of the page with the game."""
     return game + write_watch(stems)
@@ -305,7 +300,7 @@ def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, lin
         certificates = {}
         for kind, recording in shown.runs.get(digest, {}).items():
             text, tick = shared_text(recording.replay, entry.named.level), recording.replay.final_tick
-            stem, title = shared_name(text), f"{entry.title} {KINDS[kind].lower()}"
+            stem, title = sha256(text.encode()).hexdigest()[:16], f"{entry.title} {KINDS[kind].lower()}"
             certificates[KINDS[kind]] = stem, tick
             facts = [("Time", f"{seconds_text(tick)} s"), ("Made", str(recording.replay.made))]
             pages.write(f"{stem}.txt", text, replay=True)
