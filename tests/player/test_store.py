@@ -316,6 +316,6 @@ def test_what_a_newcomer_plays_is_forgotten_and_touches_no_records(tmp_path: Pat
     newcomer = data.newcomer()
     assert newcomer.catalogue is data.catalogue
     assert not newcomer.messages, "the settings are those that are in use: the file is not read again"
-    assert save_work(newcomer, lambda: ["Played: saved"]) == ["Played", "Not saved yet: this is a preview"]
+    assert save_work(newcomer, lambda: ["New best"]) == ["New best", "Not saved yet: this is a preview"]
     newcomer.close()
     assert not (tmp_path / RECORDS).exists()
