@@ -29,12 +29,12 @@ from ninja_game.ui.theme import PALETTES, Palette, Theme, palette_named, wrapped
 
 
 class Screen:
-    """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does.
+    """Something that fills the window: a menu, a level being played, a panel over another screen. To be subclassed.
 
     ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
-    app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
-    comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written.
-    ``hides_game``: it shows that nobody plays, and no notice. ``foot_high``: px at the foot that notices leave free.
+    app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: it comes and
+    goes with a wipe. ``plays``: a level is played in it, so no text may cover it. ``hides_game``: it hides the game,
+    and shows no notice. ``foot_high``: px at the foot that notices leave free.
     """
 
     see_through = False
@@ -50,36 +50,36 @@ class Screen:
 
     @property
     def theme(self) -> Theme:
-        """The look of what it draws, and where on the window that is."""
+        """The colours and letters of this screen, and its area in the window."""
         return self.app.theme
 
     @property
     def notice_room(self) -> tuple[float, float]:
-        """From where to where notices may reach, logical px."""
+        """The top and the bottom of the area where notices may lie, logical px."""
         canvas = self.theme.canvas
         return canvas.logical((0, 0))[0], canvas.logical(canvas.window)[0]
 
     @property
     def mood(self) -> Mood:
-        """Its look; by default that of the screen before."""
+        """The mood of this screen; by default that of the screen below."""
         return self.app.mood
 
     @property
     def music(self) -> str:
-        """The music while it is on top (ui/audio/music.py); "": whatever plays already."""
+        """The name of the music while this screen is on top (ui/audio/music.py); "": the music that plays already."""
         return ""
 
     def enter(self) -> None:
         """Called when this becomes the top screen: pushed, or uncovered again."""
 
     def look_again(self) -> None:
-        """Called when levels or packs on the disk have changed behind it."""
+        """Called when levels or packs on the disk have changed while another screen was on top."""
 
     def leave(self) -> None:
-        """Called when this is no longer the top screen: covered or popped. Loops of sound end here."""
+        """Called when this is no longer the top screen: covered or popped. Looped sounds end here."""
 
     def capture(self, event: InputEvent) -> bool:
-        """Take an event before the keys that the app has on every screen; whether it was taken."""
+        """Handle an event before the keys that the app has on every screen; True if it was used."""
         return False
 
     def handle(self, event: InputEvent) -> None:
@@ -89,12 +89,12 @@ class Screen:
         """Let ``real_ms`` of real time pass, whole ms since the last picture."""
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """Draw; the px rectangles that changed, or None if everything may have."""
+        """Draw; the px rectangles that changed, or None if all of the window may have changed."""
         raise NotImplementedError
 
 
 class Aside:
-    """Work that goes on whatever screen is on top."""
+    """Work that continues whatever screen is on top."""
 
     def update(self) -> None:
         """Called in each turn of the loop."""
@@ -123,7 +123,7 @@ class ScreenStack:
 
     @property
     def below(self) -> Screen | None:
-        """The screen to which the top one goes back, if any."""
+        """The screen below the top one, if any."""
         return self._screens[-2] if len(self) > 1 else None
 
     def push(self, screen: Screen) -> None:
@@ -156,7 +156,7 @@ class ScreenStack:
             screen.redraw = True
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """Draw the screens that are seen; the px rectangles that changed, or None if everything may have."""
+        """Draw the visible screens; the px rectangles that changed, or None if all of the window may have changed."""
         first = len(self._screens) - 1
         while first > 0 and self._screens[first].see_through:
             first -= 1
@@ -167,7 +167,7 @@ class ScreenStack:
         for screen in visible:
             whole = screen.redraw
             if not whole and screen is not self.top:
-                # Covered by another screen, and unchanged: drawing it again would paint over that.
+                # A covered screen that has not changed: drawing it again would paint over the screen above.
                 continue
             rects = screen.draw(surface)
             screen.redraw = False
@@ -175,7 +175,7 @@ class ScreenStack:
         return changed
 
     def running(self) -> list[Screen]:
-        """The screens for which time passes, lowest first."""
+        """The screens that are updated, lowest first."""
         first = len(self._screens) - 1
         while first > 0 and self._screens[first].below_runs:
             first -= 1
@@ -186,17 +186,17 @@ CALM = Mood()
 """The mood of all menus, whatever level was played before."""
 
 UNSEEN = {"dummy", "offscreen"}
-"""Drivers of SDL at which nobody looks on: no wipe, and no waiting for the next picture."""
+"""SDL drivers without a visible window: no wipe, and no waiting for the next picture."""
 
 FALLBACK_RATE = 60
-"""Pictures per second where the display does not say its rate, or is none."""
+"""Pictures per second where the display does not say its rate."""
 
-NOTICE = 12.5  # letters of a notice
+NOTICE = 12.5  # size of the letters of a notice
 IN_BORDER = 10.0  # the same in the border below a level
-NOTICE_WIDE = 764.0  # its longest line, px
-NOTICE_LINES = 5  # that are shown at most
+NOTICE_WIDE = 764.0  # longest line of a notice, px
+NOTICE_LINES = 5  # most lines of a notice
 NOTICE_MS = 4000
-WARNING_MS = 12_000  # of what went wrong when the game started
+WARNING_MS = 12_000  # for which a warning about the start of the game is shown
 
 
 TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]
@@ -206,10 +206,10 @@ class App:
     """The window with its stack of screens.
 
     ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
-    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``:
-    opens a run in the TAS editor, with others beside it, at a tick; None where there is none, as in a page.
-    ``mood``: the present look. ``menu_theme``: that of menus over a level.
-    ``size``: px of the window; ``window``: one that is open already. Raises NinjaGameError where there is no display.
+    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``: opens a
+    run in the TAS editor, at a tick, with other runs to compare; None where there is no TAS editor, as in a page.
+    ``mood``: the present mood. ``menu_theme``: the theme of menus over a level. ``size``: px of the window; ``window``:
+    a window that is open already. Raises NinjaGameError where there is no display.
     """
 
     def __init__(
@@ -256,7 +256,7 @@ class App:
         return TICK_MS - min(FASTEST_TICK_GAIN, max(0, self.overclock))
 
     def change_settings(self, **values: object) -> None:
-        """Take, save and show other settings; a notice says where they could not be saved."""
+        """Use and save other settings, and draw again; a notice says why if they could not be saved."""
         before = self.settings
         message = self.player.change_settings(before.changed(**values))
         after = self.settings
@@ -270,24 +270,24 @@ class App:
             self.notify(message)
 
     def _hand_on(self, settings: Settings) -> None:
-        """Let the controls and the sound follow the settings."""
+        """Apply the settings to the controls and the sound."""
         self.controls.bind(settings.keys, settings.pad)
         self.controls.pads.dead_zone = settings.dead_zone
         self.controls.tap_to_run = settings.tap_to_run
         self.audio_output.set_volumes(*settings.volumes)
 
     def know_author(self, before: str, author: str) -> None:
-        """An author's name was typed: it is the player's, and begins what is made next, where none is set yet."""
+        """Remember an author's name that was typed as the player's, if none is set yet; later forms begin with it."""
         if author != before and not self.settings.name:
             self.change_settings(name=author.strip()[:40])
 
     def notify(self, text: str, *, ms: int = NOTICE_MS, here: bool = False) -> None:
-        """Show a text at the foot for a while, whatever screen is on top; ``here``: only as long as this is."""
+        """Show a text at the foot for a while; ``here``: only while the present screen is on top."""
         self.notice, self._notice_ms, self._notice_on = text, ms, self.top if here else None
         self.stack.redraw_all()
 
     def report_problems(self) -> None:
-        """Show what is wrong with the player's files and has not been shown yet."""
+        """Show the problems with the player's files that have not been shown yet."""
         text = self.player.new_messages()
         if text:
             self.notify(text, ms=WARNING_MS)
@@ -302,7 +302,7 @@ class App:
         return palette_named(self.settings.palette, *mood)
 
     def follow_mood(self, mood: Mood) -> None:
-        """Take the palette of this mood."""
+        """Use the palette of this mood."""
         self.mood = mood
         if self.palette_in(mood) is not self.theme.palette:
             self._lay_out()
@@ -322,13 +322,13 @@ class App:
         self.stack.replace(screen)
 
     def wipe_from(self, screen: Screen) -> None:
-        """Let what is seen now give way to another screen, or another level, within a moment."""
+        """Begin a wipe from the present picture to another screen or level."""
         wipes = self.wipes and screen.wipes and not screen.see_through and not self.settings.reduced_motion
         if wipes and self.stack:
             self.wipe.begin(self.surface)
 
     def pop(self) -> None:
-        """Go back to the screen below; from the lowest one, end."""
+        """Go back to the screen below; the lowest screen ends the program."""
         self.wipe_from(self.top)
         self.stack.pop()
         if not self.stack:
@@ -343,8 +343,8 @@ class App:
     def run(self, frames: int | None = None) -> None:
         """Run until a screen quits, or for ``frames`` pictures. Then, or on a signal, every screen is left.
 
-        Without a real display (SDL's dummy driver) a bounded run takes its time from the count of pictures, 60 a
-        second, and does not wait: it always shows the same.
+        Without a real display (SDL's dummy driver) a bounded run counts pictures as time, 60 a second, and does not
+        wait: its pictures are always the same.
         """
         clock = pygame.time.Clock()
         simulated = frames is not None and pygame.display.get_driver() in UNSEEN
@@ -375,7 +375,7 @@ class App:
         self.frame_ms = 1000 * (time.perf_counter() - started)
 
     def advance(self, real_ms: int) -> None:
-        """A turn without its picture."""
+        """One turn of the loop without drawing."""
         for event in pygame.event.get():
             self._handle(event)
             if not (self.running and self.stack):
@@ -397,8 +397,8 @@ class App:
     def _handle(self, raw: pygame.Event) -> None:
         """Handle events of the window; a screen that waits for a key press gets it before the app's own keys.
 
-        SDL sends each notch of the wheel as a press of a fourth or fifth button too; those, and buttons at the side of
-        a mouse, mean nothing.
+        Ignored: the fourth and fifth button, which SDL sends for each notch of the wheel, and the buttons at a mouse's
+        side.
         """
         if raw.type in {pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP} and raw.button > pygame.BUTTON_RIGHT:
             return
@@ -445,7 +445,7 @@ class App:
         middle, lines = (left + right) / 2, wrapped(theme, self.notice, most, NOTICE)[:NOTICE_LINES]
         size, margin, high = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
         if self.top.plays and len(lines) == 1:
-            # In the border: no text covers a level that is being played.
+            # In the border: no text covers a level during play.
             size, margin, high = IN_BORDER, 1.0, 20.0
         foot = theme.canvas.logical((0, theme.canvas.stage.bottom))[1] - self.top.foot_high
         y = foot - high * len(lines) - 2 * margin
@@ -457,9 +457,9 @@ class App:
         return rect
 
     def write_export(self, title: str, suffix: str, content: str | Callable[[Path], object]) -> Path | None:
-        """Write a file among the player's exports, and say where; its path, None where that failed.
+        """Write a file into the player's exports, and show where; its path, or None if that failed.
 
-        ``content``: text, or what writes the path.
+        ``content``: text, or a function that writes to the path.
         """
         try:
             path = export_path(self.player.folder, title, suffix)
@@ -474,7 +474,7 @@ class App:
         return path
 
     def keep_screenshot(self) -> None:
-        """Put the picture, without a notice in it, among the player's exports, and say where."""
+        """Write the picture, without a notice, into the player's exports, and show where."""
         if self.notice:
             self.notify("")
             self.draw()
@@ -490,10 +490,10 @@ def build_app(
     tas_editor: TasEditorOpener | None = None,
     window: Window | None = None,
 ) -> App:
-    """The app as the player's settings have it; a notice tells what is wrong with the player's files.
+    """The app with the player's settings; a notice shows what is wrong with the player's files.
 
-    ``folder``: the player's, instead of the usual one. ``controls``: what reads keys and pads, bound as the settings
-    say. ``audio_output``: instead of the sound device. ``tas_editor``, ``window``: as of ``App``.
+    ``folder``: the player's folder, by default the usual one. ``controls``: reads keys and pads. ``audio_output``:
+    instead of the sound device. ``tas_editor``, ``window``: as of ``App``.
 
     Raises NinjaGameError where there is no display.
     """
@@ -511,7 +511,7 @@ def build_app(
 
 
 class BossScreen(Screen):
-    """The key that hides the game comes back to it, and so does Esc; the key for leaving ends the program."""
+    """The key that hid the game, or Esc, shows it again; the key for leaving ends the program."""
 
     hides_game = True
 

@@ -1,4 +1,4 @@
-"""What hides the game from the boss: a picture of a spreadsheet."""
+"""A picture of a spreadsheet, which hides the game from the boss."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _ITEMS = ("Paper", "Toner", "Postage", "Travel", "Training", "Licences", "Furnit
 
 
 def draw_spreadsheet(surface: pygame.Surface, theme: Theme) -> None:
-    """Draw all of it; it never changes."""
+    """Draw the whole spreadsheet; it never changes."""
     surface.fill(_PAPER)
     canvas, text = theme.canvas, theme.text
     rng = Random(2)  # noqa: S311 - figures that mean nothing
