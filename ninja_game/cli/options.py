@@ -1,4 +1,4 @@
-"""What commands have in common: options and types of arguments."""
+"""Options and types of arguments that several commands share."""
 
 from __future__ import annotations
 

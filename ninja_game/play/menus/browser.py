@@ -121,7 +121,7 @@ class Browser(ThumbnailScreen):
         return super().capture(event)
 
     def handle(self, event: InputEvent) -> None:
-        """A file dropped on the window is copied into the player's folder; back in the window the list is read again."""
+        """A file dropped on the window is copied into the player's folder; back in the window the list is reread."""
         if event.raw.type == pygame.DROPFILE:
             self._take_in(Path(event.raw.file))
         elif event.raw.type == pygame.WINDOWFOCUSGAINED:
