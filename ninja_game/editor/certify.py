@@ -131,10 +131,10 @@ class Search:
 @lru_cache(maxsize=300)
 def _unlocked(level: Level, inputs: bytes) -> set[tuple[float, float]]:
     """The places of the switches by which these inputs open doors, px. Cached, since the window's thread asks again."""
-    way, opened = Simulation(level), set[tuple[float, float]]()
+    run, opened = Simulation(level), set[tuple[float, float]]()
     for keys in inputs:
-        way.step_keys(keys)
-        events = way.world.events[: way.world.event_count]
+        run.step_keys(keys)
+        events = run.world.events[: run.world.event_count]
         opened.update((event.x, event.y) for event in events if event.kind == LOCK_OPENED)
     return opened
 

@@ -139,7 +139,7 @@ class LevelContext:
         marks, level = self.data.marks, self.entry.digest
         return self.data.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
 
-    def sayings(self) -> tuple[LevelMessage, ...]:
+    def messages(self) -> tuple[LevelMessage, ...]:
         if not self.shows_hints:
             return ()
         with suppress(LevelError):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ninja_game.formats.ascii.object_lines import WEAPONS
+from ninja_game.formats.ascii.legend import WEAPONS
 from ninja_game.sim.events import DIED
 from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
 from ninja_game.sim.memory.schema import World

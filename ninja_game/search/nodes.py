@@ -286,8 +286,7 @@ def keep_state(words: StateWords, initial: StateWords, node: Node, arrays: Searc
             arrays.chunk_index[place] = k
             arrays.chunk_value[place] = words[k]
             count += 1
-    if first >= 0:
-        arrays.chunk_next[chunk] = -1
+    arrays.chunk_next[chunk] = -1
     node.chunk = first
     node.words = count
     return True

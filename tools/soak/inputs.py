@@ -5,8 +5,8 @@
     python3 tools/dev.py tool soak.inputs --entry "pack zip" --read found/pack-zip-1f2e3d4c
 
 The entry points are in `input_table.py`. With ``--coverage`` inputs that reach new code are mutated further, and kept
-in the folder ``--corpus``. Exit code 0: nothing found; 1: something was; each finding is a file of ``--findings``, printed
-with its traceback and what repeats it.
+in the folder ``--corpus``. Exit code 0: nothing found; 1: something was; each finding is a file of ``--findings``,
+printed with its traceback and what repeats it.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from itertools import takewhile
 from typing import NamedTuple, TypeVar
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, SYMBOL_OF_NAME
+from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, SYMBOL_OF_NAME, WEAPONS
 from ninja_game.formats.ascii.places import read_cell, read_number, read_place, shown
 from ninja_game.formats.lines import read_quoted
 from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KINDS, LAUNCH_PAD, ONE_WAY, THWUMP
@@ -35,7 +35,6 @@ MOVEMENTS = {
 SIDES = {"right": (0.0, 0.0, 0.0), "bottom": (1.0, 0.0, 0.0), "left": (0.0, -1.0, 0.0), "top": (1.0, 0.0, -1.0)}
 """Side of a door's cell: vertical flag, column offset, row offset (objects.md §8.6)."""
 
-WEAPONS = {"zap drone": 0.0, "laser drone": 1.0, "chaingun drone": 2.0}
 DOORS = {"automatic door": (0.0, 0.0), "locked door": (0.0, 1.0), "trap door": (1.0, 0.0)}
 """Trap flag and locked flag of the three sorts of door."""
 

@@ -415,7 +415,7 @@ class TryContext(LevelContext):
         """None: a level under edit has no best run."""
         return []
 
-    def sayings(self) -> tuple[LevelMessage, ...]:
+    def messages(self) -> tuple[LevelMessage, ...]:
         """All messages, however often the level was passed."""
         return parse_messages(self.entry.named.says)
 

@@ -29,11 +29,11 @@ from ninja_game.formats.messages import (
 from ninja_game.levels.episodes import Mood
 from ninja_game.levels.warnings import Ground, unseen_messages
 from ninja_game.play.app import App
-from ninja_game.play.level.hud import Hud, HudView, Said
+from ninja_game.play.level.hud import Hud, HudView, PlacedMessage
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
+from ninja_game.play.level.messages import shown_ticks
 from ninja_game.play.level.places import Things
-from ninja_game.play.level.sayings import shown_ticks
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.schema import World
@@ -366,7 +366,7 @@ class MessagesScreen(MenuScreen):
             controls, when = self.app.controls, message.when
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
             where = draft.level.tiles, self._things(stage, texts), self._eye(message), when == "start", when == "at"
-            message_said = Said(text, *where) if text else None
+            message_said = PlacedMessage(text, *where) if text else None
             if when == "at" and (eye := self._eye(message)):
                 frame = eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR
                 stage.hud.theme.canvas.frame_rect(picture, palette.accent, *frame, 2)

@@ -87,7 +87,7 @@ class Box(NamedTuple):
         return self.x, self.y, self.w, self.high * len(self.lines) + 2 * self.margin - 1
 
 
-class Said(NamedTuple):
+class PlacedMessage(NamedTuple):
     """A message of a level, and what it should not cover.
 
     ``tiles``, ``things``: to cover as little of as possible. ``covers``: it may cover open space too; else it may lie
@@ -132,7 +132,7 @@ class HudView:
     pars: Sequence[tuple[str, float]] = ()
     keys: int | None = None
     frame_ms: float | None = None
-    said: Said | None = None
+    said: PlacedMessage | None = None
     moves: Sequence[int] = ()
     letters: Sequence[str] = ()
     named: Sequence[tuple[str, float, float]] = ()
@@ -302,7 +302,7 @@ class Hud:
             rects.append(canvas.polygon(surface, colour, [*ends, at]))
         return rects[0].union(canvas.circle(surface, palette.accent, at, 3)).inflate(2, 2)
 
-    def box(self, said: Said, *, keys: float = 0.0) -> Box:
+    def box(self, said: PlacedMessage, *, keys: float = 0.0) -> Box:
         """The place of a message: in the upper border, else in the lower one, over solid tiles.
 
         If it would hide something there, or open space that it may not cover, it lies where it hides least, but never
@@ -374,7 +374,7 @@ def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | 
 
 
 @lru_cache(maxsize=4)
-def _box(theme: Theme, said: Said, keys: float) -> Box:
+def _box(theme: Theme, said: PlacedMessage, keys: float) -> Box:
     """As ``Hud.box``. Cached: the search for a place takes longer than all the rest of a picture."""
     text, tiles, things, about, covers, near = said
     high, anchor = _SAID_LINE * theme.scales[0], about if near else None

@@ -8,10 +8,10 @@ from math import hypot
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.messages import named_keys
 from ninja_game.formats.run_time import rounded_text, seconds_text
-from ninja_game.play.level.hud import EndPanel, HudView, Said
+from ninja_game.play.level.hud import EndPanel, HudView, PlacedMessage
 from ninja_game.play.level.level_play import STAMP_TICKS, LevelPlay, Phase
+from ninja_game.play.level.messages import FALL_HELP, WHY
 from ninja_game.play.level.places import MUST, Things
-from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
 from ninja_game.player.playthrough import Navigation
 from ninja_game.player.progress import NO_MEDAL, Mark, next_par
@@ -40,12 +40,12 @@ def hud_view(play: LevelPlay) -> HudView:
     key, settings = app.controls.name, app.settings
     gold = f"{attempt.gold} / {play.all_gold}"
     end = None
-    text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
+    text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.messages.text
     # The text of the start, and the one for a player who is stuck, stay in place and may cover open space.
-    covers = play.sayings.is_start or "\n" in text
-    place = play.sayings.place
+    covers = play.messages.is_start or "\n" in text
+    place = play.messages.place
     where = context.level.tiles, play.things, place or play.about, covers, place is not None
-    message_said = Said(named_keys(text, key), *where) if text else None
+    message_said = PlacedMessage(named_keys(text, key), *where) if text else None
     if play.phase is Phase.DEAD:
         cause, _, why = cause_of_death(play).partition(". ")
         end = EndPanel(cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], *_covering(play))
@@ -75,14 +75,14 @@ def hud_view(play: LevelPlay) -> HudView:
         moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
         letters=[key(name) for name in ("left", "jump", "right")],
         end=end,
-        named=() if end else named_in(attempt.simulation.world, play.sayings.named),
+        named=() if end else named_in(attempt.simulation.world, play.messages.named),
         medal=play.medal,
         stamp=play.stamp,
         shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
         seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
         ninja=play.ninja_place(),
         softly=not settings.reduced_motion,
-        said_seen=1.0 if settings.reduced_motion else play.sayings.seen,
+        said_seen=1.0 if settings.reduced_motion else play.messages.seen,
     )
 
 
@@ -136,7 +136,7 @@ def named_in(world: World, names: Sequence[str]) -> list[tuple[str, float, float
 def _hint(play: LevelPlay, key: KeyName) -> str:
     """The key to press now; "" in play and after it."""
     if play.phase is Phase.READY:
-        show_tutorial = play.show_tutorial and not play.sayings.text
+        show_tutorial = play.show_tutorial and not play.messages.text
         return _ready_hint(key, practice_mode=play.context.practice_mode, show_tutorial=show_tutorial)
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
@@ -164,9 +164,9 @@ def cause_of_death(play: LevelPlay) -> str:
     if play.attempt.self_inflicted:
         return "You gave up."
     if play.killer != SELF:
-        return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.sayings.helps
+        return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.messages.helps
     if play.crushed:
         return "You were crushed."
     if play.attempt.lifetime <= 0:
         return "Out of time."
-    return "You hit the ground too hard." + f" {FALL_HELP}" * play.sayings.helps
+    return "You hit the ground too hard." + f" {FALL_HELP}" * play.messages.helps

@@ -9,8 +9,8 @@ from random import Random
 
 from ninja_game.formats.messages import arrow_targets
 from ninja_game.play.app import App
+from ninja_game.play.level.messages import MessageQueue
 from ninja_game.play.level.places import MAY, Things, things_in
-from ninja_game.play.level.sayings import Sayings
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, AttemptState
 from ninja_game.player.playthrough import LevelContext
@@ -71,11 +71,11 @@ def things_at_start(level: Level, world: World, texts: Iterable[str], inputs: by
     """The things that a level's texts name at its start, and the author's route."""
     places = list(things_in(world, tagged=bool(arrow_targets(texts))))
     if inputs:
-        way = Simulation(level)
+        run = Simulation(level)
         for keys in inputs:
-            way.step_keys(keys)
-            if way.tick % 4 == 0:
-                places.append((way.world.ninja.x, way.world.ninja.y, MAY))
+            run.step_keys(keys)
+            if run.tick % 4 == 0:
+                places.append((run.world.ninja.x, run.world.ninja.y, MAY))
     return tuple(places)
 
 
@@ -109,14 +109,14 @@ class LevelPlay:
         self.attempt = Attempt(
             context.level, body=context.body, lifetime=context.lifetime, practice_mode=context.practice_mode
         )
-        level, way = context.beginning() if context.sayings() else (context.level, b"")
+        level, inputs = context.beginning() if context.messages() else (context.level, b"")
         world = self.attempt.simulation.world if level == context.level else Simulation(level).world
-        self.things = things_at_start(level, world, [saying.text for saying in context.sayings()], way)
+        self.things = things_at_start(level, world, [message.text for message in context.messages()], inputs)
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
-        self.sayings = Sayings(context.sayings(), helps=context.shows_hints)
+        self.messages = MessageQueue(context.messages(), helps=context.shows_hints)
         self.shown_lifetime = float(self.attempt.lifetime)
         self.ghosts: list[Ghost] = []
         self.tries: deque[bytes] = deque(maxlen=MOST_TRIES)
@@ -132,7 +132,7 @@ class LevelPlay:
         self.about: tuple[float, float] | None = None
         self.after_end = self._frozen_ms = 0
         self.killer, self.crushed = "", False
-        self.sayings.at_start()
+        self.messages.at_start()
         self.notices: list[str] = []
         self.next_par = self.context.next_par()
         runs = self.context.ghosts()
@@ -276,8 +276,8 @@ class LevelPlay:
             self.attempt.tick(self.keys, invincible=self.invincible)
             self.view.on_tick()
             self.tools.on_tick()
-            if self.phase is Phase.PLAY and self.sayings.on_tick(self.attempt.simulation.world):
-                self.changed, self.about = True, None if self.sayings.is_start else self.ninja_place()
+            if self.phase is Phase.PLAY and self.messages.on_tick(self.attempt.simulation.world):
+                self.changed, self.about = True, None if self.messages.is_start else self.ninja_place()
             self._note_end()
         if due and self.phase is Phase.PLAY:
             self.attempt.check_time()
@@ -300,7 +300,7 @@ class LevelPlay:
             else:
                 self.killer = self.attempt.killer
                 self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED
-                self.sayings.on_death()
+                self.messages.on_death()
                 self.context.died(self.attempt)
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1

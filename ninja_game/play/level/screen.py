@@ -192,7 +192,7 @@ class LevelScreen(Screen):
     def _watch(self, run: Replay | None) -> None:
         """Watch a run; then the level waits at its start and shows its messages again."""
         self.retry()
-        self.play.sayings.say_again()
+        self.play.messages.say_again()
         watch(self.app, [run])
         self.app.notify(f"{self.app.controls.name('back')}: back to your own try")
 

@@ -55,7 +55,7 @@ WHY = {
 FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 
 
-class Sayings:
+class MessageQueue:
     """The texts of one level. Each event's text is shown once; those of the start at each start until the exit is open.
 
     Texts of one moment follow each other; a new event's text comes first, and then what it interrupted, if that belongs
@@ -64,9 +64,9 @@ class Sayings:
     with a name and an arrow (``arrow_targets``).
     """
 
-    def __init__(self, sayings: Sequence[LevelMessage], *, helps: bool = False) -> None:
-        self._sayings = sayings
-        self.named = arrow_targets(saying.text for saying in sayings)
+    def __init__(self, messages: Sequence[LevelMessage], *, helps: bool = False) -> None:
+        self._messages = messages
+        self.named = arrow_targets(message.text for message in messages)
         self.helps = helps
         self._again = helps
         self._said: set[LevelMessage] = set()
@@ -77,7 +77,7 @@ class Sayings:
 
     def at_start(self) -> None:
         """Called when the level waits at its start."""
-        due = [saying for saying in self._sayings if saying.when == "death" and saying.deaths == self._deaths]
+        due = [message for message in self._messages if message.when == "death" and message.deaths == self._deaths]
         self._say(*_in_turn([*due, *self._starts()]))
         self._still = self._quiet = 0
         self._jumped_at = self._wall = 0.0
@@ -88,17 +88,17 @@ class Sayings:
 
     def _say_first(self, *texts: _Text) -> None:
         """Show these texts first, then the interrupted and waiting ones; none of the start once the exit is open."""
-        over = {saying.text for saying in self._said if saying.when == "start"}.union(text for text, *_ in texts)
+        over = {message.text for message in self._said if message.when == "start"}.union(text for text, *_ in texts)
         now = [(self.text, self._left, self.place)] if self.is_start or self._unread > 0 else []
         self._say(*texts, *(line for line in (*now, *self._next) if line[0] and line[0] not in over))
 
     def _starts(self) -> list[LevelMessage]:
-        return [saying for saying in self._sayings if saying.when == "start" and saying not in self._said]
+        return [message for message in self._messages if message.when == "start" and message not in self._said]
 
     @property
     def is_start(self) -> bool:
         """Whether the present text belongs to the start."""
-        return self.text in [saying.text for saying in self._starts()]
+        return self.text in [message.text for message in self._starts()]
 
     @property
     def seen(self) -> float:
@@ -126,9 +126,9 @@ class Sayings:
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
         if "switch" in happened:
             # The player has understood the goal: do not repeat the text of the start.
-            self._said.update(saying for saying in self._sayings if saying.when == "start")
-        new = [saying for saying in self._sayings if saying.when in happened or _is_near(world, saying.place)]
-        if new := [saying for saying in new if saying not in self._said]:
+            self._said.update(message for message in self._messages if message.when == "start")
+        new = [message for message in self._messages if message.when in happened or _is_near(world, message.place)]
+        if new := [message for message in new if message not in self._said]:
             self._said.update(new)
             self._say_first(*_in_turn(new))
         if self._again and self._is_stuck(world):
@@ -169,8 +169,8 @@ def shown_ticks(when: str, together: int) -> int:
     return START_TICKS if together == 1 and when in {"start", "switch"} else SHOWN_TICKS
 
 
-def _in_turn(sayings: Sequence[LevelMessage]) -> list[_Text]:
-    return [(saying.text, shown_ticks(saying.when, len(sayings)), saying.place) for saying in sayings]
+def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
+    return [(message.text, shown_ticks(message.when, len(messages)), message.place) for message in messages]
 
 
 def _is_near(world: World, place: Point | None, near: float = NEAR) -> bool:
