@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.declare import fast, kernel
 
 RADIUS = 0.4
 REACH = 0.8
@@ -49,14 +49,14 @@ def unlink(heads: Any, nexts: Any, prevs: Any, slot: int, cell: int) -> None:
         prevs[nexts[slot]] = prevs[slot]
 
 
-@entry_point
+@kernel
 def loose_build(columns: int, x: Any, y: Any, heads: Any, nexts: Any, prevs: Any, cells: Any) -> None:
     for slot in range(1, len(x)):
         cells[slot] = cell_of(columns, x[slot], y[slot])
         link(heads, nexts, prevs, slot, cells[slot])
 
 
-@entry_point
+@kernel
 def loose_move(
     columns: int, x: Any, y: Any, dx: Any, dy: Any, heads: Any, nexts: Any, prevs: Any, cells: Any, rounds: int
 ) -> int:
@@ -100,7 +100,7 @@ def nine_cells(columns: int, x: Any, y: Any, heads: Any, nexts: Any, qx: float, 
     return count
 
 
-@entry_point
+@kernel
 def loose_queries(columns: int, x: Any, y: Any, heads: Any, nexts: Any, qx: Any, qy: Any) -> int:
     """Hits of all queries by nine cells."""
     count = 0
@@ -112,7 +112,7 @@ def loose_queries(columns: int, x: Any, y: Any, heads: Any, nexts: Any, qx: Any,
 # --- no grid ---
 
 
-@entry_point
+@kernel
 def brute_queries(x: Any, y: Any, qx: Any, qy: Any) -> int:
     """Hits of all queries by asking every object."""
     count = 0
@@ -125,7 +125,7 @@ def brute_queries(x: Any, y: Any, qx: Any, qy: Any) -> int:
     return count
 
 
-@entry_point
+@kernel
 def brute_pairs(x: Any, y: Any, found: Any) -> int:
     """Touching pairs among all n (n - 1) / 2; as many as fit are written to ``found`` (pairs x 2)."""
     count = 0
@@ -159,7 +159,7 @@ def pairs_with(x: Any, y: Any, nexts: Any, first: int, second: int, found: Any, 
     return count
 
 
-@entry_point
+@kernel
 def five_cell_pairs(columns: int, x: Any, y: Any, heads: Any, nexts: Any, cells: Any, found: Any) -> int:
     """Touching pairs, each exactly once, as ``brute_pairs``.
 
@@ -180,7 +180,7 @@ def five_cell_pairs(columns: int, x: Any, y: Any, heads: Any, nexts: Any, cells:
 # --- bullets ---
 
 
-@entry_point
+@kernel
 def bullets(
     columns: int, x: Any, y: Any, heads: Any, nexts: Any, prevs: Any, cells: Any, vx: Any, vy: Any, first: int,
     filed: int, rounds: int,

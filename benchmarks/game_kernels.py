@@ -8,13 +8,13 @@ from ninja_game.sim.collision.ray_shapes import ray_tile
 from ninja_game.sim.collision.rays import cast_ray
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.declare import kernel
 from ninja_game.sim.objects.dispatch import touch, touch_objects
 from ninja_game.sim.rules import DOWN, RIGHT, SOLID, STRIDE
 from ninja_game.sim.world import step
 
 
-@entry_point
+@kernel
 def count_ticks(levels: Any, worlds: Any, index: int, inputs: Any) -> int:
     """Run world ``index`` in level ``index`` to its end or that of ``inputs``, without a record; the ticks run."""
     level = levels[index]
@@ -26,7 +26,7 @@ def count_ticks(levels: Any, worlds: Any, index: int, inputs: Any) -> int:
     return len(inputs)
 
 
-@entry_point
+@kernel
 def query_nine_cells(worlds: Any, rounds: int) -> int:
     """The ninja's collision query, again and again."""
     w = worlds[0]
@@ -35,7 +35,7 @@ def query_nine_cells(worlds: Any, rounds: int) -> int:
     return int(w.gold)
 
 
-@entry_point
+@kernel
 def query_every_thing(worlds: Any, rounds: int) -> int:
     """The same contacts without a grid: every filed thing is asked."""
     w = worlds[0]
@@ -46,7 +46,7 @@ def query_every_thing(worlds: Any, rounds: int) -> int:
     return int(w.gold)
 
 
-@entry_point
+@kernel
 def cast_along_cells(levels: Any, worlds: Any, x: float, y: float, dx: float, dy: float, rounds: int) -> float:
     """The game's ray: from cell to cell by their edges; where it stops, px to the right of its start."""
     total = 0.0
@@ -57,7 +57,7 @@ def cast_along_cells(levels: Any, worlds: Any, x: float, y: float, dx: float, dy
     return total / rounds
 
 
-@entry_point
+@kernel
 def cast_through_box(
     levels: Any, worlds: Any, x: float, y: float, dx: float, dy: float, length: float, rounds: int
 ) -> float:

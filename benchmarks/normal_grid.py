@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from benchmarks.arena import RADIUS, REACH, cell_of, link, unlink
-from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.declare import fast, kernel
 
 
 @fast
@@ -40,13 +40,13 @@ def unfile_box(columns: int, heads: Any, nexts: Any, prevs: Any, low: Any, high:
         row += columns + 2
 
 
-@entry_point
+@kernel
 def normal_build(columns: int, x: Any, y: Any, heads: Any, nexts: Any, prevs: Any, low: Any, high: Any) -> None:
     for slot in range(1, len(x)):
         file_box(columns, x, y, heads, nexts, prevs, low, high, slot)
 
 
-@entry_point
+@kernel
 def normal_move(
     columns: int, x: Any, y: Any, dx: Any, dy: Any, heads: Any, nexts: Any, prevs: Any, low: Any, high: Any, rounds: int
 ) -> int:
@@ -66,7 +66,7 @@ def normal_move(
     return changed
 
 
-@entry_point
+@kernel
 def normal_queries(columns: int, x: Any, y: Any, heads: Any, nexts: Any, stamps: Any, qx: Any, qy: Any) -> int:
     """Hits of all queries, each by the cells that it touches."""
     count = 0

@@ -1,4 +1,4 @@
-"""Every input that is kept in tests/corpus goes through its door: only our own errors come out (`tool soak.doors`)."""
+"""Each input in tests/corpus goes through its entry point: only our own errors come out (`tool soak.inputs`)."""
 
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ from pathlib import Path
 
 import pytest
 
-from tools.soak.door_table import DOORS, errors_of
+from tools.soak.input_table import ENTRY_POINTS, errors_of
 
 CORPUS = Path(__file__).parent / "corpus"
 MOST_BYTES = 200_000
 
 
-@pytest.mark.parametrize("name", DOORS)
-def test_door_reads_or_refuses_its_corpus(name: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ENTRY_POINTS)
+def test_entry_point_reads_or_refuses_its_corpus(name: str, tmp_path: Path) -> None:
     outcomes = set()
     for number, file in enumerate(sorted((CORPUS / name.replace(" ", "-")).iterdir())):
         folder = tmp_path / str(number)
         folder.mkdir()
         try:
-            DOORS[name].read(file.read_bytes(), folder)
+            ENTRY_POINTS[name].read(file.read_bytes(), folder)
             outcomes.add("read")
         except errors_of(name) as error:
             outcomes.add(str(error) and "refused")
@@ -27,6 +27,6 @@ def test_door_reads_or_refuses_its_corpus(name: str, tmp_path: Path) -> None:
     assert "read" in outcomes
 
 
-def test_corpus_is_small_and_of_doors_that_are_there() -> None:
-    assert {folder.name.replace("-", " ") for folder in CORPUS.iterdir()} == DOORS.keys()
+def test_corpus_is_small_and_of_known_entry_points() -> None:
+    assert {folder.name.replace("-", " ") for folder in CORPUS.iterdir()} == ENTRY_POINTS.keys()
     assert sum(file.stat().st_size for file in CORPUS.rglob("*") if file.is_file()) <= MOST_BYTES

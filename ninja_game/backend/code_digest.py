@@ -14,7 +14,7 @@ OPTIONS = {"nogil": True, "error_model": "python", "_nrt": False}
 
 
 def code_digest(entry: Callable[..., Any], compiler: str) -> str:
-    """A digest of all that goes into the machine code of an entry point.
+    """A digest of all that goes into the machine code of a kernel.
 
     That is ``compiler`` (what compiles it, with its options), the code of the function and of all registered functions
     that it reaches, the fields of the named tuples that they take, and the values of the constants that they name,

@@ -27,7 +27,7 @@ from ninja_game.sim.memory.declare import fields_of
 from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, World
 
 Compile = Callable[[Callable[..., Any]], Callable[..., Any]]
-"""Gives the compiled twin of an entry point (``memories.compiled``)."""
+"""Gives the compiled twin of a kernel (``memories.compiled``)."""
 
 SLICE = 400_000
 """Ticks times objects in one call of a kernel, some tens of milliseconds: between calls Python sees Ctrl-C."""

@@ -3,7 +3,7 @@
 A twin has the code of its rule and a namespace of its own, in which rules are compiled functions and module-level lists
 are constant arrays. So the plain rules stay ordinary Python and both memories run side by side in one process.
 
-Only entry points get the wrappers that Python needs and a place in the cache; that saves a quarter of the compile time
+Only kernels get the wrappers that Python needs and a place in the cache; that saves a quarter of the compile time
 and most of the cache.
 """
 
@@ -17,16 +17,16 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ninja_game.backend.code_digest import OPTIONS
-from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED
+from ninja_game.sim.memory.declare import KERNELS, REGISTERED
 
 R = TypeVar("R")
 
 AttachCache = Callable[[Any, Callable[..., Any], bool], None]
-"""Gives the compiled twin of an entry point, before its first call, a place in a cache; with whether it is checked."""
+"""Gives the compiled twin of a kernel, before its first call, a place in a cache; with whether it is checked."""
 
 
 class Compiler:
-    """``compiler(entry_point)`` is its compiled twin, which takes the same arguments.
+    """``compiler(kernel)`` is its compiled twin, which takes the same arguments.
 
     Nothing is compiled before a twin is called for the first time. ``checked``: raise IndexError for an index out of
     range, which is silent otherwise. ``attach_cache``: see ``AttachCache``. ``pipeline``: the passes, as
@@ -54,9 +54,9 @@ class Compiler:
         self._namespaces: dict[str, dict[str, Any]] = {}
 
     def __call__(self, entry: Callable[..., R]) -> Callable[..., R]:
-        """The compiled twin of an entry point. Raises TypeError for any other function."""
-        if entry not in ENTRY_POINTS:
-            raise TypeError(f"{entry.__module__}.{entry.__qualname__} is not an entry point")
+        """The compiled twin of a kernel. Raises TypeError for any other function."""
+        if entry not in KERNELS:
+            raise TypeError(f"{entry.__module__}.{entry.__qualname__} is not a kernel")
         twin: Callable[..., R] = self._twin(entry)
         return twin
 
@@ -67,7 +67,7 @@ class Compiler:
             twin = FunctionType(rule.__code__, namespace, rule.__name__, rule.__defaults__)
             twin.__module__ = rule.__module__
             twin.__qualname__ = rule.__qualname__
-            entry = rule in ENTRY_POINTS
+            entry = rule in KERNELS
             self._twins[rule] = compiled = self._outer(twin) if entry else self._one_for_all_integers(self._inner(twin))
             if entry and self._attach_cache:
                 self._attach_cache(compiled, rule, self._checked)

@@ -1,7 +1,7 @@
 """The machine code of compiled kernels, kept in files from one process to the next.
 
 A kernel's file is named after a digest of all the code and constants that went into it (``code_digest``), wherever it
-lies: an edit of any rule is another file. Numba's own cache looks at the file of the entry point alone, and falls back
+lies: an edit of any rule is another file. Numba's own cache looks at the file of the kernel alone, and falls back
 to folders beside the sources, so it is not used. A release's wheel has kernels for any processor of its family
 (``SHIPPED``), under the names that they have on this machine; where one of these fits, nothing is compiled.
 
@@ -50,7 +50,7 @@ before_compiling: list[Callable[[], None]] = []
 
 @cache
 def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
-    """How the names of an entry point's files begin; Numba is not imported for it."""
+    """How the names of a kernel's files begin; Numba is not imported for it."""
     from importlib.metadata import version
 
     # Kernels contain no code of NumPy, only the layout of its arrays, which patch releases keep.
@@ -60,7 +60,7 @@ def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
 
 
 def are_cached(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
-    """Whether there is machine code of all these entry points."""
+    """Whether there is machine code of all these kernels."""
     kept = {
         path.stem.rpartition("-")[0]
         for folder in (SHIPPED, code_folder())
@@ -71,7 +71,7 @@ def are_cached(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
 
 
 def attach_cache(dispatcher: Any, entry: Callable[..., Any], checked: bool) -> None:
-    """Let the machine code of an entry point's twin be read from the cache folder, and written there.
+    """Let the machine code of a kernel's twin be read from the cache folder, and written there.
 
     A Numba without the private parts that this needs works without a cache, which is said once.
     """

@@ -1,4 +1,4 @@
-"""The entry points of memories: load, step, run and trace worlds without a return to Python each tick.
+"""The kernels of memories: load, step, run and trace worlds without a return to Python each tick.
 
 These functions take arrays of worlds and an index, never a single record: that is what Numba passes quickly. The plain
 memory calls the same functions with lists. Results go into flat arrays of numbers, which both write quickly.
@@ -14,7 +14,7 @@ from ninja_game.sim.arithmetic import canonical
 from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.death import kill
 from ninja_game.sim.loader import populate
-from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.declare import kernel
 from ninja_game.sim.memory.schema import MAX_EVENTS, TileMap, World
 from ninja_game.sim.traces import is_switched, place_of, status_of
 from ninja_game.sim.world import step
@@ -23,7 +23,7 @@ PLACES, NUMBERS = len(TRACED_FLOATS), len(TRACED_INTS)
 """How many places and numbers a trace has of a tick."""
 
 
-@entry_point
+@kernel
 def load_world(
     levels: Sequence[TileMap],
     worlds: Sequence[World],
@@ -39,27 +39,27 @@ def load_world(
     worlds[index].ninja.box = box
 
 
-@entry_point
+@kernel
 def step_world(levels: Sequence[TileMap], number: int, worlds: Sequence[World], index: int, keys: int) -> None:
     """One tick of world ``index`` in level ``number``."""
     step(levels[number], worlds[index], keys)
 
 
-@entry_point
+@kernel
 def kill_ninja(worlds: Sequence[World], index: int, cause: int, dx: float, dy: float) -> None:
     """Kill the ninja where it is, from outside the rules: its time is over, or the player gave up."""
     n = worlds[index].ninja
     kill(worlds[index], cause, 0, dx, dy, n.x, n.y)
 
 
-@entry_point
+@kernel
 def observe_object(worlds: Sequence[World], index: int, slot: int) -> tuple[int, float, float, int]:
     """Kind, place (px) and status of an object, as traces show them."""
     x, y = place_of(worlds[index], slot)
     return worlds[index].objects[slot].kind, x, y, status_of(worlds[index], slot)
 
 
-@entry_point
+@kernel
 def run_world(
     levels: Sequence[TileMap],
     number: int,
@@ -87,7 +87,7 @@ def run_world(
     return len(inputs)
 
 
-@entry_point
+@kernel
 def trace_world(
     levels: Sequence[TileMap],
     number: int,
@@ -143,7 +143,7 @@ def trace_world(
                 events[MAX_EVENTS * tick + k] = w.events[k].kind + 1
 
 
-@entry_point
+@kernel
 def run_worlds(
     levels: Sequence[TileMap], level_of: Any, worlds: Sequence[World], inputs: Any, first: int, last: int, stop: int
 ) -> int:

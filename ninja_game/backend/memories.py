@@ -217,9 +217,9 @@ def _prove_plain() -> None:
 
 
 def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[..., R]:
-    """The compiled twin of an entry point, which takes the same arguments; any thread may ask.
+    """The compiled twin of a kernel, which takes the same arguments; any thread may ask.
 
-    Raises MemoryUnavailableError without Numba, TypeError for a function that is not an entry point, SelfTestError
+    Raises MemoryUnavailableError without Numba, TypeError for a function that is not a kernel, SelfTestError
     where compiled worlds are not as they must be.
     """
     checked = checked or _ALL_CHECKED
@@ -241,12 +241,12 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
 
 
 def is_compiled(entry: Callable[..., Any]) -> bool:
-    """Whether this process has made the compiled twin of an entry point."""
+    """Whether this process has made the compiled twin of a kernel."""
     return (entry, _ALL_CHECKED) in _KERNELS
 
 
 def compiled_if_possible(entry: Callable[..., R]) -> Callable[..., R]:
-    """The compiled twin of an entry point that only takes arrays of numbers; without Numba the function itself."""
+    """The compiled twin of a kernel that only takes arrays of numbers; without Numba the function itself."""
     return compiled(entry) if _usable_memory("auto") == "compiled" else entry
 
 

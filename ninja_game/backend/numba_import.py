@@ -107,8 +107,8 @@ def make_pipeline() -> type | None:
     """What ``numba.njit`` takes as ``pipeline_class``; None for a Numba without the private parts that this needs.
 
     Numba makes machine code of every function that it compiles, and optimizes it together with all functions that it
-    calls. Of rules only entry points run, and they hold copies of all others; so the others are left as LLVM's code,
-    which is optimized in the entry point. That saves a third of the time, and the kernels are as fast.
+    calls. Of rules only kernels run, and they hold copies of all others; so the others are left as LLVM's code,
+    which is optimized in the kernel. That saves a third of the time, and the kernels are as fast.
     """
     try:
         return _make_pipeline()
@@ -139,12 +139,12 @@ def _make_pipeline() -> type:
 
     @register(mutates_CFG=True, analysis_only=False)
     class RuleLowering(lowering):  # type: ignore[misc, valid-type]
-        """Turns a typed function into LLVM's code; an entry point also into machine code."""
+        """Turns a typed function into LLVM's code; a kernel also into machine code."""
 
         _name = "rule_lowering"
 
         def run_pass(self, state: Any) -> bool:
-            """Only entry points have a wrapper for Python."""
+            """Only kernels have a wrapper for Python."""
             if not state.flags.no_cpython_wrapper:
                 return bool(super().run_pass(state))
             state.library = InnerLibrary(state.targetctx.codegen(), state.func_id.func_qualname)

@@ -11,7 +11,7 @@ from ninja_game.sim.memory.schema import World
 
 R = TypeVar("R")
 Kernel: TypeAlias = Callable[..., R]
-"""An entry point, or its compiled twin."""
+"""A kernel, or its compiled twin."""
 
 MemoryName = Literal["plain", "compiled"]
 
@@ -75,7 +75,7 @@ class Worlds(ABC):
 
     @abstractmethod
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:
-        """The form of an entry point that takes maps and worlds: its compiled twin, or itself."""
+        """The form of a kernel that takes maps and worlds: its compiled twin, or itself."""
 
     # --- one world ---
 

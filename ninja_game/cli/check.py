@@ -128,7 +128,7 @@ def _summary(levels: int, broken: int, without: Mapping[str, Sequence[str]]) -> 
 
 
 def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | None) -> Iterator[dict[str, Path]]:
-    """Where each level's runs are kept, by goal: ``file.goal.replay.txt``; numbered where that name is given."""
+    """The files of each level's runs, by goal: ``file.goal.replay.txt``; numbered if that name is taken."""
     taken: set[str] = set()
     for level in levels:
         stem = name = Path(level.file).stem + (f"-{level.record}" if level.record else "")
@@ -188,7 +188,7 @@ def _facts(level: NamedLevel, by_goal: Mapping[str, Certified], files: Mapping[s
 
 
 def _warnings(level: NamedLevel, run: Replay | None) -> list[str]:
-    """What is odd about a level, and the locked doors that its run does not open."""
+    """The findings of a level, and the locked doors that its run does not open."""
     from ninja_game.levels.warnings import level_warnings, object_name
     from ninja_game.sim.arithmetic import is_set
     from ninja_game.sim.level import makes_object, well_formed

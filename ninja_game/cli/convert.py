@@ -1,4 +1,4 @@
-"""Commands that turn what is in files into other forms: convert, record, link."""
+"""Commands that convert files: convert, record, link."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def convert(
 
 
 class Output:
-    """Where the texts go: a file, a folder or the terminal. Nothing is written over what is there unless ``force``."""
+    """The target of the texts: a file, a folder or the terminal. Nothing is overwritten unless ``force``."""
 
     def __init__(self, target: str, sources: Sequence[Path], *, force: bool) -> None:
         self.target = target
@@ -145,7 +145,7 @@ class Output:
             click.echo(f"{counted(len(texts), 'file')} written to {folder}", err=True)
 
     def _put(self, files: Sequence[tuple[Path, str]], tree: Tree | None = None) -> None:
-        """Write files, those of a folder into ``tree``. Raises FileError, before any is written, for what must stay."""
+        """Write files, those of a folder into ``tree``. Raises FileError, before any is written, if one must stay."""
         from ninja_game.files.writing import check_output, write_atomically
 
         for path in [path for path, _ in files if os.path.lexists(path)]:

@@ -51,7 +51,7 @@ def info(
     from ninja_game.formats.load import load_levels
     from ninja_game.runs.recording_reader import Unreadable, recordings_in
 
-    # A pipe has no width; a table truncated to 80 columns is of no use to whoever reads it.
+    # A pipe has no width; a table truncated to 80 columns is useless there.
     console = Console(highlight=False, emoji=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
     play_level = load_level_option(level_path)
     runs = [run for run in recordings_in(files, play_level) if not isinstance(run, Unreadable)]
@@ -85,9 +85,9 @@ def _kind_counts(level: NamedLevel) -> Counter[str]:
 
 
 def _object_counts(level: NamedLevel) -> Counter[str]:
-    """How many objects of each sort that a level's file has a word for: zap drones apart from laser drones.
+    """The number of objects of each sort with a word in level files: zap drones apart from laser drones.
 
-    Of more objects than can be played, which take long, how many of each kind.
+    If there are more objects than can be played, which take long, the number of each kind.
     """
     from ninja_game.formats.ascii.writer import best_form
     from ninja_game.sim.kinds import KIND_NAMES

@@ -71,7 +71,7 @@ TYPES = f"""<?xml version="1.0" encoding="UTF-8"?>
 ICON = 256  # width and height of the icon, px
 
 UPDATES = (("update-mime-database", "mime"), ("update-desktop-database", "applications"))
-"""Programs that tell desktops of new files, where they are installed, and the folder that each is given."""
+"""Programs that announce new files to desktops, if installed, and the folder for each."""
 
 
 @click.command()
@@ -107,7 +107,7 @@ def desktop(remove: bool) -> None:
 
 
 def program_words() -> list[str]:
-    """How this program is started, from any folder."""
+    """The words that start this program from any folder."""
     if getattr(sys, "frozen", False):
         return [sys.executable]
     script = Path(sys.executable).with_name("ninja-game")
@@ -115,7 +115,7 @@ def program_words() -> list[str]:
 
 
 def desktop_files(folder: Path, program: list[str]) -> dict[Path, str | bytes]:
-    """The files below a folder of data such as ~/.local/share, with what is in each."""
+    """The files below a folder of data such as ~/.local/share, with their contents."""
     from ninja_game.play.window import icon, png_of
 
     command = " ".join(map(_quoted, program))
@@ -129,7 +129,7 @@ def desktop_files(folder: Path, program: list[str]) -> dict[Path, str | bytes]:
 
 
 def _quoted(word: str) -> str:
-    """A word as the key Exec of a menu's file has it."""
+    """A word in the syntax of the key Exec of a menu's file."""
     for sign in ("\\", '"', "`", "$"):
         word = word.replace(sign, f"\\{sign}")
     # Desktop files have their own rules for escaping.

@@ -1,4 +1,4 @@
-"""`ninja-game`: the list of commands, and what every error becomes.
+"""`ninja-game`: the list of commands, and the handling of errors.
 
 Commands are loaded when they are named and import what they need when they run, so that `--help` comes at once.
 """
@@ -24,7 +24,7 @@ from ninja_game.signals import Terminated, announced, end_on_signals, leave_sign
 
 
 class Commands(click.Group):
-    """A group that imports a command when it is asked for, and turns every expected error into one line and a code."""
+    """A group that imports a command when it is needed, and turns expected errors into one line and an exit code."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -42,7 +42,7 @@ class Commands(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """The command that is named; a usage error for an unknown one says which is nearest."""
+        """The named command; a usage error for an unknown one suggests the nearest."""
         near = get_close_matches(args[0], COMMANDS, 1) if args and args[0] not in COMMANDS else []
         if near:
             ctx.fail(f"No such command {args[0]!r}; did you mean '{near[0]}'?")
@@ -58,7 +58,7 @@ class Commands(click.Group):
                 formatter.write_dl([(name.ljust(width), command.help) for name, command in group.items()])
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command; that nobody reads its output any more is not an error."""
+        """Run the command; a closed output is not an error."""
         try:
             code = super().invoke(ctx)
             sys.stdout.flush()
@@ -66,7 +66,7 @@ class Commands(click.Group):
             # Rich, which draws tables, exits with 1 where the reader of the output was closed.
             if not isinstance(error, BrokenPipeError) and not isinstance(error.__context__, BrokenPipeError):
                 raise
-            # What Python flushes at exit must not fail again.
+            # Python's flush at exit must not fail again.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return BROKEN_PIPE
         except KeyboardInterrupt as error:
@@ -77,7 +77,7 @@ class Commands(click.Group):
         return code
 
     def main(self, args: Sequence[str] | None = None, *more: Any, **named: Any) -> NoReturn:
-        """Run, then leave with an exit code; errors that are the caller's end as a line on stderr."""
+        """Run, then leave with an exit code; errors of the caller are a line on stderr."""
         named["standalone_mode"] = False
         failed: BaseException | None = None
         code: Any = None
@@ -166,7 +166,7 @@ def main() -> NoReturn:
 
 
 def _announce_compiling() -> None:
-    """Announce that rules are compiled first, since that takes a while; and have all others compiled meanwhile."""
+    """Announce that rules are compiled first, since that takes a while; compile all others in the background."""
     from ninja_game.backend.background_compiler import start
     from ninja_game.backend.kernel_cache import before_compiling
 

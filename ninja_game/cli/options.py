@@ -1,4 +1,4 @@
-"""What commands have in common: options and types of arguments."""
+"""Options and types of arguments that several commands share."""
 
 from __future__ import annotations
 
@@ -26,12 +26,11 @@ N = TypeVar("N", "NamedLevel", "Recording")
 
 JOBS = click.IntRange(1, 1024)
 SEED = click.IntRange(0, 10**9)
-OLD_FILE = click.Path(exists=True, dir_okay=False, path_type=Path)
-NEW_FILE = click.Path(dir_okay=False, path_type=Path)
+OLD_FILE = click.Path(exists=True, dir_okay=False, path_type=Path)  # must exist
+NEW_FILE = click.Path(dir_okay=False, path_type=Path)  # may be missing
 OLD_FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
 NEW_FOLDER = click.Path(file_okay=False, path_type=Path)
-OLD_PATH = click.Path(exists=True, path_type=Path)
-"""A file, a folder, or either, that is there already; one that is to be written."""
+OLD_PATH = click.Path(exists=True, path_type=Path)  # a file or a folder
 
 
 class InputPath(click.Path):

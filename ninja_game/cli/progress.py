@@ -28,7 +28,7 @@ EVERY = 15.0  # seconds between two lines
 
 
 class Readable(Generic[T]):
-    """Items as they pass, without what cannot be read, which is reported on stderr; how many of each there were."""
+    """Items in passing, without unreadable ones, which are reported on stderr; the number of each."""
 
     def __init__(self, items: Iterable[T | Unreadable]) -> None:
         self._items = items
@@ -56,7 +56,7 @@ def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
 
 @contextmanager
 def heartbeat(text: Callable[[], str]) -> Iterator[None]:
-    """Report progress on stderr meanwhile: the present state in a terminal, in a file a line now and then."""
+    """Report progress on stderr during the block: the present state in a terminal, in a file a line now and then."""
     over, start = Event(), time.monotonic()
 
     def report_to_file() -> None:
@@ -106,14 +106,14 @@ class ShownProgress:
 
 @contextmanager
 def progress_line() -> Iterator[ShownProgress]:
-    """Show how a search stands, as ``heartbeat`` does."""
+    """Show the state of a search, as ``heartbeat`` does."""
     shown = ShownProgress()
     with heartbeat(lambda: shown.text):
         yield shown
 
 
 def progress_text(progress: Progress) -> str:
-    """What is done, best run and speed in a line, which is shown beside a clock."""
+    """Work done, best run and speed in a line, which is shown beside a clock."""
     best = time_text(progress.best) if progress.best >= 0 else "none yet"
     speed = progress.ticks / progress.seconds / 1e6 if progress.seconds > 0 else 0.0
     return f"{progress.doing:<10} best {best}  {speed:.1f}M ticks/s"

@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 
 
 class SearchLog:
-    """The log of a long search: what it found after how many seconds, a line each, over all its commands.
+    """The log of a long search: its finds with their seconds, a line each, over all its commands.
 
-    ``starts``: how many there were; ``seconds_spent``: in all of them. Raises FileError for another file.
+    ``starts``: their number; ``seconds_spent``: in all of them. Raises FileError for another file.
     """
 
     HEAD = "# seconds spent, and what improve found"
@@ -305,7 +305,7 @@ def check_gold(task: Task) -> None:
 
 
 def not_found_text(task: Task, progress: Progress | None) -> str:
-    """The line for a search that found no run, with what it never reached."""
+    """The line for a search without a run, with the things that it never reached."""
     from ninja_game.search.task import obstacle
 
     gold = f"with {task.gold_wanted} gold " if task.gold_wanted else ""

@@ -34,7 +34,7 @@ def table_of(group: Sequence[RunSplits], against: Sequence[RunSplits]) -> Table:
 
 
 def titles(recordings: Sequence[Recording]) -> list[str]:
-    """What tells recordings apart: their names, or file and record where there is no name or two are the same."""
+    """Distinct names of recordings: their own, or file and record if that is missing or not unique."""
     names = [shown_text(recording.name) for recording in recordings]
     return [
         name

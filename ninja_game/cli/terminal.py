@@ -42,14 +42,14 @@ class Terminal(io.TextIOWrapper):
 
 
 def data_output() -> TextIO:
-    """Standard output for what files hold: from now on a terminal shows colours, too, as their escapes."""
+    """Standard output for contents of files: from now on a terminal shows colours, too, as their escapes."""
     if isinstance(sys.stdout, Terminal):
         sys.stdout.ours = _DATA
     return sys.stdout
 
 
 def guard_terminal() -> None:
-    """Wrap stdout and stderr in ``Terminal`` where they are one; files and pipes get every byte."""
+    """Wrap stdout and stderr in ``Terminal`` if they are one; files and pipes get every byte."""
     for name, ours in _OURS.items():
         stream = getattr(sys, name)
         # Names of levels may contain characters that the terminal's encoding lacks.
@@ -64,7 +64,7 @@ def use_dummy_video() -> None:
 
 
 def print_error(message: str) -> None:
-    """Write what is wrong on stderr, each line with the program's name."""
+    """Write an error on stderr, each line with the program's name."""
     for line in message.split("\n"):
         say(f"ninja-game: {shown_text(line, _LONGEST_MESSAGE)}")
 

@@ -118,7 +118,7 @@ def _expected(against: Path, record: int | None, how: dict[str, Any]) -> Iterato
 
 
 def _compare(traces: Readable[FiledTrace], expected: Iterator[FiledTrace], against: Path, record: int | None) -> int:
-    """How many runs differ from the expected ones; each is reported with its first difference.
+    """The number of runs that differ from the expected ones; each is reported with its first difference.
 
     Runs are paired by file and record, else by record alone; with ``record`` each is compared with that one.
     """

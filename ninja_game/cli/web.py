@@ -42,7 +42,7 @@ rules_option = click.option(
 
 
 def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
-    """What is remembered of a folder, ``about``: the runs in ``folder``, or the pages of them.
+    """The memo of a folder, ``about``: the runs in ``folder``, or the pages of them.
 
     Raises FileError for a place in one of the two, where people may put files that are not yours.
     """
@@ -133,7 +133,7 @@ class _Board(click.Group):
     allow_interspersed_args = True
 
     def make_context(self, info_name: Any, args: list[str], parent: Any = None, **extra: Any) -> click.Context:
-        """Of the command that is meant: one of those below, or this one."""
+        """The context of the command meant: one of those below, or this one."""
         if args and args[0] in self.commands:
             return self.commands[args[0]].make_context(f"{info_name} {args[0]}", args[1:], parent, **extra)
         return super().make_context(info_name, args, parent, **extra)
@@ -259,9 +259,9 @@ def _ranking(
     decide: Callable[[Ledger, datetime, ValidatedRuns], bool] | None = None,
     dates: Path | None = None,
 ) -> tuple[Ranking, Ledger]:
-    """The ranking of a folder's runs by the board's rules, and the ledger before, with what is decided now.
+    """The ranking of a folder's runs by the board's rules, and the earlier ledger with the present decisions.
 
-    ``levels``, ``ledger``, ``rules``: where nothing is decided, without them those of the folder's last board.
+    ``levels``, ``ledger``, ``rules``: by default, without decisions, those of the folder's last board.
     """
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
@@ -300,7 +300,7 @@ def _ranking(
 
 
 def _remembered(memo: Memo, key: str) -> Path | None:
-    """The file or folder that a memo has under a key, if it is there."""
+    """The file or folder in a memo under a key, if it still exists."""
     last = memo.recall(key)
     return Path(last) if isinstance(last, str) and last and Path(last).exists() else None
 

@@ -55,7 +55,7 @@ def play(
     path = next((str(option) for option in (level, level_path) if option is not None), None)
     from ninja_game.play.window import open_at_once
 
-    # What is wrong with a file is said in the terminal before a window opens.
+    # Errors in a file appear in the terminal before a window opens.
     opened = open_at_once(window["size"]) if path is None else None
     from ninja_game.play.main import main
     from ninja_game.tas_editor.opening import open_tas_editor
@@ -144,7 +144,7 @@ def tas(
         return screen
 
     def opening(app: App) -> Screen:
-        # So many pictures are pictures of the TAS editor.
+        # Pictures of the TAS editor are counted.
         return editor(app) if window["frames"] else OpeningScreen(app, opened.recording, lambda: editor(app))
 
     opened_window = open_at_once(window["size"], wide=True)

@@ -1,4 +1,4 @@
-"""What is drawn with: the tiles by family and quarter, the types of objects, the keys that choose them, and snaps."""
+"""The brush: tiles by family and quarter, types of objects, the keys that choose them, and snaps."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, HALF
 
 SNAPS: dict[str, float] = {"cell": CELL, "half": HALF, "quarter": HALF / 2, "px": 1.0}
-"""px between the places where objects can be put, by name; "cell": in the middle, or where the kind sits in a cell."""
+"""px between possible places of objects, by name; "cell": in the middle, or where the kind sits in a cell."""
 
 QUARTERS = "qwas"
-"""Keys whose place is the solid corner of a tile: upper left, upper right, lower left, lower right."""
+"""Keys placed like the solid corner of a tile: upper left, upper right, lower left, lower right."""
 
 
 class Family(NamedTuple):
@@ -54,7 +54,7 @@ def tile_key(tile: int) -> str:
 
 
 class ObjectType(NamedTuple):
-    """A type of object in the palette. ``key``: the name of its key; ``line``: what it is like at first."""
+    """A type of object in the palette. ``key``: the name of its key; ``line``: its first properties."""
 
     name: str
     key: str
@@ -89,7 +89,7 @@ OBJECT_TYPES = tuple(
         ("homing launcher", "2", "1,1"),
     )
 )
-"""Everything that can be placed; the keys are Ned's (game.md §6)."""
+"""All objects; the keys are Ned's (game.md §6)."""
 
 OBJECT_TYPE_NAMES = tuple(object_type.name for object_type in OBJECT_TYPES)
 
@@ -113,7 +113,7 @@ def snapped(x: float, y: float, snap: str) -> tuple[float, float]:
 
 
 def placed(spec: ObjectSpec, x: float, y: float, snap: str, *, nearest: bool = True) -> ObjectSpec:
-    """The brush's object put at a point; doors on their side of the cell or the ``nearest``, the switch at the point.
+    """The brush's object at a point; doors on their side of the cell or the ``nearest``, the switch at the point.
 
     Drones sit in the middle of their cell, guards on its floor, whatever the snap.
     """

@@ -41,15 +41,15 @@ if TYPE_CHECKING:
 COMPILING = "The solver is compiled, the first time on a machine a minute or more"
 
 SECONDS, STOPPED = 20.0, "Stopped"
-"""How long the solver looks for better runs; the end of a search that nobody wants any more."""
+"""How long the solver looks for better runs; the end of a cancelled search."""
 
 
 PathPoints = tuple[tuple[float, float], ...]
-"""Where the ninja was after each tick, px."""
+"""The ninja's place after each tick, px."""
 
 
 class Try(NamedTuple):
-    """A test of the level as it was then. ``inputs``: a byte a tick; ``over``: whether it may not go on."""
+    """A test of the level in its state at that time. ``inputs``: a byte per tick; ``over``: it cannot be continued."""
 
     level: Level
     inputs: bytes
@@ -57,7 +57,7 @@ class Try(NamedTuple):
 
 
 class TestMap(NamedTuple):
-    """Many tests of a level: in how many the ninja was in each cell, and where it died, px."""
+    """Many tests of a level: by cell the number of tests with the ninja in it; and the deaths, px."""
 
     visits: Mapping[Cell, int]
     deaths: PathPoints
@@ -68,7 +68,7 @@ NO_TESTS = TestMap({}, ())
 
 @lru_cache(maxsize=300)
 def _played(level: Level, inputs: bytes) -> RunResult | None:
-    """The run of these inputs; None where it cannot be played, or costs too much."""
+    """The run of these inputs; None if it cannot be played, or costs too much."""
     try:
         return run_level(level, inputs, memory="plain")
     except (BudgetError, LevelError):
@@ -76,7 +76,7 @@ def _played(level: Level, inputs: bytes) -> RunResult | None:
 
 
 def route_of(level: Level, inputs: bytes) -> PathPoints:
-    """The ninja's route to the end of the run or of the inputs; () where it cannot be played, or costs too much."""
+    """The ninja's route to the end of the run or of the inputs; () if it cannot be played, or costs too much."""
     run = _played(level, inputs)
     return tuple(iter_unpack("<2d", run.places)) if run else ()
 
@@ -97,9 +97,9 @@ def map_of(tries: Iterable[Try]) -> TestMap:
 class Certification:
     """The solver's work on a level: ``run``, the best one found, and its ``route``; ``full``: the best with all gold.
 
-    ``progress``: the newest one, None until the solver is ready. ``end``: why it is over, "" as long as it is not, and
-    ``failed``: whether by an error; ``obstacles``: what kept it from a run in all its ``seconds``. ``then``: called at
-    the end, in the solver's thread. ``stopping``: set to end it. Obstacles of a run are the doors that it passes by.
+    ``progress``: the newest one, None until the solver is ready. ``end``: why it is over, "" before that, and
+    ``failed``: whether by an error; ``obstacles``: why it found no run in all its ``seconds``. ``then``: called at the
+    end, in the solver's thread. ``stopping``: set to end it. Obstacles of a run are the doors that it leaves closed.
     """
 
     level: Level | None = None
@@ -116,7 +116,7 @@ class Certification:
     stopping: Event = field(default_factory=Event)
 
     def take(self, run: Replay) -> None:
-        """A run of the level is kept if it is the fastest, or the fastest with all gold."""
+        """Keep a run of the level if it is the fastest, or the fastest with all gold."""
         assert self.level is not None  # noqa: S101 - for the type checker
         if self.run is None or run.end_tick < self.run.end_tick:
             self.run, self.route = run, route_of(self.level, run.inputs)
@@ -131,11 +131,11 @@ class Certification:
 
 @lru_cache(maxsize=300)
 def _unlocked(level: Level, inputs: bytes) -> set[tuple[float, float]]:
-    """Where the switches are by which these inputs open doors, px. Kept, since the window's thread asks again."""
-    way, opened = Simulation(level), set[tuple[float, float]]()
+    """The places of the switches by which these inputs open doors, px. Cached, since the window's thread asks again."""
+    run, opened = Simulation(level), set[tuple[float, float]]()
     for keys in inputs:
-        way.step_keys(keys)
-        events = way.world.events[: way.world.event_count]
+        run.step_keys(keys)
+        events = run.world.events[: run.world.event_count]
         opened.update((event.x, event.y) for event in events if event.kind == LOCK_OPENED)
     return opened
 
@@ -154,7 +154,7 @@ def passed_by(level: Level, runs: Sequence[bytes]) -> tuple[Finding, ...]:
 
 
 def search_of(level: Level, run: Replay) -> Certification:
-    """A search that has found this run and is over; it has none where the run fails in the level."""
+    """A finished search with this run; without a run if it fails in the level."""
     search = Certification(level, end="Done")
     played = _played(level, run.inputs + bytes(1))  # the tick of the contact may read no input
     if played and played.outcome == "exit":
@@ -163,10 +163,10 @@ def search_of(level: Level, run: Replay) -> Certification:
 
 
 class Solver:
-    """The solver in its own thread: searches one after the other. What it has made ready once stays so.
+    """The solver in its own thread: one search after the other. Prepared kernels stay ready.
 
-    ``left``: searches of levels that were left, which go on. ``at_work``: the one that was begun last.
-    ``stopped``: levels whose search somebody has ended before it had a run.
+    ``left``: searches of closed levels, which continue. ``at_work``: the one begun last. ``stopped``: levels whose
+    search was cancelled before it had a run.
     """
 
     def __init__(self) -> None:
@@ -197,11 +197,11 @@ class Solver:
 
 
 SOLVER = Solver()
-"""The same for all editors."""
+"""Shared by all editors."""
 
 
 class Certifier:
-    """What is known of the level under edit. ``search``: the newest one of it."""
+    """The certification of the level under edit. ``search``: its newest one."""
 
     def __init__(self) -> None:
         self.seconds, self.solver, self.search = SECONDS, SOLVER, Certification()
@@ -245,15 +245,15 @@ class Certifier:
 
     @property
     def waits(self) -> bool:
-        """Whether the search has begun with nothing yet."""
+        """Whether the search has begun without any report yet."""
         return self.busy and self.search.progress is None and self.search.run is None
 
     def is_stale(self, level: Level) -> bool:
-        """Whether there is a result, but of another level than this one."""
+        """Whether there is a result, but for another level than this one."""
         return self.search.level is not None and level != self.search.level
 
     def start(self, level: Level) -> None:
-        """Begin with a level, for twice as long as a time that found nothing; known runs of this level stay."""
+        """Begin to search a level, for twice as long as an earlier search that failed; known runs stay."""
         self.stop()
         before = self.search
         longer = 2 * before.seconds if before.obstacles and not before.run and before.level == level else self.seconds
@@ -268,7 +268,7 @@ class Certifier:
         self.solver.job.ask(self.search)
 
     def adopt(self, search: Certification) -> None:
-        """Use a known result of a level until the solver finds a better one; one without a run changes nothing."""
+        """Use a known result for a level until the solver finds a better one; one without a run changes nothing."""
         if search.run and self.search.level != search.level:
             self.stop()
             self.search = search
@@ -276,40 +276,40 @@ class Certifier:
             self.search.take(search.run)
 
     def stop(self) -> None:
-        """End the search; what was found stays. Nobody waits: a solver that is being compiled ends when it is ready."""
+        """Cancel the search; its results stay. It does not wait: kernels being compiled are finished first."""
         if self.busy:
             self.search.end = STOPPED
             self.solver.stopped |= {self.search.level} if self.search.level and not self.search.run else set()
             self.search.stopping.set()
 
     def leave(self, then: Callable[[Certification], object] | None) -> None:
-        """The level is left. ``then``: called when its search, which goes on, has ended; None: it is stopped."""
+        """The level is closed. ``then``: called when its search, which continues, has ended; None: cancel it."""
         self.search.then = then
         if then is None:
             self.stop()
         self.solver.left = [search for search in (*self.solver.left, self.search) if search.then and not search.end]
 
     def edit(self, level: Level) -> None:
-        """Another level is under edit, perhaps one whose search goes on."""
+        """Another level is under edit, perhaps one with a running search."""
         self.search = next((old for old in self.solver.left if old.level == level and not old.end), Certification())
         self.search.then = None
 
 
 TICKS = TICKS_PER_SECOND
-"""How far the overlay looks ahead: a second."""
+"""Ticks simulated for the overlay: a second."""
 
 STARTS = {"off": None, "standing": 0.0, "running right": TOP_SPEED, "running left": -TOP_SPEED}
 """Speeds at the start to the right, px/tick; "off": nothing is shown."""
 
 SQUARE = 4.0
-"""Px: what is reached is shown in squares of this side."""
+"""Side of the squares in which reached places are shown, px."""
 
 SquareRow = tuple[float, float, float]
 """Squares side by side: left edge, top, width, px."""
 
 
 class Ask(NamedTuple):
-    """From where: a point, px, and the speed to the right, px/tick."""
+    """The start of the runs: a point, px, and the speed to the right, px/tick."""
 
     draft: Draft
     place: tuple[float, float]
@@ -317,10 +317,10 @@ class Ask(NamedTuple):
 
 
 class Reach(NamedTuple):
-    """``spans``: what the ninja's middle can reach; ``deaths``: where it dies there. ``arcs``: some of the jumps.
+    """``spans``: reachable places of the ninja's centre; ``deaths``: its deaths there. ``arcs``: some of the jumps.
 
-    ``latest``: the last places from where a runner can jump before the floor ends under it.
-    ``dangers``: the routes of drones, guards, thwumps and rockets while the ninja presses nothing.
+    ``latest``: the last places to jump from before the floor ends under a runner. ``dangers``: the routes of drones,
+    guards, thwumps and rockets while the ninja presses nothing.
     """
 
     ask: Ask
@@ -332,17 +332,17 @@ class Reach(NamedTuple):
 
 
 LANDED = 4
-"""The first tick in which a ninja that is put on the floor stands there and can jump."""
+"""The first tick in which a ninja that was placed on the floor stands and can jump."""
 
 _BOUNCE = 9
-"""Ticks for which the jump key is held by those who jump at walls."""
+"""Ticks for which jumps at walls hold the jump key."""
 
 
 class _Plan(NamedTuple):
     """The keys of one run: ``run`` until it jumps at tick ``jump`` and holds that key ``hold`` ticks, ``steer`` then.
 
-    Directions are -1, 0 or 1. ``wall``: jump again at each wall that it touches in the air, away from it if 1, up it
-    if 2; 0: slide.
+    Directions are -1, 0 or 1. ``wall``: jump again at each wall touched in the air, away from it if 1, up it if 2; 0:
+    slide.
     """
 
     run: int
@@ -353,7 +353,7 @@ class _Plan(NamedTuple):
 
 
 def _fan() -> Iterator[_Plan]:
-    """All runs that are tried; the first presses nothing, the last ones jump at walls."""
+    """All runs to try; the first presses nothing, the last ones jump at walls."""
     yield from (_Plan(side, steer=side) for side in (0, -1, 1))
     for steer in (-1, 0, 1):
         yield from (_Plan(0, jump, hold, steer) for jump in (LANDED, 20) for hold in (1, 3, 6, 10, 16, TICKS))
@@ -426,12 +426,12 @@ def find_reach(ask: Ask) -> Reach:
 
 
 def _route(places: Any) -> PathPoints:
-    """The points of an array (ticks, 2) up to the first that is not a number."""
+    """The points of an array (ticks, 2) up to the first NaN."""
     return tuple(takewhile(lambda point: isfinite(sum(point)), map(tuple, places.tolist())))
 
 
 def _spans(places: Any) -> tuple[SquareRow, ...]:
-    """The squares in which any of these points (points, 2) in the level lie, side by side where they touch."""
+    """The squares with any of these points (points, 2) in the level, merged where they touch."""
     import numpy as np
 
     columns = int(WORLD_WIDTH // SQUARE) + 1

@@ -12,7 +12,7 @@ Tiles = dict[Cell, int]
 
 @dataclass(frozen=True)
 class Draft:
-    """A level and what its file says about it. It never changes: every operation gives another draft."""
+    """A level with the other contents of its file. Immutable: every operation gives another draft."""
 
     level: Level
     name: str = ""

@@ -1,4 +1,4 @@
-"""Levels from files and back, and a copy while they are edited: nothing is lost, nothing of others is replaced."""
+"""Levels from files and back, with autosaves: no edit is lost, no file of others is replaced."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ SUFFIX = ".txt"
 
 @dataclass(frozen=True)
 class Source:
-    """The file that a draft came from and is saved to. ``path``: None if it has none yet. ``text``: what the file says.
+    """The file of a draft. ``path``: None if it has none yet. ``text``: the file's.
 
-    ``draft``: the one that the file holds; ``digest``: of its bytes; ``windows``: whether lines end as on Windows.
+    ``draft``: the one in the file; ``digest``: of its bytes; ``windows``: whether lines end as on Windows.
     """
 
     draft: Draft
@@ -59,9 +59,9 @@ def new_source(author: str = "", *, room: bool = False) -> Source:
 
 
 def open_source(path: Path, record: int = 0) -> Source:
-    """The level number ``record`` of a file or link. Only our readable files, which hold one level, are written back.
+    """The level number ``record`` of a file or link. ``save`` writes back only to readable files with one level.
 
-    Raises NinjaGameError for what cannot be read, OSError.
+    Raises NinjaGameError for a text that cannot be read, OSError.
     """
     linked = is_link(path)
     data = b"" if linked else read_bytes(path)
@@ -82,10 +82,10 @@ def draft_of(named: NamedLevel) -> Draft:
 
 
 def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -> Source:
-    """Write a draft into a file, in the file's own form where it is the source's; the new source.
+    """Write a draft into a file, keeping the form of the source's file; the new source.
 
-    Raises OccupiedError where that would replace another file, or one that was changed since it was read, unless
-    ``replacing``; FileError, OSError for what cannot be written.
+    Raises OccupiedError if that would replace another file, or one that has changed since it was read, unless
+    ``replacing``; FileError, OSError if writing fails.
     """
     own = source.path is not None and path == source.path
     there = digest_of_file(path)
@@ -100,7 +100,7 @@ def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -
 
 
 def draft_of_text(text: str, about: Draft) -> Draft:
-    """The first level of a text of any format, or of a link; name and author of ``about`` where the text has none.
+    """The first level of a text of any format, or of a link; name and author of ``about`` if the text has none.
 
     Raises NinjaGameError for a text without a level.
     """
@@ -113,7 +113,7 @@ def draft_of_text(text: str, about: Draft) -> Draft:
 AUTOSAVE_SUFFIX = ".json"
 
 SPACING = 0.4
-"""Seconds from one autosave to the next, at least."""
+"""Least seconds between two autosaves."""
 
 
 class Autosave(RecoveryFile):
@@ -126,7 +126,7 @@ class Autosave(RecoveryFile):
         self._asked_at = 0.0
 
     def poll(self, draft: Draft, source: Source) -> None:
-        """Keep the draft if it has changed and it is time; nothing is kept of one that is as its file has it."""
+        """Save the draft if it has changed and it is time; a draft equal to its file needs no autosave."""
         draft_now = None if draft == source.draft else draft
         if draft_now is not self._kept and time.monotonic() - self._asked_at >= SPACING and self._job.idle:
             self._asked_at = time.monotonic()
@@ -134,7 +134,7 @@ class Autosave(RecoveryFile):
             self._job.ask((draft, source) if draft_now else None)
 
     def flush(self, draft: Draft, source: Source) -> None:
-        """Keep the draft now, if it has changed, and wait until it is kept."""
+        """Save the draft now, if it has changed, and wait for the disk."""
         self._job.finish()
         self._asked_at = -SPACING
         self.poll(draft, source)
@@ -153,21 +153,21 @@ class Autosave(RecoveryFile):
             write_atomically(self.file, json.dumps(kept, indent=1))
 
     def close(self, *, keep: bool = False) -> None:
-        """End. ``keep``: what is kept stays, to be found by the next editor."""
+        """End. ``keep``: keep the autosave for the next editor."""
         self._job.finish()
         super().close(keep=keep)
 
 
 @dataclass(frozen=True)
 class RecoveredDraft:
-    """A draft whose program has died, the file that it came from, and the one in which it was kept."""
+    """The draft of a crashed editor, its file, and the autosave's file."""
 
     draft: Draft
     source: Source
     file: Path
 
     def forget(self) -> bool:
-        """Remove it; whether no other program goes on with it."""
+        """Delete it; False if another program has recovered it."""
         return remove_abandoned(self.file)
 
 
@@ -177,7 +177,7 @@ def recovered(folder: Path) -> Iterator[RecoveredDraft]:
 
 
 def _read(file: Path) -> RecoveredDraft:
-    """What an autosave holds; its path counts only for a level that is still there. Raises what ``recovered`` names."""
+    """The content of an autosave; its path counts only if that file still exists. Raises as ``recovered``."""
     kept = json.loads(read_utf8(file))
     draft = draft_of(parse_levels(kept["level"])[0])
     source = new_source()
@@ -197,9 +197,9 @@ def ascii_text(draft: Draft) -> str:
 
 
 def updated_text(text: str, opened: Draft, draft: Draft) -> str:
-    """The text from which ``opened`` was read, changed so that ``draft`` is read from it.
+    """The text of ``opened``, changed so that it reads as ``draft``.
 
-    Lines that say what is still so stay as they are. A text that cannot be changed line by line is written again, its
+    Lines that are still true stay as they are. A text that cannot be changed line by line is written again, with its
     comments at the end.
     """
     if draft == opened:
@@ -212,7 +212,7 @@ def updated_text(text: str, opened: Draft, draft: Draft) -> str:
 
 
 def reads_as(text: str, draft: Draft, *, named: bool = True) -> bool:
-    """Whether a text is just this draft. ``named``: with its name, which a file without one gets from its path."""
+    """Whether a text reads as just this draft. ``named``: its name too, which a file may get from its path."""
     try:
         read = parse_ascii_level(text)
     except LevelError:
@@ -261,7 +261,7 @@ class _Lines:
         parts = [visible_glyphs(spec) for spec in self.draft.objects]
         for (number, line), chars in zip(self.rows, writer.picture_rows(self.draft.level, parts), strict=True):
             match = _ROW.fullmatch(line)
-            # A blank is an empty cell, as a dot is: blanks that a person typed are kept.
+            # A space is an empty cell, as a dot is: spaces typed by a person are kept.
             old = line[match.end(1) : match.start(2)] if match else ""
             kept = "".join(" " if a == "." and b == " " else a for a, b in zip(chars, old, strict=True))
             self.replaced[number] = [f"{match[1]}{kept}{match[2]}"] if match else [line]
@@ -294,7 +294,7 @@ class _Lines:
             touched |= {owners[i][0] for i in range(i1, i2)}
             within = i1 > 0 and i1 < len(owners) and owners[i1 - 1][0] == owners[i1][0]
             if within and j2 > j1:
-                # New objects between two of one line: this and all behind it are written again.
+                # New objects between two of one line: this line and all behind it are written again.
                 self.replaced |= {number: [] for number in content}
                 self.replaced[owners[0][0]] = writer.write_object_lines(specs)
                 return
@@ -304,7 +304,7 @@ class _Lines:
             self.replaced[number] = self._rewritten(number, content[number])
 
     def _rewritten(self, number: int, records: Sequence[ObjectSpec]) -> list[str]:
-        """A line for those of its objects that are left, with the comment that it ended in."""
+        """A line for its remaining objects, with its comment."""
         lines = writer.write_object_lines(records)
         _, mark, comment = self.lines[number - 1].partition(";")
         if mark and lines:
@@ -318,7 +318,7 @@ class _Lines:
         return number
 
     def _count_drawn(self, listed: int) -> int:
-        """How many of the first objects the picture alone makes: as many as before, where that is possible."""
+        """How many of the first objects only the picture makes: as many as before, if possible."""
         objects = self.draft.objects
         most = writer.drawn_only(self.draft.level, [visible_glyphs(spec) for spec in objects])
         old = self.opened.objects

@@ -1,4 +1,4 @@
-"""Moves, flips and quarter turns of the plane: what they do to points, cells, directions and tiles."""
+"""Moves, flips and quarter turns of the plane, applied to points, cells, directions and tiles."""
 
 from __future__ import annotations
 
@@ -45,14 +45,14 @@ class Motion(NamedTuple):
         return cell_of(*self.point(CELL * cell[0] + HALF, CELL * cell[1] + HALF))
 
     def direction(self, number: float) -> float:
-        """The number of a direction (0 right, 1 down, 2 left, 3 up) then; what is not a direction stays."""
+        """The number of a direction (0 right, 1 down, 2 left, 3 up) after the motion; other numbers stay."""
         if number not in (0, 1, 2, 3):
             return number
         units = list(zip(UNIT_X, UNIT_Y, strict=True))
         return float(units.index(self.vector(*units[int(number)])))
 
     def tile(self, tile: int) -> int:
-        """The tile that looks like a tile after it; an odd tile stays."""
+        """The tile whose shape is the moved one; an odd tile stays."""
         return _turned_tiles(self[:4])[tile] if tile in TILE_IDS else tile
 
     def about(self, x: float, y: float) -> Motion:
@@ -73,7 +73,7 @@ SYMMETRIES: dict[str, tuple[Motion, ...]] = {
     "both": (MIRROR.about(*_MIDDLE), FLIP.about(*_MIDDLE), HALF_TURN.about(*_MIDDLE)),
     "point": (HALF_TURN.about(*_MIDDLE),),
 }
-"""Where else a stroke is drawn, by the name of the symmetry."""
+"""The images of a stroke, by the name of the symmetry."""
 
 _SAMPLES = [
     (x, y) for x, y in product((-10.6, -8.1, -5.3, -2.9, -0.7, 0.7, 2.9, 5.3, 8.1, 10.6), repeat=2) if abs(x) != abs(y)
@@ -83,7 +83,7 @@ _SAMPLES = [
 
 @cache
 def _solid_samples() -> list[frozenset[tuple[float, float]]]:
-    """For every tile the sample points that the world takes for solid."""
+    """For every tile the sample points that are solid in the world."""
     tiles = TileMap()
     here = STRIDE + 1
     shapes = []
@@ -95,7 +95,7 @@ def _solid_samples() -> list[frozenset[tuple[float, float]]]:
 
 @cache
 def _turned_tiles(matrix: tuple[int, int, int, int]) -> list[int]:
-    """The tile that each tile becomes: that whose solid points are the moved ones."""
+    """For each tile the one whose solid points are the moved ones."""
     shapes = _solid_samples()
     motion = Motion(*matrix)
     return [shapes.index(frozenset(motion.vector(x, y) for x, y in shape)) for shape in shapes]

@@ -1,7 +1,7 @@
 """Packs under edit: each function changes the folder of a pack on the disk; comments in its index stay.
 
-All raise NinjaGameError for what cannot be done, and OSError. Levels keep their files; which episode has them, and in
-what order, is written into the index.
+All raise NinjaGameError for an impossible change, and OSError. Levels keep their files; the index lists the levels of
+each episode, in order.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ Values = Mapping[str, str | int | Sequence[str]]
 
 
 class Step(NamedTuple):
-    """``texts``: by folder and name of each file that was changed, before and after; None where there was none.
+    """``texts``: by folder and name of each changed file, before and after; None for a missing file.
 
     ``moved``: folders, from and to.
     """
@@ -56,16 +56,16 @@ class Step(NamedTuple):
 
 
 _step: ContextVar[Step | None] = ContextVar("step", default=None)
-"""The step that is being done in this thread: each change below is noted there."""
+"""The present step of this thread, to which each change below is added."""
 
 
 class Steps(list[Step]):
     """The last dozen steps, in memory."""
 
     def do(self, what: str, action: Callable[[], object]) -> bool:
-        """Change packs by the functions here; whether anything was. Raises what ``action`` raises.
+        """Change packs by the functions here; whether anything changed. Raises as ``action`` does.
 
-        What it has done by then is a step.
+        Changes before an error are a step too.
         """
         step = Step(what, {}, [])
         token = _step.set(step)
@@ -79,9 +79,9 @@ class Steps(list[Step]):
         return changed
 
     def undo(self) -> str:
-        """Take the newest step back; what it was. Nothing is done where its files were changed since.
+        """Undo the newest step; its name. Nothing is done if its files have changed since.
 
-        Raises NinjaGameError then, OSError: what the disk refuses can be tried again.
+        Raises NinjaGameError then, OSError: a failed undo can be tried again.
         """
         if not self:
             raise NinjaGameError("there is nothing to undo")
@@ -104,13 +104,13 @@ class Steps(list[Step]):
 
 
 def _text(path: Path) -> bytes | None:
-    """None where there is no file. Raises FileError, OSError for one that cannot be read."""
+    """None for a missing file. Raises FileError, OSError for one that cannot be read."""
     return read_bytes(path) if path.exists() else None
 
 
 @contextmanager
 def _noted(folder: Path, name: str) -> Iterator[None]:
-    """Note what becomes of a file meanwhile."""
+    """Add a file's change within the block to the step."""
     step = _step.get()
     before = _text(folder / name) if step else None
     yield
@@ -120,7 +120,7 @@ def _noted(folder: Path, name: str) -> Iterator[None]:
 
 
 def _put(folder: Path, name: str, text: bytes | str | None) -> None:
-    """Write a file, or remove it where ``text`` is None."""
+    """Write a file, or delete it if ``text`` is None."""
     with _noted(folder, name):
         if text is None:
             Tree(folder).remove(name)
@@ -178,9 +178,9 @@ def new_pack(folder: Path, name: str, author: str) -> Path:
 
 
 def copy_pack(pack: Pack, folder: Path, name: str, *, received: bool = False, over: Pack | None = None) -> Path:
-    """A copy of a pack, from wherever, by another name; its folder, in ``folder``. ``received``: it stays another's.
+    """A copy of any pack, by another name; its folder, in ``folder``. ``received``: it stays another author's.
 
-    ``over``: a pack there, all files of which give way to it.
+    ``over``: a pack there, which is replaced.
     """
     names = pack.files.own_names
     if len(names) > MOST_FILES:
@@ -201,7 +201,7 @@ def copy_pack(pack: Pack, folder: Path, name: str, *, received: bool = False, ov
 
 
 def news(old: Pack, pack: Pack) -> str:
-    """What is another in a pack than in an older version of it."""
+    """The differences between a pack and an older version of it."""
     both = old.levels.keys() & pack.levels.keys()
     changed = sum(old.levels[file].level != pack.levels[file].level for file in both)
     counts = {"new": len(pack.levels) - len(both), "changed": changed, "gone": len(old.levels) - len(both)}
@@ -209,23 +209,23 @@ def news(old: Pack, pack: Pack) -> str:
 
 
 def make_own(path: Path) -> None:
-    """Take a pack that came by a link for one's own from now on."""
+    """Make a received pack the player's own."""
     _put(path, RECEIVED, None)
 
 
 def describe(path: Path, values: Mapping[str, str | Sequence[str]]) -> None:
-    """Other first entries of the index: name, author, version, comment, columns."""
+    """Change the texts of the index: name, author, version, comment, columns."""
     _change_index(path, lambda document: document.update(values))
 
 
 def accept(path: Path, file: str, code: str, reason: str) -> None:
-    """Accept a finding about a file, for a reason that the index keeps."""
+    """Accept a finding about a file, with a reason for the index."""
     entries = {"file": file, "code": code, "reason": reason}
     _change_index(path, lambda document: _add(document, "accept", entries))
 
 
 def take_back(path: Path, file: str, code: str) -> None:
-    """Accept a finding no more."""
+    """Undo the acceptance of a finding."""
 
     def change(document: TOMLDocument) -> None:
         tables: Any = document["accept"]
@@ -237,7 +237,7 @@ def take_back(path: Path, file: str, code: str) -> None:
 
 
 def bin_pack(path: Path, folder: Path) -> Path:
-    """Move a pack's folder into another folder, under a name that is free there; where it is then."""
+    """Move a pack's folder into another folder, under a free name; its new place."""
     folder.mkdir(parents=True, exist_ok=True)
     there = path.rename(free_path(folder, path.name, ""))
     if step := _step.get():
@@ -246,7 +246,7 @@ def bin_pack(path: Path, folder: Path) -> Path:
 
 
 def same_pack(pack: Pack, other: Pack) -> bool:
-    """Whether two packs have the same files, but for certificates, which a link has shorter."""
+    """Whether two packs have the same files, except certificates, which links shorten."""
     one, two = (
         {name: pack.files.text(name) for name in pack.files.own_names if not name.startswith(CERTIFICATES)}
         for pack in (pack, other)
@@ -277,7 +277,7 @@ def new_episode(path: Path, name: str, column: int) -> int:
 
 
 def _free_number(numbers: set[int], column: int) -> int:
-    """The number behind the last one of a column, or the first that is free."""
+    """The number behind the last one of a column, or the first free one."""
     places = range(column * EPISODES_PER_COLUMN, min(column + 1, MOST_COLUMNS) * EPISODES_PER_COLUMN)
     last = max((number for number in numbers if number in places), default=places.start - 1)
     free = [number for number in places if number not in numbers]
@@ -300,7 +300,7 @@ def remove_episode(path: Path, number: int) -> None:
 
 
 def move_episode(path: Path, number: int, to: int) -> None:
-    """Put an episode into the place of another, which goes down by one with those below it; also into a column."""
+    """Put an episode into the place of another, which moves down by one with those below it; also into a column."""
     pack = Pack(path)
     files = {episode.number: episode.files(pack.files.levels) for episode in pack.index.episodes}
     column = to // EPISODES_PER_COLUMN
@@ -354,7 +354,7 @@ def duplicate(path: Path, level: NamedLevel) -> str:
 
 
 def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:
-    """Take a level and its certificates into another folder; its file's name there. ``keep``: they stay here too."""
+    """Move a level and its certificates into another folder; its file's name there. ``keep``: copy them."""
     old = Path(level.file)
     if not (level.ascii and old.is_file()):
         return _write_level(path, draft_of(level))
@@ -371,23 +371,23 @@ def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:
 
 
 Say = Callable[[str, float | None], object]
-"""Gets what is being done, and the share of that which is done, None where nobody knows."""
+"""Gets the present work, and the finished share of it, None if unknown."""
 
 Obstacles = dict[tuple[Level, str], Finding]
-"""By level and kind of certificate ("exit", "gold"): what kept the solver from such a run."""
+"""By level and kind of certificate ("exit", "gold"): why the solver found no such run."""
 
 _MISSING = {"no-certificate": "exit", "no-gold-run": "gold"}
-"""Findings that a run is not there, by code: of which kind."""
+"""Codes of findings about missing runs, with the kind of run."""
 
 _SOUGHT = {"exit": "run to the exit", "gold": "run with all gold"}
 
 MADE_READY = (*_MISSING, "certificate", "no-pars", "old-pars")
-"""Codes of what ``make_ready`` mends, unless it has tried in vain."""
+"""Codes of findings that ``make_ready`` removes, unless its search fails."""
 
 
 @dataclass(frozen=True)
 class ReadyPack:
-    """``findings``: what is odd; ``zipped``: its bytes; ``link``: "" where it is too large; ``notes``: what is not."""
+    """``findings``: what is left; ``zipped``: its bytes; ``link``: "" if it is too large; ``notes``: what it lacks."""
 
     pack: Pack
     findings: list[PackFinding]
@@ -399,9 +399,8 @@ class ReadyPack:
 def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Obstacles | None = None) -> ReadyPack:
     """Certify each level to the exit and with all gold, write the par times, lint; the zip and the link.
 
-    ``seconds``: for each search; ``jobs``: levels at a time; ``say`` may raise to end it.
-    ``obstacles``: of earlier searches, which are not done again; those of the new ones are put there.
-    Raises NinjaGameError, OSError.
+    ``seconds``: for each search; ``jobs``: levels at a time; ``say`` may raise to end it. ``obstacles``: of earlier
+    searches, which are not repeated; those of new ones are added. Raises NinjaGameError, OSError.
     """
     pack, notes, obstacles = Pack(path), list[str](), {} if obstacles is None else obstacles
     if compiled_available():
@@ -428,7 +427,7 @@ def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Ob
 
 
 def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
-    """What is odd about a pack; where a run was searched in vain, why: to the exit alone where there is none."""
+    """The findings about a pack, with the obstacles of failed searches; only to the exit if there is no such run."""
     findings, no_exit = dict[PackFinding, None](), set[Level]()
     for finding in lint(pack, with_gold=True):
         named_finding, missing = finding, missing_run(pack, finding)
@@ -443,7 +442,7 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
 
 
 def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:
-    """The level and the kind of the run of which a finding says that it is missing, as ``Obstacles`` have them."""
+    """The level and the kind of the run that a finding misses, as keys of ``Obstacles``."""
     file, kind = _missing(pack, file_of(pack, finding), finding.code)
     return (pack.levels[file].level, kind) if kind and file in pack.levels else None
 
@@ -454,14 +453,14 @@ def obstacle_of(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> Findi
 
 
 def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
-    """The level file and the kind of the run that a finding about a file misses; no kind where it misses none."""
+    """The level file and the kind of the run that a finding about a file misses; no kind for other findings."""
     level = level_of(pack, file)
     broken = [kind for kind in KINDS if code == "certificate" and certificate_name(level, kind) == file]
     return level, next(iter(broken), _MISSING.get(code, ""))
 
 
 def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstacles: Obstacles) -> None:
-    """Certify the levels of which anything is not known yet, nor accepted."""
+    """Certify the levels with missing runs that are not accepted as missing."""
     from ninja_game.search.certify import CertifyOptions, certify_all
     from ninja_game.search.solve import compile_solver
     from ninja_game.search.task import Progress, obstacle

@@ -1,4 +1,4 @@
-"""Objects of a level as a level maker sees them: points that can be dragged, and properties with words for values."""
+"""Objects of a level for a level maker: points to drag, and properties with words for values."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from math import isfinite
 from typing import NamedTuple
 
 from ninja_game.editor.motion import Motion
-from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS
-from ninja_game.formats.ascii.object_lines import DOORS, MOVEMENTS, SIDES, WEAPONS, door_middle
+from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, WEAPONS
+from ninja_game.formats.ascii.object_lines import DOORS, MOVEMENTS, SIDES, door_middle
 from ninja_game.formats.ascii.places import Point, cell_of
 from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KIND_NAMES, LAUNCH_PAD, ONE_WAY, THWUMP
 from ninja_game.sim.level import ObjectSpec, makes_object, well_formed
 from ninja_game.sim.rules import CELL, HALF
 
 BODY, SWITCH = 0, 1
-"""Parts of an object: the thing itself, and what opens it."""
+"""Parts of an object: its body, and its switch."""
 
 
 class Property(NamedTuple):
-    """Which values of a spec say something, and the words for them."""
+    """The values of a spec for a property, and the words for them."""
 
     slots: tuple[int, ...]
     words: Mapping[str, tuple[float, ...]]
@@ -45,7 +45,7 @@ PROPERTIES: dict[int, dict[str, Property]] = {
 }
 
 _SIDES = ("right", "bottom", "left", "top")
-"""By the numbers of their directions."""
+"""Indexed by direction."""
 
 
 def properties(spec: ObjectSpec) -> dict[str, Property]:
@@ -53,7 +53,7 @@ def properties(spec: ObjectSpec) -> dict[str, Property]:
 
 
 def word(spec: ObjectSpec, name: str) -> str:
-    """The word for a property of a spec; '' for values that have none."""
+    """The word for a property of a spec; '' for a value without one."""
     slots, words = properties(spec)[name]
     values = tuple(spec.values[slot] for slot in slots)
     return next((text for text, meant in words.items() if meant == values), "")
@@ -68,7 +68,7 @@ def with_word(spec: ObjectSpec, name: str, text: str) -> ObjectSpec:
 
 
 def settled(spec: ObjectSpec) -> ObjectSpec:
-    """A spec whose values agree: an automatic door senses in the middle of its side."""
+    """A spec with consistent values: an automatic door senses in the middle of its side."""
     automatic = spec.kind == DOOR and well_formed(spec) and not has_switch(spec)
     if automatic and word(spec, "side") and all(value.is_integer() for value in spec.values[4:6]):
         return spec._replace(values=(*door_middle(spec.values), *spec.values[2:]))
@@ -76,7 +76,7 @@ def settled(spec: ObjectSpec) -> ObjectSpec:
 
 
 def object_type_name(spec: ObjectSpec) -> str:
-    """What an object is called: its type where it has one, else its kind."""
+    """The name of an object: its type if it has one, else its kind."""
     if "type" in properties(spec) and word(spec, "type"):
         return word(spec, "type")
     return KIND_NAMES[spec.kind] if makes_object(spec) else "a record that makes nothing"
@@ -90,7 +90,7 @@ def has_switch(spec: ObjectSpec) -> bool:
 
 
 def points(spec: ObjectSpec) -> dict[int, Point]:
-    """Where the parts of an object are, px; nothing for what is nowhere."""
+    """The places of an object's parts, px; none for an object without a valid place."""
     if not makes_object(spec) or len(spec.values) < 2:
         return {}
     x, y = spec.values[:2]
@@ -113,7 +113,7 @@ def carried(spec: ObjectSpec, motion: Motion, parts: Collection[int] = (BODY, SW
     if BODY not in parts:
         return spec
     if kind == FLOOR_GUARD and motion.turns:
-        # It stands on the floor of its cell, whichever side that was.
+        # It stands on the floor of its cell, also after a turn.
         x, y = motion.point(values[0], CELL * cell_of(*values[:2])[1] + HALF)
         values[:2] = x, CELL * cell_of(x, y)[1] + 18.0
         return spec._replace(values=tuple(values))
@@ -131,7 +131,7 @@ def carried(spec: ObjectSpec, motion: Motion, parts: Collection[int] = (BODY, SW
 
 
 def _carried_in_parts(spec: ObjectSpec, motion: Motion, parts: Collection[int]) -> ObjectSpec:
-    """An exit or a door: its parts move each by itself, the door from side to side of cells."""
+    """An exit or a door: each part moves by itself, the door from side to side of cells."""
     values = list(spec.values)
     if spec.kind == EXIT:
         if BODY in parts:

@@ -1,4 +1,4 @@
-"""Stamps, tiles and objects together, that are drawn, copied, pasted or mirrored; operations on selections."""
+"""Stamps: tiles and objects to draw, copy, paste or mirror; operations on selections."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CellArea = tuple[int, int, int, int]
 """First column, first row, columns, rows."""
 
 ObjectPart = tuple[int, int]
-"""Number of an object in its draft, and which part of it."""
+"""Number of an object in its draft, and number of its part."""
 
 
 class Stamp(NamedTuple):
@@ -37,7 +37,7 @@ class Stamp(NamedTuple):
 
 @dataclass(frozen=True)
 class Selection:
-    """``area``: cells whose tiles are chosen. ``parts``: objects, or parts of them."""
+    """``area``: cells whose tiles are selected. ``parts``: objects, or parts of them."""
 
     area: CellArea | None = None
     parts: frozenset[ObjectPart] = frozenset()
@@ -47,7 +47,7 @@ class Selection:
 
     @property
     def numbers(self) -> set[int]:
-        """Numbers of the objects of which anything is chosen."""
+        """Numbers of the objects with a selected part."""
         return {number for number, _ in self.parts}
 
 
@@ -64,13 +64,13 @@ def cells_of(area: CellArea) -> list[Cell]:
 def put(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> Draft:
     """Draw a stamp, and its images in a symmetry. New objects come last; there is one ninja, and exits have no images.
 
-    What is there already in the same form is not drawn twice.
+    An equal object at the same place is not drawn twice.
     """
     objects = draft.objects
     tiles: Tiles = {}
     for number, motion in enumerate((Motion(), *symmetry)):
         image = stamp.carried(motion)
-        # A cell on the axis, its own mirror image, keeps what was drawn there.
+        # A cell on the axis is its own mirror image: the stamp wins.
         tiles |= {cell: tile for cell, tile in image.tiles.items() if number == 0 or cell not in stamp.tiles}
         for spec in image.objects:
             if number and spec.kind in (NINJA, EXIT):
@@ -84,7 +84,7 @@ def _with(objects: tuple[ObjectSpec, ...], spec: ObjectSpec) -> tuple[ObjectSpec
 
 
 def _with_ninja(objects: tuple[ObjectSpec, ...], spec: ObjectSpec) -> tuple[ObjectSpec, ...]:
-    """The ninja that plays, the last one, is put elsewhere; the first one of a level comes before everything."""
+    """Move the ninja that plays, the last one; the first ninja of a level comes before all objects."""
     last = max((number for number, other in enumerate(objects) if other.kind == NINJA), default=-1)
     return (*objects[: max(last, 0)], spec, *objects[last + 1 :])
 
@@ -105,7 +105,7 @@ def filled(draft: Draft, cell: Cell) -> list[Cell]:
 
 
 def chosen_in(draft: Draft, area: CellArea) -> Selection:
-    """An area with all parts of objects that lie in it, or on its edge, as a launch pad on the floor of its cell."""
+    """An area with all parts of objects in it, or on its edge, as a launch pad on the floor of its cell."""
     column, row, columns, rows = area
     inside = {
         (number, part)
@@ -122,7 +122,7 @@ def everything(draft: Draft) -> Selection:
 
 
 def copied(draft: Draft, selection: Selection) -> Stamp:
-    """What is chosen; an object with one of its parts is copied whole."""
+    """The selection as a stamp; an object with one selected part is copied whole."""
     tiles = {cell: draft.tile(cell) for cell in cells_of(selection.area) if is_inside(cell)} if selection.area else {}
     return Stamp(tiles, tuple(draft.objects[number] for number in sorted(selection.numbers)))
 
@@ -134,7 +134,7 @@ def removed(draft: Draft, selection: Selection) -> Draft:
 
 
 def reordered(draft: Draft, selection: Selection, by: int) -> tuple[Draft, Selection]:
-    """The draft with the chosen objects together, so many places later in the order, and their selection."""
+    """The draft with the selected objects together, moved in the order by a number of places, and their selection."""
     chosen = sorted(selection.numbers)
     rest = [number for number in range(len(draft.objects)) if number not in selection.numbers]
     at = min(max(0, by + (chosen[0] if by < 0 else chosen[-1] + 1 - len(chosen))), len(rest))
@@ -144,7 +144,7 @@ def reordered(draft: Draft, selection: Selection, by: int) -> tuple[Draft, Selec
 
 
 def moved(draft: Draft, selection: Selection, motion: Motion) -> tuple[Draft, Selection]:
-    """The draft with what is chosen moved or turned, and the selection there. Tiles cover what they come to lie on."""
+    """The draft with the selection moved or turned, and the selection there. Moved tiles replace those under them."""
     objects = list(draft.objects)
     chosen: dict[int, set[int]] = {}
     for number, part in selection.parts:
@@ -162,10 +162,10 @@ def moved(draft: Draft, selection: Selection, motion: Motion) -> tuple[Draft, Se
 
 
 def arranged(draft: Draft, selection: Selection, axis: int, share: float | None) -> Draft:
-    """The draft with all chosen parts of objects at one x (``axis`` 0) or y (1), or spread along it; tiles stay.
+    """The draft with all selected parts of objects at one x (``axis`` 0) or y (1), or spread along it; tiles stay.
 
-    ``share``: of the way from the least to the greatest, where all go; None: evenly between these. To the px; doors go
-    by cells.
+    ``share``: the common place between the least and the greatest; None: spread evenly between these. To the px; doors
+    go by cells.
     """
     places = {part: points(draft.objects[part[0]])[part[1]][axis] for part in selection.parts}
     order = sorted(places, key=lambda part: (places[part], part))
@@ -178,7 +178,7 @@ def arranged(draft: Draft, selection: Selection, axis: int, share: float | None)
 
 
 def pasted(draft: Draft, stamp: Stamp) -> tuple[Draft, Selection]:
-    """The draft with a stamp on it, and the selection of what came: objects are added, but a ninja moves."""
+    """The draft with a stamp on it, and the selection of the pasted things: objects are added, but a ninja moves."""
     after = put(draft, stamp)
     new = {number for number, spec in enumerate(after.objects) if spec in stamp.objects}
     parts = {(number, part) for number in new for part in points(after.objects[number])}
@@ -188,9 +188,9 @@ def pasted(draft: Draft, stamp: Stamp) -> tuple[Draft, Selection]:
 
 
 def middle_of(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[float, float]:
-    """The point about which a selection turns, px, so that cells come onto cells; ``quarter``: by a quarter turn.
+    """The centre for turning a selection, px, so that cells fall onto cells; ``quarter``: by a quarter turn.
 
-    Where its middle is no such point, one beside it, to the right and to the left in turn: four turns are none.
+    If its middle is no such point, one beside it, to the right and to the left in turn: four turns are none.
     """
     if selection.area:
         column, row, columns, rows = selection.area
@@ -222,20 +222,20 @@ _SLOPES = {family.key: family.tiles for family in FAMILIES if family.key in "123
 _STEEP, _GENTLE = ("2", "6"), ("3", "7")
 """Families of the thin and the thick end of a slope of 67° and of 22°; "1": 45°."""
 _SOFT = {FULL, *(tile for tiles in _SLOPES.values() for tile in tiles)}
-"""Tiles that are rock whose shape is found; other ones stay as they are."""
+"""Tiles that automatic slopes may replace; other ones stay."""
 _AIR = dict(zip(((1, 1), (-1, 1), (1, -1), (-1, -1)), range(len(QUARTERS)), strict=True))
-"""The quarter of a slope by the sides, right or left and below or above, where it has air."""
+"""The quarter of a slope by the sides, right or left and below or above, with air."""
 _OTHER_HALF = {
     _SLOPES[key][quarter]: (dx * sign * along, dy * sign * (1 - along))
     for keys, along in ((_STEEP, 0), (_GENTLE, 1))
     for key, sign in zip(keys, (-1, 1), strict=True)
     for (dx, dy), quarter in _AIR.items()
 }
-"""Where the other half of a slope of two tiles is, cells from it."""
+"""Offset of the other half of a slope of two tiles, cells."""
 
 
 class _Stretch(NamedTuple):
-    """A piece of an edge of rock, so many cells to the right and up, its slope at both ends, degrees, and its tiles."""
+    """A piece of an edge of rock: cells to the right and up, slope at both ends in degrees, tiles."""
 
     right: int
     up: int
@@ -250,11 +250,11 @@ _STRETCHES = (
     _Stretch(2, 1, 26.6, 26.6, (_SLOPES["3"][3], _SLOPES["7"][3])),
     _Stretch(1, 2, 63.4, 63.4, (_SLOPES["2"][3], _SLOPES["6"][3])),
 )  # fmt: skip
-"""What the left upper quarter of an ellipse is made of: full at its lower right."""
+"""Pieces for the upper left quarter of an ellipse: full at its lower right."""
 _TURN = 2e-4
-"""What a turn weighs, cells of area for a square of its degrees."""
+"""Cost of a turn, cells of area per square degree."""
 _LONGEST = 4
-"""Steps that are longer, or end on both sides farther apart, are all alike."""
+"""Longer steps, or steps ending farther apart on both sides, are treated alike."""
 
 
 def curve(shape: str, a: Point, b: Point, bend: float = 0.0) -> list[Point]:
@@ -303,17 +303,17 @@ def covered(shape: str, a: Cell, b: Cell, bend: float) -> list[Cell]:
 
 
 def joined(cells: list[Cell]) -> list[Cell]:
-    """A line of cells, and if it slants those beside it, so that they touch at their sides: two make a ramp."""
+    """A line of cells with those beside slanted parts, so that consecutive cells share a side: two make a ramp."""
     (left, right), (top, bottom) = ((min(along), max(along)) for along in zip(*cells, strict=True))
     dx, dy = (0, 1) if right - left >= bottom - top else (1, 0)
     return cells if left == right or top == bottom else [*cells, *((x + dx, y + dy) for x, y in cells)]
 
 
 def sloped(before: Draft, after: Draft) -> Draft:
-    """The draft after a stroke of full or empty tiles, with slopes at corners of the rock that it has touched.
+    """The draft after a stroke of full or empty tiles, with slopes at the corners of rock that it touched.
 
-    Steps of one cell become slopes of 45°, longer ones end in a slope of 22° or 67°; other corners are cut at 45°.
-    Only what changed and the cells round it become other tiles, with the other halves of slopes of two tiles there.
+    Steps of one cell become slopes of 45°, longer ones end in a slope of 22° or 67°; other corners are cut at 45°. Only
+    the changed cells and their neighbours get other tiles, with the other halves of slopes of two tiles there.
     """
     steps = (-1, 0, 1)
     near = {(x + i, y + j) for x, y in changed_cells(before, after) for i in steps for j in steps}
@@ -328,16 +328,16 @@ def sloped(before: Draft, after: Draft) -> Draft:
 
 @cache
 def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
-    """The full tiles, slopes and round curves, by column and row from 0 on, most like the ellipse of so many cells.
+    """The full tiles, slopes and curves, by column and row from 0 on, most like the ellipse of that many cells.
 
-    The edge of its left upper quarter, from its left end up to its top, is the cheapest path of _STRETCHES over the
+    The edge of its upper left quarter, from its left end up to its top, is the cheapest path of _STRETCHES over the
     corners of cells: by the area between path and ellipse, and by the turns between stretches. The rest is its image.
     """
     wide, high = (columns + 1) // 2, (rows + 1) // 2
 
     @cache
     def between(at: Cell, stretch: _Stretch) -> float:
-        """The area between a stretch from there and the ellipse, cells."""
+        """The area between a stretch from a corner and the ellipse, cells."""
         shares = [(k + 0.5) / _PIECES for k in range(_PIECES)]
         tops = [rows / 2 * (1 - sqrt(1 - (1 - 2 * (at[0] + stretch.right * s) / columns) ** 2)) for s in shares]
         paths = [at[1] - stretch.up * (sqrt(s * (2 - s)) if stretch.ends != stretch.begins else s) for s in shares]
@@ -345,7 +345,7 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
 
     @cache
     def cheapest(at: Cell, heading: float) -> tuple[float, tuple[_Stretch, ...]]:
-        """What the path from a corner of cells to the top costs, and the path; ``heading``: as it came, degrees."""
+        """The cost of the cheapest path from a corner of cells to the top, and the path; ``heading``: before it."""
         if at == (wide, 0):
             return _TURN * heading**2, ()
         ways: list[tuple[float, tuple[_Stretch, ...]]] = [(inf, ())]
@@ -374,7 +374,7 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
 
 
 def _corner(draft: Draft, cell: Cell, near: set[Cell]) -> Tiles:
-    """The slope of a cell with air on two sides that meet, and the thick end behind it, if it has one there."""
+    """The slope of a cell with air on two adjacent sides, and the thick end behind it, if there is one."""
     column, row = cell
 
     def rock(i: int, j: int) -> bool:
@@ -385,7 +385,7 @@ def _corner(draft: Draft, cell: Cell, near: set[Cell]) -> Tiles:
         return {}
     (dx,), (dy,) = open_x, open_y
     quarter = _AIR[dx, dy]
-    # How many cells wide and high the step is that ends here: behind it the rock rises, or goes on, or ends (0).
+    # Width and height of the step that ends here, cells: behind it the rock rises, continues, or ends (0).
     wide = next((n for n in range(1, _LONGEST) if rock(-dx * n, dy) and rock(-dx * n, 0)), _LONGEST)
     high = next((n for n in range(1, _LONGEST) if rock(dx, -dy * n) and rock(0, -dy * n)), _LONGEST)
     wide *= all(rock(-dx * n, 0) for n in range(1, wide))

@@ -1,4 +1,4 @@
-"""The tools of the level editor: a draft, the tool in hand, and what presses, moves and releases of it do.
+"""The tools of the level editor: a draft, the present tool, and what its presses, moves and releases do.
 
 They know no window: points are px of the level.
 """
@@ -24,23 +24,23 @@ CURVES = ("line", "ellipse")
 SHAPES = ("rectangle", *CURVES)
 TOOLS = ("brush", *SHAPES, "fill", "select", "pick")
 TAKES = ("both", "tiles", "objects")
-"""What Select takes."""
+"""The choices of Select."""
 SPACINGS = (12.0, 16.0, 20.0, 24.0, 36.0, 48.0, 72.0)
 BEND = 12.0
-"""Px by which one step bends a line."""
+"""px per step of bending a line."""
 NEAREST = "nearest"
-"""The side of doors that follow the pointer."""
+"""Doors go to the side nearest to the pointer."""
 DRAGGED = PICK_REACH = 12.0
-"""A press that moves farther than this is a drag; an object that is nearer is picked, px."""
+"""A press that moves farther than this is a drag; a nearer object is picked, px."""
 REACH = 17.32
 """px within which an object is deleted (√300: game.md §6), or selected by a click."""
 
 OTHER_KINDS = tuple(kind.name for kind in brush.OBJECT_TYPES if kind.spec.kind not in (NINJA, EXIT, DOOR))
-"""Types that an object can become: not those of which there is one, or which have a side or a switch."""
+"""Types that an object can become: without single ones, and those with a side or a switch."""
 
 
 def said_cells(says: str) -> list[Cell | None]:
-    """The cell near which each message of a level is said; None for one without a place."""
+    """The cell of each message of a level; None for one without a place."""
     return [message.cell if message.place else None for message in parse_messages(says)]
 
 
@@ -49,7 +49,7 @@ def can_be_remade(spec: ObjectSpec) -> bool:
 
 
 def remade(spec: ObjectSpec, name: str) -> ObjectSpec:
-    """An object as one of OTHER_KINDS, in its place and with its direction and movement; one of no such kind stays."""
+    """An object as one of OTHER_KINDS, with its place, direction and movement; an object of another kind stays."""
     if not can_be_remade(spec):
         return spec
     place, made = points(spec)[BODY], brush.object_of_type(name)
@@ -60,14 +60,12 @@ def remade(spec: ObjectSpec, name: str) -> ObjectSpec:
 
 
 class EditorTools:
-    """A draft with its history, the pointer, the tool in hand and what it draws, what is selected and copied.
+    """A draft with its history, the pointer, the present tool, the selection and the copy.
 
-    ``tile`` and ``spec``: what the brush draws, ``objects`` which of them. ``snap``, ``symmetry``: by name.
-    ``tool``: one of TOOLS; ``marquee``: the corners of the frame that is being drawn around what to select. ``takes``:
-    of TAKES.
-    ``spacing``: of objects along a line or ellipse, px, of SPACINGS. ``slopes``: whether slopes set themselves.
-    ``nearest``: whether doors go to the side of a cell that is nearest to the pointer, not to their own. ``ghost``:
-    what is pasted by the next press.
+    ``tile`` and ``spec``: what the brush draws, ``objects`` which of them. ``snap``, ``symmetry``: by name. ``tool``:
+    one of TOOLS; ``marquee``: the corners of the frame of a selection. ``takes``: one of TAKES. ``spacing``: of objects
+    along a line or ellipse, px, of SPACINGS. ``slopes``: whether slopes are automatic. ``nearest``: whether doors go to
+    the side of a cell nearest to the pointer, not to their own. ``ghost``: the stamp that the next press pastes.
     """
 
     def __init__(self, draft: Draft) -> None:
@@ -103,23 +101,23 @@ class EditorTools:
 
     @property
     def placing_switch(self) -> bool:
-        """Whether the next press says where the switch of a door or an exit is."""
+        """Whether the next press places the switch of a door or an exit."""
         return self._switchless is not None
 
     @property
     def about_objects(self) -> bool:
-        """Whether keys are about objects: in hand, or selected."""
+        """Whether keys are about objects: drawn, or selected."""
         return self.objects or bool(self.selection.parts)
 
     @property
     def effective_tool(self) -> str:
-        """The tool that a press uses: a ninja, and what has a switch to be placed after it, are put one at a time."""
+        """The tool that a press uses: a ninja, and an object with a switch to place, are placed one at a time."""
         draws_one = self.objects and (self.spec.kind == NINJA or has_switch(self.spec))
         return "brush" if draws_one and self.tool not in ("select", "pick") else self.tool
 
     @property
     def dragging(self) -> bool:
-        """Whether what is chosen follows the pointer."""
+        """Whether the selection follows the pointer."""
         return self._doing == "drag"
 
     @property
@@ -128,9 +126,9 @@ class EditorTools:
         return bool(self._doing)
 
     def load(self, draft: Draft, history: History[Draft] | None = None) -> None:
-        """Work on another level: the first tile is in hand again, and what is drawn has no images.
+        """Edit another level, with the first tile and without a symmetry.
 
-        ``history``: of the level when it was last worked on.
+        ``history``: of the level when it was last edited.
         """
         self.finish()
         self.history, self.selection = history or History(draft), stamps.Selection()
@@ -138,7 +136,7 @@ class EditorTools:
         self._take_first()
 
     def move(self, x: float, y: float) -> None:
-        """The pointer is somewhere else; what is being dragged follows."""
+        """Move the pointer, and what is being dragged."""
         before = self.cell
         self.pointer = min(max(0.0, x), WORLD_WIDTH - 1e-6), min(max(0.0, y), WORLD_HEIGHT - 1e-6)
         if self._doing in ("draw", "erase"):
@@ -160,7 +158,7 @@ class EditorTools:
             self.selection = self._joined(self._taken(stamps.chosen_in(self.draft, stamps.area_between(*self.marquee))))
 
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False, copies: bool = False) -> None:
-        """The button goes down at the pointer. ``add``: to what is chosen already; ``copies``: a drag drags a copy."""
+        """The button is pressed at the pointer. ``add``: to the selection; ``copies``: a drag drags a copy."""
         if pick and (self.placing_switch or self.ghost):
             return
         self._pressed_at, self._bend, self._copies = self.pointer, 0.0, copies
@@ -214,7 +212,7 @@ class EditorTools:
         self.history.end()
 
     def cancel(self) -> bool:
-        """Cancel the operation under way, else the selection; whether there was one. A copied selection stays."""
+        """Cancel the operation under way, else the selection; whether there was one. A copy stays."""
         kept = self._chosen_before if self.ghost else stamps.Selection()
         busy = bool(self._doing or self.placing_switch or self.ghost or self.selection)
         if self._doing or self.placing_switch:
@@ -248,7 +246,7 @@ class EditorTools:
         self.history.change(self._with(stamp, draft or self.draft))
 
     def _with(self, stamp: stamps.Stamp, draft: Draft) -> Draft:
-        """The draft with a stamp on it, in all images of the symmetry, and with slopes where they set themselves."""
+        """The draft with a stamp on it, in all images of the symmetry, and with automatic slopes."""
         after = stamps.put(draft, stamp, SYMMETRIES[self.symmetry])
         return (
             stamps.sloped(draft, after)
@@ -273,7 +271,7 @@ class EditorTools:
             self._change(stamps.Stamp({}, (self.placed(*self.pointer),)))
 
     def _draw_shape(self) -> None:
-        """Tiles that fill it, or objects: a box is full of them, a line or an ellipse has them along it."""
+        """Tiles that fill it, or objects: they fill a box, and lie along a line or an ellipse."""
         if not self.objects:
             cells = stamps.covered(self._doing, cell_of(*self._pressed_at), self.cell, self._bend)
             if self.slopes and self._doing == "line" and self.tile in (brush.EMPTY, brush.FULL):
@@ -330,12 +328,12 @@ class EditorTools:
         return stamps.area_between(cell_of(*self._pressed_at), self.cell)[2:] if drawn else None
 
     def near(self, reach: float) -> stamps.ObjectPart | None:
-        """The part of an object at the pointer, within so many px; None where Select takes only tiles."""
+        """The part of an object at the pointer, within that many px; None if Select takes only tiles."""
         tiles = self.tool == "select" and self.takes == "tiles"
         return None if tiles else stamps.nearest(self.draft, *self.pointer, reach)
 
     def take(self, what: str) -> None:
-        """Have Select take one of TAKES, and nothing else stay selected."""
+        """Set what Select takes, one of TAKES, and deselect the rest."""
         self.finish()
         self.tool, self.takes = "select", what
         self.selection = self._taken(self.selection)
@@ -389,7 +387,7 @@ class EditorTools:
         self.selection = stamps.Selection(parts=parts)
 
     def undo(self) -> bool:
-        """Give up what hangs at the pointer, else the newest change; whether there was any."""
+        """Cancel a paste or a drawing, else undo the newest change; whether there was any."""
         hung = self.ghost is not None
         self.finish()
         return hung or self._step(self.history.undo)
@@ -399,7 +397,7 @@ class EditorTools:
         return self._step(self.history.redo)
 
     def _step(self, step: Callable[[], bool]) -> bool:
-        """Undo or redo. What is selected stays so where there are as many objects as before."""
+        """Undo or redo. The selection stays if there are as many objects as before."""
         before, parts = len(self.draft.objects), self.selection.parts
         done = step()
         objects = self.draft.objects
@@ -407,10 +405,10 @@ class EditorTools:
         self.selection = stamps.Selection(parts=frozenset(kept))
         return done
 
-    # --- what is chosen ---
+    # # --- the selection ---
 
     def nudge(self, dx: float, dy: float) -> None:
-        """Move what is chosen by steps of the snap, or of cells."""
+        """Move the selection by steps of the snap, or of cells."""
         step = CELL if self.selection.area else brush.SNAPS[self.snap]
         draft, self.selection = stamps.moved(self.draft, self.selection, Motion(dx=dx * step, dy=dy * step))
         self.history.change(draft)
@@ -423,7 +421,7 @@ class EditorTools:
     def turn(self, motion: Motion) -> bool:
         """Flip or turn the stamp that is being pasted, else the selection in its place, else the brush.
 
-        False, and nothing is done, where something would leave the level.
+        False, without a change, if something would leave the level.
         """
         if self.ghost is not None:
             self.ghost = self.ghost.carried(motion.about(WORLD_WIDTH / 2, WORLD_HEIGHT / 2))
@@ -450,18 +448,18 @@ class EditorTools:
         return True
 
     def shift(self, dx: float, dy: float) -> bool:
-        """Move what is chosen, px; without its tiles where these are no whole cells. False as for ``turn``."""
+        """Move the selection, px; without its tiles if these are no whole cells. False as for ``turn``."""
         whole = dx % CELL == dy % CELL == 0.0
         return self._carry(
             self.selection if whole else stamps.Selection(parts=self.selection.parts), Motion(dx=dx, dy=dy)
         )
 
     def arrange(self, axis: int, share: float | None) -> None:
-        """Put the chosen objects in line, or spread them (``stamp.arranged``)."""
+        """Align the selected objects, or spread them (``stamp.arranged``)."""
         self.history.change(stamps.arranged(self.draft, self.selection, axis, share))
 
     def copy(self) -> bool:
-        """Remember what is chosen; whether anything is."""
+        """Copy the selection; whether there is one."""
         if self.selection:
             self.clipboard = stamps.copied(self.draft, self.selection)
         return bool(self.selection)
@@ -471,7 +469,7 @@ class EditorTools:
             self.delete()
 
     def delete(self) -> None:
-        """Delete what is chosen, or else the object on which the pointer is."""
+        """Delete the selection, or else the object under the pointer."""
         self.finish()
         if self.selection:
             self.history.change(stamps.removed(self.draft, self.selection))
@@ -480,7 +478,7 @@ class EditorTools:
             self.delete_nearest(PICK_REACH)
 
     def paste(self) -> bool:
-        """Take what was copied in hand, for the next press to put it; whether anything was copied."""
+        """Begin to paste the copy with the next press; whether there is one."""
         self.finish()
         self._chosen_before, self.selection, self.ghost = self.selection, stamps.Selection(), self.clipboard
         return self.ghost is not None
@@ -513,7 +511,7 @@ class EditorTools:
 
     @property
     def subjects(self) -> list[ObjectSpec]:
-        """All objects of which anything is selected; without a selection the one that is drawn with."""
+        """All objects with a selected part; without a selection the brush's object."""
         objects = self.draft.objects
         chosen = [objects[number] for number in sorted(self.selection.numbers) if number < len(objects)]
         return chosen if self.selection else [self.spec]
@@ -526,7 +524,7 @@ class EditorTools:
         self.change_each(lambda spec: with_word(spec, name, text) if name in properties(spec) else spec)
 
     def change_each(self, change: Callable[[ObjectSpec], ObjectSpec]) -> None:
-        """Change all objects of which anything is chosen, as one edit."""
+        """Change all objects with a selected part, as one edit."""
         objects = list(self.draft.objects)
         for number in self.selection.numbers:
             objects[number] = change(objects[number])

@@ -1,1 +1,1 @@
-"""Files: reading, writing, and where they lie."""
+"""Reading and writing files, and their places."""

@@ -31,10 +31,10 @@ else:
 
 @contextmanager
 def locked(path: Path, seconds: float) -> Iterator[None]:
-    """No other process is within such a block for the same ``path``.
+    """Only one process at a time is within such a block for the same ``path``.
 
     The lock is on a hidden file next to it, which stays; the system frees it when a process dies. After ``seconds``, or
-    where the place has no locks, the block goes on without: a missing lock must not keep anyone from playing.
+    without locks on this disk, the block continues without: a missing lock must not keep anyone from playing.
     """
     try:
         handle = os.open(path.with_name(f".{path.name}.lock"), _OWN_FILE, 0o666)
@@ -52,9 +52,9 @@ def locked(path: Path, seconds: float) -> Iterator[None]:
 
 
 def lock(handle: int) -> bool:
-    """Lock an open file for as long as it stays open; False where another program holds it.
+    """Lock an open file for as long as it stays open; False if another program holds it.
 
-    A disk without locks is no reason to do nothing: there every program may have the file.
+    True on a disk without locks: there every program may have the file.
     """
     try:
         _try_to_lock(handle)
@@ -80,9 +80,9 @@ def try_lock(path: Path) -> int | None:
 def read_abandoned(
     folder: Path, pattern: str, read: Callable[[Path], Found], damaged: tuple[type[Exception], ...]
 ) -> Iterator[Found]:
-    """Read the files of programs that have died, the newest first; those of running programs are left out.
+    """Read the files of crashed programs, the newest first; those of running programs are left out.
 
-    ``damaged``: what ``read`` raises, besides OSError, for a file that is left out too.
+    ``damaged``: errors of ``read``, besides OSError, for which a file is left out too.
     """
     dated: list[tuple[float, Path]] = []
     with suppress(OSError):

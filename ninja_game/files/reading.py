@@ -1,7 +1,7 @@
 """Files as people have them: texts in any encoding, with any line ends, alone or in folders. Only regular files.
 
-A text may take in others by their names, from its own folder or below it (``read_included``). Every format reads them
-here, so that a verification knows all of what its results depend on, and can have it read from memory on another
+A text may include others by their names, from its own folder or below it (``read_included``). Every format reads them
+here, so that a verification knows all files that its results depend on, and can read them from memory on another
 machine (``known_files``).
 """
 
@@ -19,9 +19,9 @@ from typing import IO, NamedTuple
 
 from ninja_game.errors import FileError, NinjaGameError, reason
 
-SUFFIXES = (".txt", ".nlevel", ".level", ".replay", ".demo", ".tas")  # which files of a folder are looked at
+SUFFIXES = (".txt", ".nlevel", ".level", ".replay", ".demo", ".tas")  # suffixes of the files of a folder that are read
 
-MAX_BYTES = 64 * 2**20  # far more than any file of levels or replays has; a larger file is something else
+MAX_BYTES = 64 * 2**20  # far more than any file of levels or replays has
 
 _inputs: set[tuple[int, int]] | None = None
 """Device and number of each file that was read, while inputs are kept."""
@@ -29,7 +29,7 @@ _inputs: set[tuple[int, int]] | None = None
 
 @dataclass(frozen=True)
 class Skipped:
-    """What a walk through a folder could not look at, and why."""
+    """A file or folder that a walk could not read, and why."""
 
     path: Path
     why: str
@@ -39,10 +39,10 @@ class Skipped:
 
 
 def files_below(folder: Path, *, follow_links: bool = True) -> Iterator[Path | Skipped]:
-    """The files below a folder that may hold levels or recordings, in order of their names, hidden ones apart.
+    """The files below a folder that may hold levels or recordings, in order of their names, without hidden ones.
 
-    Links are followed, or left out. Every folder is visited once, so that loops end. Only the folders on the way to the
-    present file are in memory. What cannot be looked at is given as Skipped and stops nothing.
+    Links are followed, or left out. Every folder is visited once, so that loops end. Only the folders on the path to
+    the present file are in memory. Unreadable ones are given as Skipped and stop nothing.
     """
     visited: set[tuple[int, int]] = set()
     waiting = [(folder, True)]
@@ -83,7 +83,7 @@ def _is_folder(entry: os.DirEntry[str]) -> bool:
 
 
 def files_in(folder: Path, *, follow_links: bool = True) -> list[str]:
-    """The names of the regular files in a folder, sorted, hidden ones apart; none where there is no folder."""
+    """The names of the regular files in a folder, sorted, without hidden ones; none for a missing folder."""
     try:
         with os.scandir(folder) as entries:
             files = [entry.name for entry in entries if entry.is_file(follow_symlinks=follow_links)]
@@ -93,7 +93,7 @@ def files_in(folder: Path, *, follow_links: bool = True) -> list[str]:
 
 
 def text_files(path: Path) -> list[Path]:
-    """The file itself, or ``files_below`` a folder without what had to be left out."""
+    """The file itself, or ``files_below`` a folder without the skipped ones."""
     if not path.is_dir():
         return [path]
     return [file for file in files_below(path) if isinstance(file, Path)]
@@ -109,7 +109,7 @@ def path_below(folder: Path, name: str) -> Path | None:
 
 
 def protect_inputs(on: bool) -> None:
-    """From now on ``files.writing`` replaces no file that is read; or any, with a new beginning."""
+    """From now on ``files.writing`` replaces no file that was read; or, off, any."""
     global _inputs  # noqa: PLW0603 - of the process, as its files are
     _inputs = set() if on else None
 
@@ -122,7 +122,7 @@ def is_input(about: os.stat_result) -> bool:
 def open_regular(path: Path) -> IO[bytes]:
     """A regular file, open for reading. Raises FileError for a folder, device or pipe; OSError as it comes."""
     try:
-        # A pipe that nobody writes would block here without O_NONBLOCK.
+        # Without O_NONBLOCK a pipe without a writer would block here.
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     except ValueError as error:
         raise FileError("no file has this name", ascii(str(path)), found=str(error)) from None
@@ -140,7 +140,7 @@ NO_FILE: list[int] = []  # the stamp of a missing file
 
 
 def stamp_of(path: Path | str) -> list[int]:
-    """What changes when a file or folder is written or replaced: its size, times and number; copies set no ctime."""
+    """Changes when a file or folder is written or replaced: its size, times and number; copies set no ctime."""
     try:
         about = os.stat(path)  # noqa: PTH116 - a path of text is cheaper, and a board asks of each run
     except (OSError, ValueError):
@@ -192,10 +192,9 @@ def decoded(data: bytes, file: str) -> str:
 
 
 def file_type(mode: int) -> str:
-    """What a file is, by its mode, as error messages call it.
+    """The type of a file by its mode, for error messages.
 
-    >>> file_type(stat.S_IFIFO)
-    'a pipe'
+    >>> file_type(stat.S_IFIFO) 'a pipe'
     """
     kinds = {
         stat.S_IFDIR: "a folder", stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket", stat.S_IFLNK: "a link",
@@ -205,9 +204,9 @@ def file_type(mode: int) -> str:
 
 
 class IncludedFile(NamedTuple):
-    """A file that a text includes: its path, "" for one elsewhere; its text, None where it cannot be read; why not.
+    """A file that a text includes: its path, "" outside of its folder; its text, None if unreadable; the reason.
 
-    There is no reason where no regular file is there.
+    There is no reason if no regular file is there.
     """
 
     path: str
@@ -228,7 +227,7 @@ def known_files(known: dict[str, IncludedFile], *, no_more: bool) -> Iterator[No
         _KNOWN.reset(token)
 
 
-LINK = "link"  # what the text of a link is called; a file of that name in the current folder is another one
+LINK = "link"  # the name of a link's text; a file of that name in the current folder is another one
 
 
 def has_folder(file: str) -> bool:
@@ -239,7 +238,7 @@ def has_folder(file: str) -> bool:
 
 
 def read_included(file: str, name: str) -> IncludedFile:
-    """The file of a name that stands in the text ``file``."""
+    """The file of a name in the text ``file``."""
     known, no_more = _KNOWN.get() or ({}, False)
     if name not in known:
         if no_more:

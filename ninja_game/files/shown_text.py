@@ -1,4 +1,4 @@
-"""Names are data: untrusted texts made safe to show in one line, and to name files with."""
+"""Untrusted texts made safe to show in one line, and as names of files."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from unicodedata import category, normalize
 
-MAX_SHOWN = 200  # how many characters of a text are shown; no name of a level or player comes near
+MAX_SHOWN = 200  # most characters shown; no name of a level or player comes near
 
 MOST_NAME_BYTES = 200
 """Bytes of a file's name in UTF-8: systems take 255, and a number, a suffix or ``.lock`` may follow."""
@@ -17,7 +17,7 @@ _BLANKS = re.compile(r"\s{2,}")
 INVISIBLE = re.compile(
     "[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2065\u2800\u3164\ufe00-\ufe0f\uffa0\U0001d159\U000e0000-\U000e0fff]"
 )
-"""What is printable and not seen, besides format characters (Cf): fillers, variation selectors, blank signs."""
+"""Printable but invisible, besides format characters (Cf): fillers, variation selectors, blank signs."""
 _NOWHERE = '/\\:*?"<>|'
 _RESERVED = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[1-9¹²³]) *(\..*)?", re.IGNORECASE | re.DOTALL)
 """Names that mean devices on Windows, whatever their suffix."""

@@ -1,8 +1,8 @@
 """Folders that are filled by file names: existing entries, links above all, cannot redirect a write elsewhere.
 
-Each step goes from the handle of a folder to that of the next one, so that no link can come into the way between a look
-and a use. Windows and pages have no such handles: there each path is compared with where it leads, which holds for what
-lies in the folder, not against a program that changes it at the same moment.
+Each step goes from the handle of a folder to that of the next one, so that no link can appear between a check and a
+use. Windows and pages have no such handles: there each path is compared with its resolved form, which protects against
+existing links, not against a program that makes one at the same moment.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from ninja_game.runtime import FOLDER_HANDLES
 
 
 class Tree:
-    """The folder ``root``, made when it is first written into, and what is below it.
+    """The folder ``root``, made when it is first written into, and everything below it.
 
-    ``kept``: a file that is written is on the disk then; else when the system has time for it.
+    ``kept``: a written file is on the disk at once; else when the system has time for it.
 
     ``root`` may be a link, since the user names it; below it none is followed. Names have ``/`` between their parts.
-    Raises FileError for a name that leads out, and for a link, or no folder, in the way; OSError.
+    Raises FileError for a name that leads out, and for a link or a file in place of a folder; OSError.
     """
 
     def __init__(self, root: Path, *, kept: bool = True) -> None:
@@ -49,13 +49,13 @@ class Tree:
             _replaceable(folder / last, at)
 
     def names(self, folder: str = "") -> list[str]:
-        """What is in a folder, hidden or not, sorted; nothing where there is no folder."""
+        """The names in a folder, hidden or not, sorted; none for a missing folder."""
         with suppress(FileNotFoundError), self._folder(_parts(folder) if folder else []) as (path, at):
             return sorted(entry.name for entry in _entries(path, at))
         return []
 
     def remove(self, name: str) -> None:
-        """Remove a file, or a link and not what it leads to, if it is there."""
+        """Delete a file, or a link and not its target, if it is there."""
         *folders, last = _parts(name)
         with suppress(FileNotFoundError), self._folder(folders) as (folder, at):
             os.unlink(named(folder / last, at), dir_fd=at)
@@ -68,7 +68,7 @@ class Tree:
 
     @contextmanager
     def _folder(self, parts: Sequence[str], *, make: bool = False) -> Iterator[tuple[Path, int | None]]:
-        """The path of a folder, and a handle of it where the system has them."""
+        """The path of a folder, and a handle of it on systems with handles."""
         path = self.root
         if make:
             path.mkdir(parents=True, exist_ok=True)
@@ -102,7 +102,7 @@ def _parts(name: str) -> list[str]:
 
 
 def _entered(path: Path, at: int | None) -> int | None:
-    """A handle of a folder in the folder ``at``. Raises FileError for a link and for what is not a folder."""
+    """A handle of a folder in the folder ``at``. Raises FileError for a link and for anything but a folder."""
     try:
         if at is not None:
             return os.open(path.name, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=at)
@@ -116,7 +116,7 @@ def _entered(path: Path, at: int | None) -> int | None:
 
 
 def _replaceable(path: Path, at: int | None) -> os.stat_result | None:
-    """What ``replacing`` has to know of the file with this name. Raises FileError for what is not a regular file."""
+    """What ``replacing`` needs to know of the file with this name. Raises FileError for anything but a regular file."""
     try:
         about = os.stat(named(path, at), dir_fd=at, follow_symlinks=False)
     except FileNotFoundError:

@@ -1,4 +1,4 @@
-"""TOML texts and zips from anybody: read by the library, within limits that hold before any memory is made."""
+"""Untrusted TOML texts and zips: read by the library, within limits that are checked before memory is allocated."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-MOST_PARTS = 50  # parts of a key with dots; the library takes time with the square of their number
+MOST_PARTS = 50  # parts of a key with dots; the library's time grows with their square
 
 _PART = r"""(?:(?<![\w-])[\w-]++|(?<!\\)"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
 _LONG_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}")
@@ -53,17 +53,17 @@ def _check_numbers(value: object) -> None:
 
 _ENTRY = b"PK\1\2"
 _BLOCK = 2**20
-# Bytes of the index: the library takes time by the square of what stands beside a name.
+# Bytes of the index: the library's time grows with the square of the data beside a name.
 _MOST_OF_ENTRY = 512  # for each file
 _MOST_OF_INDEX = 2**23
 
 
 class _Index(io.RawIOBase):
-    """A file of which no more than the index of a zip is read at once; all that the library asks while it opens one."""
+    """A file whose zip index is read only in bounded pieces; it has the methods that the library calls."""
 
     def __init__(self, file: IO[bytes], most: int) -> None:
         self._file = file
-        self._most = max(most, 2**17)  # it looks for the end of the index in the last 64 KiB
+        self._most = max(most, 2**17)  # the library looks for the end of the index in the last 64 KiB
 
     def read(self, size: int = -1) -> bytes:
         if size > self._most:
@@ -78,11 +78,11 @@ class _Index(io.RawIOBase):
 
 
 def open_zip(file: IO[bytes], *, most_files: int, most_bytes: int) -> ZipFile:
-    """The zip in a file: at most so many files in it, and so many bytes when all of them are unpacked.
+    """The zip in a file: with bounds on the number of its files and on their unpacked bytes.
 
-    Raises ValueError for more, and for what is not a zip.
+    Raises ValueError for more, and for anything but a zip.
     """
-    # The library creates an object for each entry before it tells how many there are.
+    # The library creates an object for each entry before it reports their number.
     if sum(block.count(_ENTRY) for block in iter(partial(file.read, _BLOCK), b"")) > most_files:
         raise ValueError(f"more than {most_files} files in a zip")
     file.seek(0)
@@ -105,7 +105,7 @@ def unpacked(archive: ZipFile, entry: ZipInfo) -> bytes:
 
 @contextmanager
 def _value_errors() -> Iterator[None]:
-    """What the library raises for an odd zip becomes a ValueError."""
+    """Turn the library's errors for an odd zip into ValueError."""
     try:
         yield
     except (BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OverflowError, OSError) as error:
@@ -116,7 +116,7 @@ UNREADABLE = (
     ValueError, KeyError, TypeError, AttributeError, EOFError, ArithmeticError, MemoryError, RecursionError,
     struct.error,
 )  # fmt: skip
-"""What odd files make the standard library and NumPy raise."""
+"""Errors of the standard library and NumPy for odd files."""
 
 MOST_ARRAYS = 2**16  # in an archive; a trace has nine
 
@@ -131,11 +131,11 @@ _TEXT = re.compile(r"'<U\d{1,9}'")
 
 
 def read_array(archive: ZipFile, entry: ZipInfo, wanted: np.dtype[Any], *, most: int, dimensions: int) -> NDArray[Any]:
-    """An array of the wanted kind, which claims no more than its file holds.
+    """An array of the wanted kind that claims no more than its file holds.
 
-    ``most``: along each of at most so many ``dimensions``. Raises an error of UNREADABLE for any other.
+    ``most``: along each of at most that many ``dimensions``. Raises an error of UNREADABLE for any other.
     """
-    import numpy as np  # packs are read where there is none, as in the page
+    import numpy as np  # packs are read without it, as in the page
 
     data = unpacked(archive, entry)
     header = _HEADER.match(data)

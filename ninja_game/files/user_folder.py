@@ -1,4 +1,4 @@
-"""Where the player's own things live: settings, records, levels, replays, pictures."""
+"""The places of the player's files: settings, records, levels, replays, pictures."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ HOME_VARIABLE = "NINJA_GAME_HOME"  # environment variable that moves the folder
 LEVELS = "levels"
 DAILY = "daily-levels"  # in the folder of levels: the pack of daily levels
 REPLAYS = "replays"
-EXPORTS = "exports"  # what the game writes on request
-EDITING = "editing"  # levels that are being edited
+EXPORTS = "exports"  # files that the game writes on request
+EDITING = "editing"  # levels under edit
 
 # Files in it.
 SETTINGS = "settings.toml"
 RECORDS = "records.sqlite"
 
-REPLAY_SUFFIX = ".replay.txt"  # what the names of our replays end with
+REPLAY_SUFFIX = ".replay.txt"  # the end of our replays' names
 
 
 def user_folder() -> Path:
@@ -53,7 +53,7 @@ def cache_folder() -> Path:
 
 
 def folder_from_variable(variable: str, otherwise: Callable[[], Path]) -> Path:
-    """The folder that a variable of the environment names, else another. Raises FileError where there is neither."""
+    """The folder in an environment variable, or a default. Raises FileError without either."""
     named = os.environ.get(variable)
     try:
         return Path(named).expanduser() if named else otherwise()
@@ -64,7 +64,7 @@ def folder_from_variable(variable: str, otherwise: Callable[[], Path]) -> Path:
 
 
 def make_user_folder(folder: Path | None = None) -> Path:
-    """The folder with its parts, made where they are missing. Raises OSError where that is impossible."""
+    """The folder with its parents, made if they are missing. Raises OSError if that is impossible."""
     folder = user_folder() if folder is None else folder
     for name in (LEVELS, REPLAYS, EXPORTS):
         (folder / name).mkdir(parents=True, exist_ok=True)
@@ -72,7 +72,7 @@ def make_user_folder(folder: Path | None = None) -> Path:
 
 
 def quarantine(path: Path, why: str) -> Path:
-    """Move a file that cannot be used out of the way, and the files that SQLite keeps next to it; its new path.
+    """Rename a file that cannot be used, and the files that SQLite keeps next to it; its new path.
 
     ``why``: one word for the new name. Nothing is ever overwritten. Raises OSError.
     """
@@ -95,7 +95,7 @@ def short_path(path: Path) -> str:
 
 
 def free_path(folder: Path, stem: str, suffix: str, first: int = 1) -> Path:
-    """The first of ``stem.txt``, ``stem-2.txt``, … (for ``.txt``) that is not a file of a folder on any system.
+    """The first of ``stem.txt``, ``stem-2.txt``, … (for ``.txt``) that is free on every system.
 
     ``first``: how many names have no number; with 0 the first one is ``stem-1.txt``.
     """
@@ -118,7 +118,7 @@ def export_path(folder: Path, title: str, suffix: str) -> Path:
 
 PACKAGE = Path(__file__).resolve().parent.parent
 CHECKOUT = {name: PACKAGE.parent / name for name in ("levels", "assets", "docs")}
-"""Where a checkout has what an installed package has in its folder ``data``."""
+"""The folders of a checkout that an installed package has in ``data``."""
 
 
 def data_folder(name: str) -> Path:
@@ -143,7 +143,7 @@ def asset_rows(name: str) -> Iterator[list[str]]:
 
 
 def is_bundled(path: Path) -> bool:
-    """Whether a file is one of the game's own, in its folder of levels, by whatever name."""
+    """Whether a file is one of the game's own, in its folder of levels, by any path."""
     return path.resolve().is_relative_to(data_folder("levels").resolve())
 
 
@@ -157,7 +157,7 @@ def bundled_levels() -> list[Path]:
 
 
 def own_levels() -> dict[str, Path]:
-    """Those files by their names without a suffix, by which commands and agents know them."""
+    """The game's level files by their names without a suffix, for commands and agents."""
     return {path.stem: path for path in bundled_levels()}
 
 
@@ -167,13 +167,13 @@ def bundled_replays() -> list[Path]:
 
 
 def install_hint(extra: str) -> str:
-    """What gets an optional part of the program: in a checkout its own tool, else pip of the Python that runs this.
+    """How to install an optional part of the program: in a checkout its own tool, else pip of the running Python.
 
     It names the packages of the part, not this one, which the user's index may not have.
     """
     if IN_PAGE:
         return ONLY_ON_A_DESKTOP
-    # Importing it takes as long as importing all the rest.
+    # Its import takes as long as all the rest.
     from importlib.metadata import PackageNotFoundError, requires
 
     tool = PACKAGE.parent / "tools" / "dev.py"

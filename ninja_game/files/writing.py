@@ -1,7 +1,7 @@
-"""Files that are whole or not there: written next to their place, brought to the disk, then moved into it.
+"""Files that are whole or not there: written next to their place, flushed to the disk, then renamed into it.
 
-Only regular files are written. A symbolic link that the user has named stays, and the file that it leads to is
-replaced (``files.tree`` follows none); an existing file keeps its mode. Other hard links to it keep the old content.
+Only regular files are written. A symbolic link named by the user stays, and its target is replaced (``files.tree``
+follows none); an existing file keeps its mode. Other hard links to it keep the old content.
 """
 
 from __future__ import annotations
@@ -169,7 +169,7 @@ def _keep_rights(part: Path, handle: int, about: os.stat_result) -> None:
 
 
 def _reads(source: Path, target: Path) -> bool:
-    """Whether who reads ``source``, a file or a folder, reads ``target``."""
+    """Whether a reader of ``source``, a file or a folder, reads ``target``."""
     if source.is_dir():
         return target.name.lower().endswith(SUFFIXES) and target.is_relative_to(source.resolve())
     return source.exists() and source.samefile(target)
@@ -183,7 +183,7 @@ def _is_about_the_file(error: OSError) -> bool:
 
 
 def _sync_folder(folder: Path, at: int | None) -> None:
-    """Bring a folder's list of names to the disk, where the system can do that."""
+    """Flush a folder's list of names to the disk, if the system can do that."""
     if sys.platform != "win32":
         with suppress(OSError):
             handle = os.open(folder if at is None else ".", os.O_RDONLY, dir_fd=at)

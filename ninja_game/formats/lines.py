@@ -1,4 +1,4 @@
-"""The lines of a text that hold something, with their numbers; how a header's value is written."""
+"""The non-empty lines of a text, with their numbers; writing a header's value."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def numbered_lines(text: str, wanted: re.Pattern[str] = FILLED) -> Iterator[Line
 
 
 def header_text(value: str) -> str:
-    """A header's value as it is written: in double quotes as JSON where it would not come back otherwise."""
+    """A header's value in writing: in double quotes as JSON if it would not read back otherwise."""
     plain = value == value.strip() and not value.startswith('"') and value.isprintable()
     return value if plain else json.dumps(value)
 

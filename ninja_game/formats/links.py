@@ -44,7 +44,7 @@ MOST_CHARACTERS = 2 * 2**20  # length of a link: what browsers take
 
 MOST_BYTES = 4 * 2**20  # size of its text when unpacked
 
-MOST_TEXTS = 9  # in a link of replays: the one that is watched, and as many ghosts as the viewer shows
+MOST_TEXTS = 9  # in a link of replays: the watched one, and as many ghosts as the viewer shows
 
 _PART = re.compile(r"(level|pack|replay)=([0-9]{1,4})\.([A-Za-z0-9_-]*)")
 _STEM = re.compile(r"[0-9a-f]{16}")
@@ -55,7 +55,7 @@ _AROUND = "\0 \t\r\n.,;:!?)>]}\"'"
 
 @dataclass(frozen=True)
 class Link:
-    """What a link carries: one text, or several of replays, as untrusted as any file."""
+    """The content of a link: one text, or several of replays, as untrusted as any file."""
 
     kind: LinkKind
     texts: tuple[str, ...]
@@ -154,10 +154,9 @@ def _unpacked(packed: str, most: int) -> str:
 
 
 def write_watch(files: Sequence[str]) -> str:
-    """The fragment for a page beside whose folder ``replays`` lies: watch these files of it, by their names' stems.
+    """The fragment for a page beside the folder ``replays``: watch these files of it, by their names' stems.
 
-    >>> write_watch(["0123456789abcdef"])
-    '#watch=0123456789abcdef'
+    >>> write_watch(["0123456789abcdef"]) '#watch=0123456789abcdef'
     """
     return f"#watch={','.join(files[:MOST_TEXTS])}"
 
@@ -179,7 +178,7 @@ def watched(fragment: str) -> list[str]:
 
 _NAME_LIMIT = 100  # characters of the name of a file in a pack
 _LEFT_OUT = re.compile(r"^(?:waypoints|level-data):\n(?:(?: .*)?\n)*", re.MULTILINE)
-"""Of certificates in links of packs: the pack has the levels, and the digest says the same as the waypoints."""
+"""Left out of certificates in links of packs: the pack has the levels, and the digest replaces the waypoints."""
 
 
 def level_link(level: Level, **headers: Any) -> str:
@@ -277,9 +276,9 @@ def recordings_of(texts: Iterable[str]) -> list[Recording]:
 
 
 def _whole(text: str) -> str:
-    """A text from elsewhere; replays in a form in which nothing leads to a file. Raises LinkError, ReplayError.
+    """An untrusted text; replays in a form without paths to files. Raises LinkError, ReplayError.
 
-    Without the name of a file its inputs take in no other files, and with its level inside no path is tried.
+    Without the name of a file its inputs include no other files, and with its level inside no path is tried.
     """
     episode = is_episode(text)
     if not episode and not is_replay(text):

@@ -1,4 +1,4 @@
-"""What a level says to the player, and when: the header `says` of our ASCII format (docs/level-format.md)."""
+"""Messages of a level to the player: the header `says` of our ASCII format (docs/level-format.md)."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ BAR = "|"
 """Between two texts."""
 
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
-"""Actions whose key a text may name: {jump} becomes the key or button of whoever plays."""
+"""Actions whose key a text may name: {jump} becomes the player's key or button."""
 
 TARGETS = ("switch", "exit")
-"""What a text may name in the same way: an arrow leads to it."""
+"""Things that a text may name in the same way: an arrow points to each."""
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _DEATH = re.compile(r"death ([1-9][0-9]?)")
@@ -40,7 +40,7 @@ class LevelMessage(NamedTuple):
 
     @property
     def place(self) -> tuple[float, float] | None:
-        """The middle of the cell near which it is said, px; None for every other moment."""
+        """The middle of the cell near which it is shown, px; None for every other moment."""
         return middle_of(self.cell) if self.when == "at" else None
 
 
@@ -62,12 +62,11 @@ def unknown_words(text: str) -> list[str]:
 
 
 def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
-    """What the arrows in a level with these texts lead to: both TARGETS where any text names one, else nothing.
+    """The targets of arrows in a level with these texts: both TARGETS if any text names one, else none.
 
-    Both, for a newcomer who is told of the exit alone looks for its switch.
+    Both, since a newcomer who reads only of the exit looks for its switch.
 
-    >>> arrow_targets(["Go", "Now the {exit} is open"]), arrow_targets(["Go"])
-    (('switch', 'exit'), ())
+    >>> arrow_targets(["Go", "Now the {exit} is open"]), arrow_targets(["Go"]) (('switch', 'exit'), ())
     """
     return TARGETS if any(name in TARGETS for text in texts for name in _KEY.findall(text)) else ()
 
@@ -102,9 +101,8 @@ def _read(part: str) -> LevelMessage:
 
 
 def named_keys(text: str, name: Callable[[str], str]) -> str:
-    """A text with its keys in the words of whoever plays, and its things. ``name``: what to press for an action.
+    """A text with the player's names of its keys, and with its things. ``name``: gives the key of an action.
 
-    >>> named_keys("{jump} jumps", {"jump": "Z"}.__getitem__)
-    'Z jumps'
+    >>> named_keys("{jump} jumps", {"jump": "Z"}.__getitem__) 'Z jumps'
     """
     return _KEY.sub(lambda match: match[1] if match[1] in TARGETS else name(match[1]), text)

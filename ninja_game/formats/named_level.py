@@ -1,4 +1,4 @@
-"""Levels with what their file says about them. The text itself shows its format, whatever the file is called."""
+"""Levels with the other contents of their file. A text's format is recognised whatever the file's name."""
 
 from __future__ import annotations
 
@@ -46,16 +46,16 @@ def format_of(text: str) -> TextFormat:
     return "inputs" if is_tas_text(text) else "string"
 
 
-# What the object half of an in-game string is made of, numbers that no object can have included.
+# The alphabet of the objects in an in-game string, with numbers that no object can have.
 _OBJECTS = re.compile(r"[0-9.,^!+\-xeENa \t]+")
 _TILE = re.compile(r"[0-Q]")
 
 
 @dataclass(frozen=True)
 class NamedLevel:
-    """A level with what its file says about it; only our readable files say what a level ``teaches`` and ``says``.
+    """A level with the other contents of its file; only our readable files have ``teaches`` and ``says``.
 
-    ``form``: the format it was found in; ``record`` (from 0) and ``line`` (from 1): where in ``file``.
+    ``form``: the format it was found in; ``record`` (from 0) and ``line`` (from 1): its place in ``file``.
     """
 
     name: str

@@ -113,7 +113,7 @@ def format_number(value: float) -> str:
 
 @lru_cache(maxsize=2**17)  # all numbers of a level at its limit of objects, which is written and then compared
 def format_exact(value: float) -> str:
-    """The shortest decimal that ``parse_number`` reads as exactly this value; the nearest one where there is none.
+    """The shortest decimal that ``parse_number`` reads as exactly this value; the nearest one if there is none.
 
     The digit sum never gives some float64: 1.13 and 1.15 are two of them, hardly any other coordinate is.
     """
@@ -137,7 +137,7 @@ def _shortest_text(value: float, digits: int) -> str:
     size = abs(value)
     unit = math.ulp(size)
     first = Decimal(size).adjusted() + 1
-    # What is worth less than half a unit of the sum, which may lie just below a power of two, changes nothing.
+    # Less than half a unit of the sum, which may lie just below a power of two, changes nothing.
     last = max(first - digits, Decimal(unit).adjusted() - 1)
     power, sums = _first_sums(size, first)
     while size not in sums and power > last:
@@ -149,7 +149,7 @@ def _shortest_text(value: float, digits: int) -> str:
 def _first_sums(size: float, first: int) -> tuple[int, dict[float, str]]:
     """Sums and their digits down to a power of ten, which is given too: of all texts that may read as ``size``.
 
-    Where a unit of the sum is far below the 13th digit, these can only be the nearest 13 and those one less.
+    If a unit of the sum is far below the 13th digit, these can only be the nearest 13 and those one less.
     """
     if not sys.float_info.min <= size < 1e308:
         return min(first, sys.float_info.max_10_exp) + 1, {0.0: ""}

@@ -28,10 +28,10 @@ MOST_LEGACY_TICKS = 20_000_000
 
 @dataclass(frozen=True)
 class Recording:
-    """A replay with the level that it is played on, and where it was found.
+    """A replay with the level that it is played on, and its place in a file.
 
-    ``replay``: what its text says; demos of N and other tools' inputs are replays without claims. ``level``: the one
-    inside, beside it, or given. ``record`` (from 0) and ``line`` (from 1): where in ``file``, '' for one from no file.
+    ``replay``: its text's content; demos of N and other tools' inputs are replays without claims. ``level``: the one
+    inside, beside it, or given. ``record`` (from 0) and ``line`` (from 1): in ``file``, '' for one from no file.
     ``episode``: of a run in an episode, that one's key; ``lifetime``: ticks at its start.
     """
 
@@ -62,9 +62,9 @@ class Recording:
 
     @property
     def player(self) -> str:
-        """Who made the run, "" where that is unknown; the name in a record of N is its level's maker's.
+        """The player, "" if unknown; the name in a record of N is its level's author.
 
-        One that says how its run was made was written by this program, which puts the player's name there.
+        A replay that says how its run was made was written by this program, which puts the player's name there.
         """
         return self.author if not self.of_n or self.replay.made.assisted is not None else ""
 
@@ -77,27 +77,27 @@ class Recording:
 
     @property
     def level_author(self) -> str:
-        """Who made the level, "" where that is unknown."""
+        """The level's author, "" if unknown."""
         return self.replay.level_author or ("" if self.player else self.author)
 
     @property
     def place(self) -> str:
-        """The name of its file, and which record of it that is where it holds others before."""
+        """The name of its file, and its record if the file holds several."""
         return Path(self.file).name.removesuffix(REPLAY_SUFFIX) + f" {self.record}" * (self.record > 0)
 
     @property
     def whose(self) -> str:
-        """Its name in a list of runs: its player, or where that is unknown its file."""
+        """Its name in a list of runs: its player, or if unknown its file."""
         return self.player or self.place or self.name
 
     @property
     def credit(self) -> str:
-        """Who made the run, and how, as ``Replay.credit``; in a record of N stands its level's maker."""
+        """The player, and how the run was made, as ``Replay.credit``; for a record of N the level's author."""
         return replace(self.replay, author=self.player).credit
 
     @property
     def title(self) -> str:
-        """What is written above its picture: also who made it, or its file, where it comes from one."""
+        """The title above its picture, with the player, or the file if it comes from one."""
         credit = replace(self.replay, author=self.whose).credit if self.file else ""
         return " - ".join(dict.fromkeys(filter(None, (self.replay.name or self.place, credit)))) or "Replay"
 
@@ -108,7 +108,7 @@ class Recording:
 
     @property
     def ticks(self) -> int:
-        """How many ticks are run at most; N + 1 of a demo of length N."""
+        """The greatest number of ticks to run; N + 1 of a demo of length N."""
         return self.replay.ticks
 
     @cached_property

@@ -9,7 +9,7 @@ from random import Random
 
 import numpy as np
 
-from ninja_game.formats.ascii.object_lines import WEAPONS
+from ninja_game.formats.ascii.legend import WEAPONS
 from ninja_game.formats.ascii.places import Cell, Point, middle_of
 from ninja_game.generator.gold import along, lay_about
 from ninja_game.generator.scene import MIDDLE, Scene, mirrored, object_of, places

@@ -16,7 +16,7 @@ from ninja_game.batch.batch import Indices
 from ninja_game.learn.observations.part import PartContext, clamp
 from ninja_game.search.heuristics import FARTHEST, POINTS, Heuristics, open_bits, point_at
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.declare import fast, kernel
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
 
 SPARE_FIELDS = 1024  # fields that are kept although no world is in their state; 53 KB each, once made
@@ -98,7 +98,7 @@ def point_within(x: float, y: float) -> int:
     return point_at(clamp(x, 0.0, WORLD_WIDTH), clamp(y, 0.0, WORLD_HEIGHT))
 
 
-@entry_point
+@kernel
 def measure_distance(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int,
     bounds: Any, switches: Any, states: Any, stale: Any, fields: Any, rows: Any, ticks: Any,

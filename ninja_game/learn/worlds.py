@@ -36,7 +36,7 @@ from ninja_game.sim.digest import world_digest
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, MINE_EXPLODED
 from ninja_game.sim.inputs import with_press_bit
 from ninja_game.sim.level import Body, is_box
-from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.declare import kernel
 from ninja_game.sim.memory.schema import MAX_EVENTS, World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
@@ -52,7 +52,7 @@ CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 """Events after which objects that stay where they are look another way."""
 
 
-@entry_point
+@kernel
 def advance_worlds(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, keys: Any,
     frame_skip: int, time_limit: int, repeat: int, weights: Any,
@@ -312,8 +312,8 @@ class EnvWorlds:
         return ticks
 
     def _write(self, indices: Indices, first: int, last: int) -> int:
-        for kernel, arguments in self._writers:
-            kernel(*self._places, indices, first, last, *arguments)
+        for write, arguments in self._writers:
+            write(*self._places, indices, first, last, *arguments)
         return 0
 
     def _observe(self, indices: Indices) -> None:

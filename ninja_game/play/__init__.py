@@ -1,1 +1,1 @@
-"""The front end: a window in which the world is seen, heard and played. Nothing here changes a world but its inputs."""
+"""The front end: a window that shows the world, plays its sounds and reads the player's inputs."""

@@ -39,17 +39,17 @@ CALM = Mood()
 """The mood of all menus, whatever level was played before."""
 
 UNSEEN = {"dummy", "offscreen"}
-"""Drivers of SDL at which nobody looks on: no wipe, and no waiting for the next picture."""
+"""SDL drivers without a visible window: no wipe, and no waiting for the next picture."""
 
 FALLBACK_RATE = 60
-"""Pictures per second where the display does not say its rate, or is none."""
+"""Pictures per second where the display does not say its rate."""
 
-NOTICE = 12.5  # letters of a notice
+NOTICE = 12.5  # size of the letters of a notice
 IN_BORDER = 10.0  # the same in the border below a level
-NOTICE_WIDE = 764.0  # its longest line, px
-NOTICE_LINES = 5  # that are shown at most
+NOTICE_WIDE = 764.0  # longest line of a notice, px
+NOTICE_LINES = 5  # most lines of a notice
 NOTICE_MS = 4000
-WARNING_MS = 12_000  # of what went wrong when the game started
+WARNING_MS = 12_000  # for which a warning about the start of the game is shown
 
 
 TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]
@@ -59,10 +59,10 @@ class App:
     """The window with its stack of screens.
 
     ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
-    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``:
-    opens a run in the TAS editor, with others beside it, at a tick; None where there is none, as in a page.
-    ``mood``: the present look. ``menu_theme``: that of menus over a level.
-    ``size``: px of the window; ``window``: one that is open already. Raises NinjaGameError where there is no display.
+    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``: opens a
+    run in the TAS editor, at a tick, with other runs to compare; None where there is no TAS editor, as in a page.
+    ``mood``: the present mood. ``menu_theme``: the theme of menus over a level. ``size``: px of the window; ``window``:
+    a window that is open already. Raises NinjaGameError where there is no display.
     """
 
     def __init__(
@@ -109,7 +109,7 @@ class App:
         return TICK_MS - min(FASTEST_TICK_GAIN, max(0, self.overclock))
 
     def change_settings(self, **values: object) -> None:
-        """Take, save and show other settings; a notice says where they could not be saved."""
+        """Use and save other settings, and draw again; a notice says why if they could not be saved."""
         before = self.settings
         message = self.player.change_settings(before.changed(**values))
         after = self.settings
@@ -123,24 +123,24 @@ class App:
             self.notify(message)
 
     def _hand_on(self, settings: Settings) -> None:
-        """Let the controls and the sound follow the settings."""
+        """Apply the settings to the controls and the sound."""
         self.controls.bind(settings.keys, settings.pad)
         self.controls.pads.dead_zone = settings.dead_zone
         self.controls.tap_to_run = settings.tap_to_run
         self.audio_output.set_volumes(*settings.volumes)
 
     def know_author(self, before: str, author: str) -> None:
-        """An author's name was typed: it is the player's, and begins what is made next, where none is set yet."""
+        """Remember an author's name that was typed as the player's, if none is set yet; later forms begin with it."""
         if author != before and not self.settings.name:
             self.change_settings(name=author.strip()[:40])
 
     def notify(self, text: str, *, ms: int = NOTICE_MS, here: bool = False) -> None:
-        """Show a text at the foot for a while, whatever screen is on top; ``here``: only as long as this is."""
+        """Show a text at the foot for a while; ``here``: only while the present screen is on top."""
         self.notice, self._notice_ms, self._notice_on = text, ms, self.top if here else None
         self.stack.redraw_all()
 
     def report_problems(self) -> None:
-        """Show what is wrong with the player's files and has not been shown yet."""
+        """Show the problems with the player's files that have not been shown yet."""
         text = self.player.new_messages()
         if text:
             self.notify(text, ms=WARNING_MS)
@@ -155,7 +155,7 @@ class App:
         return palette_named(self.settings.palette, *mood)
 
     def follow_mood(self, mood: Mood) -> None:
-        """Take the palette of this mood."""
+        """Use the palette of this mood."""
         self.mood = mood
         if self.palette_in(mood) is not self.theme.palette:
             self._lay_out()
@@ -175,13 +175,13 @@ class App:
         self.stack.replace(screen)
 
     def wipe_from(self, screen: BaseScreen) -> None:
-        """Let what is seen now give way to another screen, or another level, within a moment."""
+        """Begin a wipe from the present picture to another screen or level."""
         wipes = self.wipes and screen.wipes and not screen.see_through and not self.settings.reduced_motion
         if wipes and self.stack:
             self.wipe.begin(self.surface)
 
     def pop(self) -> None:
-        """Go back to the screen below; from the lowest one, end."""
+        """Go back to the screen below; the lowest screen ends the program."""
         self.wipe_from(self.top)
         self.stack.pop()
         if not self.stack:
@@ -196,8 +196,8 @@ class App:
     def run(self, frames: int | None = None) -> None:
         """Run until a screen quits, or for ``frames`` pictures. Then, or on a signal, every screen is left.
 
-        Without a real display (SDL's dummy driver) a bounded run takes its time from the count of pictures, 60 a
-        second, and does not wait: it always shows the same.
+        Without a real display (SDL's dummy driver) a bounded run counts pictures as time, 60 a second, and does not
+        wait: its pictures are always the same.
         """
         clock = pygame.time.Clock()
         simulated = frames is not None and pygame.display.get_driver() in UNSEEN
@@ -228,7 +228,7 @@ class App:
         self.frame_ms = 1000 * (time.perf_counter() - started)
 
     def advance(self, real_ms: int) -> None:
-        """A turn without its picture."""
+        """One turn of the loop without drawing."""
         for event in pygame.event.get():
             self._handle(event)
             if not (self.running and self.stack):
@@ -249,8 +249,8 @@ class App:
     def _handle(self, raw: pygame.Event) -> None:
         """Handle events of the window; a screen that waits for a key press gets it before the app's own keys.
 
-        SDL sends each notch of the wheel as a press of a fourth or fifth button too; those, and buttons at the side of
-        a mouse, mean nothing.
+        Ignored: the fourth and fifth button, which SDL sends for each notch of the wheel, and the buttons at a mouse's
+        side.
         """
         if raw.type in {pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP} and raw.button > pygame.BUTTON_RIGHT:
             return
@@ -297,7 +297,7 @@ class App:
         middle, lines = (left + right) / 2, wrapped(theme, self.notice, most, NOTICE)[:NOTICE_LINES]
         size, margin, high = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
         if self.top.plays and len(lines) == 1:
-            # In the border: no text covers a level that is being played.
+            # In the border: no text covers a level during play.
             size, margin, high = IN_BORDER, 1.0, 20.0
         foot = theme.canvas.logical((0, theme.canvas.stage.bottom))[1] - self.top.foot_high
         y = foot - high * len(lines) - 2 * margin
@@ -309,9 +309,9 @@ class App:
         return rect
 
     def write_export(self, title: str, suffix: str, content: str | Callable[[Path], object]) -> Path | None:
-        """Write a file among the player's exports, and say where; its path, None where that failed.
+        """Write a file into the player's exports, and show where; its path, or None if that failed.
 
-        ``content``: text, or what writes the path.
+        ``content``: text, or a function that writes to the path.
         """
         try:
             path = export_path(self.player.folder, title, suffix)
@@ -326,7 +326,7 @@ class App:
         return path
 
     def keep_screenshot(self) -> None:
-        """Put the picture, without a notice in it, among the player's exports, and say where."""
+        """Write the picture, without a notice, into the player's exports, and show where."""
         if self.notice:
             self.notify("")
             self.draw()
@@ -342,10 +342,10 @@ def build_app(
     tas_editor: TasEditorOpener | None = None,
     window: Window | None = None,
 ) -> App:
-    """The app as the player's settings have it; a notice tells what is wrong with the player's files.
+    """The app with the player's settings; a notice shows what is wrong with the player's files.
 
-    ``folder``: the player's, instead of the usual one. ``controls``: what reads keys and pads, bound as the settings
-    say. ``audio_output``: instead of the sound device. ``tas_editor``, ``window``: as of ``App``.
+    ``folder``: the player's folder, by default the usual one. ``controls``: reads keys and pads. ``audio_output``:
+    instead of the sound device. ``tas_editor``, ``window``: as of ``App``.
 
     Raises NinjaGameError where there is no display.
     """

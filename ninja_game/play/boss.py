@@ -18,7 +18,7 @@ _ITEMS = ("Paper", "Toner", "Postage", "Travel", "Training", "Licences", "Furnit
 
 
 def draw_spreadsheet(surface: pygame.Surface, theme: Theme) -> None:
-    """Draw all of it; it never changes."""
+    """Draw the whole spreadsheet; it never changes."""
     surface.fill(_PAPER)
     canvas, text = theme.canvas, theme.text
     rng = Random(2)  # noqa: S311 - figures that mean nothing

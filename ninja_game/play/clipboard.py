@@ -1,4 +1,4 @@
-"""The clipboard: texts and links into it, or into a file among the exports."""
+"""Texts and links into the clipboard, or into a file of the exports where there is none."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ninja_game.play.app import App
 
 
 def copy_text(app: App, text: str, *, title: str, suffix: str, notice: str = "") -> None:
-    """Put a text into the clipboard, and say so (``notice``); else into a file called ``title`` + ``suffix``."""
+    """Put a text into the clipboard and show ``notice``; else write it into a file called ``title`` + ``suffix``."""
     try:
         pygame.scrap.put_text(text)
     except pygame.error:
@@ -36,7 +36,7 @@ def pasted_text() -> str:
 
 
 def copy_link(app: App, make: Callable[[], str], *, title: str) -> None:
-    """Put the link that ``make`` gives behind the address of the player's page, and into the clipboard."""
+    """Put a link into the clipboard: the address of the player's page with the text that ``make`` gives."""
     try:
         link = make()
     except (NinjaGameError, OSError) as error:

@@ -37,17 +37,16 @@ def main(
     tas_editor: TasEditorOpener | None = None,
     window: Window | None = None,
 ) -> int:
-    """Play: the program `ninja-game play`. Gives the exit code.
+    """Run the program `ninja-game play`; its exit code.
 
     ``level_path``: a pack, whose episodes are offered, or a file of levels, played from number ``record`` on, or a link
-    to one of them or to replays; without it the main menu.
-    ``replay_path``: watch the recordings of a file or link; ``level_path`` is then the level of those without one.
-    ``frames``: end after this many pictures. ``screenshot``: write the last picture to this PNG file.
-    ``tas_editor``, ``window``: as of ``App``.
+    to a level or to replays; by default the main menu. ``replay_path``: watch the recordings of a file or link;
+    ``level_path`` is then the level of those without one. ``frames``: end after this many pictures. ``screenshot``:
+    write the last picture to this PNG file. ``tas_editor``, ``window``: as of ``App``.
 
     Raises NinjaGameError for a file that cannot be read or written, and where there is no display.
     """
-    # Read before a window opens: what is wrong with a file is said in the terminal.
+    # Read before a window opens: errors in a file appear in the terminal.
     first = first_screen(level_path, replay_path, body=body, practice=practice, record=record)
     return run_app(first, size=size, frames=frames, screenshot=screenshot, tas_editor=tas_editor, window=window)
 
@@ -69,9 +68,9 @@ def run_app(
         app = build_app(size=size, tas_editor=tas_editor, window=window)
         try:
             app.push(first(app))
-            # A later search does not have to wait for the compiler then.
+            # So that a later search does not wait for the compiler.
             run_in_background(warm_up, lambda _: None)
-            # Freeze what is loaded: collecting garbage in it took 9 ms in the middle of play.
+            # Freeze loaded objects: collecting garbage among them took 9 ms during play.
             gc.freeze()
             app.run(frames)
             if screenshot:
@@ -94,7 +93,7 @@ def _save(app: App, path: Path) -> None:
 def first_screen(
     level_path: str | None, replay_path: str | None, *, body: Body, practice: bool, record: int = 0
 ) -> Callable[[App], Screen]:
-    """The function that makes the first screen; the main menu lies under a screen that a link opens.
+    """The function that makes the first screen; under a screen that a link opens lies the main menu.
 
     Files and links are read here, before a window opens; screens are imported when needed.
 
@@ -138,9 +137,9 @@ def _replays(path: str, level: Level | None) -> Callable[[App], Screen]:
 
 
 def watch_screen(texts: Sequence[str]) -> Callable[[App], Screen]:
-    """What makes the viewer, over the main menu, of texts of replays: the first is watched, others run beside it.
+    """A function that makes the viewer, over the main menu: the first replay is watched, others run as ghosts.
 
-    Raises NinjaGameError for what cannot be read.
+    Raises NinjaGameError for a replay that cannot be read.
     """
     return _watch(recordings_of(texts), over_menu=True)
 

@@ -1,4 +1,4 @@
-"""Small rooms as texts: of the help's pages and of the lab's figures."""
+"""Small rooms as texts, for the help's pages and the lab's figures."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ninja_game.sim.level import COLUMNS, ROWS, Level
 
 
 def room_level(room: Sequence[str], objects: Sequence[str]) -> Level:
-    """A level with the rows of a room in its upper left corner and solid all around."""
+    """A level with a room's rows in its upper left corner; all the rest is solid."""
     rows = [row.ljust(COLUMNS, "#") for row in room]
     rows += ["#" * COLUMNS] * (ROWS - len(rows))
     picture = "\n".join(f"|{row}|" for row in rows)

@@ -34,38 +34,38 @@ class BaseScreen:
 
     @property
     def theme(self) -> Theme:
-        """The look of what it draws, and where on the window that is."""
+        """The colours and letters of this screen, and its area in the window."""
         theme: Theme = self.app.theme
         return theme
 
     @property
     def notice_room(self) -> tuple[float, float]:
-        """From where to where notices may reach, logical px."""
+        """The top and the bottom of the area where notices may lie, logical px."""
         canvas = self.theme.canvas
         return canvas.logical((0, 0))[0], canvas.logical(canvas.window)[0]
 
     @property
     def mood(self) -> Mood:
-        """Its look; by default that of the screen before."""
+        """The mood of this screen; by default that of the screen below."""
         mood: Mood = self.app.mood
         return mood
 
     @property
     def music(self) -> str:
-        """The music while it is on top (ui/audio/music.py); "": whatever plays already."""
+        """The name of the music while this screen is on top (ui/audio/music.py); "": the music that plays already."""
         return ""
 
     def enter(self) -> None:
         """Called when this becomes the top screen: pushed, or uncovered again."""
 
     def look_again(self) -> None:
-        """Called when levels or packs on the disk have changed behind it."""
+        """Called when levels or packs on the disk have changed while another screen was on top."""
 
     def leave(self) -> None:
-        """Called when this is no longer the top screen: covered or popped. Loops of sound end here."""
+        """Called when this is no longer the top screen: covered or popped. Looped sounds end here."""
 
     def capture(self, event: InputEvent) -> bool:
-        """Take an event before the keys that the app has on every screen; whether it was taken."""
+        """Handle an event before the keys that the app has on every screen; True if it was used."""
         return False
 
     def handle(self, event: InputEvent) -> None:
@@ -75,12 +75,12 @@ class BaseScreen:
         """Let ``real_ms`` of real time pass, whole ms since the last picture."""
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """Draw; the px rectangles that changed, or None if everything may have."""
+        """Draw; the px rectangles that changed, or None if all of the window may have changed."""
         raise NotImplementedError
 
 
 class Aside:
-    """Work that goes on whatever screen is on top."""
+    """Work that continues whatever screen is on top."""
 
     def update(self) -> None:
         """Called in each turn of the loop."""
@@ -106,7 +106,7 @@ class ScreenStack:
 
     @property
     def below(self) -> BaseScreen | None:
-        """The screen to which the top one goes back, if any."""
+        """The screen below the top one, if any."""
         return self._screens[-2] if len(self) > 1 else None
 
     def push(self, screen: BaseScreen) -> None:
@@ -139,7 +139,7 @@ class ScreenStack:
             screen.redraw = True
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """Draw the screens that are seen; the px rectangles that changed, or None if everything may have."""
+        """Draw the visible screens; the px rectangles that changed, or None if all of the window may have changed."""
         visible = self._from_last("see_through")
         if len(visible) > 1 and any(screen.redraw or screen.below_runs for screen in visible[1:]):
             visible[0].redraw = True
@@ -155,7 +155,7 @@ class ScreenStack:
         return changed
 
     def running(self) -> list[BaseScreen]:
-        """The screens for which time passes, lowest first."""
+        """The screens that are updated, lowest first."""
         return self._from_last("below_runs")
 
     def _from_last(self, attribute: str) -> list[BaseScreen]:

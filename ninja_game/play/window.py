@@ -1,4 +1,4 @@
-"""The window: opened, full screen and back, with the game's icon and name."""
+"""The window: opening, full screen and back, the game's icon and name."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from ninja_game.ui.theme import PALETTES, Theme, palette_named
 
 TITLE = "ninja-game"
 LOGO = "NINJA"
-"""What stands over the main menu, and on the first picture."""
+"""The name over the main menu, and on the first picture."""
 
 _INVISIBLE = {"dummy", "offscreen", "evdev"}
 _ICON = 64
 WIDEST = 2200, 1300
-"""A window that nobody has made larger, px."""
+"""Largest size of a window that no player has resized, px."""
 
 
 class Window:
-    """The one window. ``size``: px; by default what the settings say, as ``fitting_size`` has it with ``wide``.
+    """The window. ``size``: px; by default that of the settings, or ``fitting_size`` with ``wide``.
 
     Raises NinjaGameError where there is no display, unless SDL_VIDEODRIVER asks for a driver without one.
     """
@@ -41,7 +41,7 @@ class Window:
             raise NinjaGameError("there is no display; SDL_VIDEODRIVER=dummy plays without one")
         _prefer_shared_memory()
         if not settings.frame_limit:
-            # Where SDL shows pictures through a renderer, one is shown whole, as the display asks for it.
+            # Where SDL draws through a renderer, whole pictures are shown at the display's request.
             os.environ.setdefault("SDL_RENDER_VSYNC", "1")
         pygame.display.set_icon(icon(_ICON))
         wished = settings.window_width, settings.window_height
@@ -57,7 +57,7 @@ class Window:
 
     @property
     def was_resized(self) -> bool:
-        """Whether the player has given the window, of which nothing else said the size, another one."""
+        """Whether the player has resized the window; not if a size was given."""
         return not self.fullscreen and self._own_size not in (None, pygame.display.get_window_size())
 
     @property
@@ -67,18 +67,18 @@ class Window:
         return surface
 
     def set_fullscreen(self, *, wanted: bool) -> None:
-        """Fill the display, or go back to the size and place from before."""
+        """Fill the display, or go back to the earlier size and place."""
         if wanted == self.fullscreen:
             return
         with warnings.catch_warnings():
-            # The display module's own toggle does not find its way back to the size.
+            # The display module's own toggle does not restore the size.
             warnings.simplefilter("ignore", DeprecationWarning)
             window = pygame.Window.from_display_module()
         self.fullscreen = wanted
         if wanted:
             self._size, self._place = window.size, window.position
         if not self._managed:
-            # SDL asks the window manager for a full screen, and believes that it has it.
+            # SDL asks the window manager for full screen, and assumes that it gets it.
             window.size = pygame.display.get_desktop_sizes()[0] if wanted else self._size
             window.position = (0, 0) if wanted or self._place is None else self._place
         elif wanted:
@@ -92,7 +92,7 @@ class Window:
 
 @cache
 def open_at_once(size: tuple[int, int] | None, *, wide: bool = False) -> Window:
-    """The window with its first picture: the game's name, while the rest of the program is loaded; opened once.
+    """The window with its first picture: the game's name, while the rest of the program loads; opened once.
 
     ``size``, ``wide``: as of ``Window``. Raises NinjaGameError where there is no display.
     """
@@ -125,9 +125,9 @@ def png_of(surface: pygame.Surface) -> bytes:
 
 
 def prepare_sdl() -> None:
-    """What SDL reads from the environment when it starts."""
+    """Set the variables that SDL reads when it starts."""
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
-    # The kind of window, by which desktops find its icon and group it.
+    # The window class, by which desktops find its icon and group windows.
     os.environ["SDL_VIDEO_X11_WMCLASS"] = TITLE  # pygame has put the name of the script there
     os.environ.setdefault("SDL_VIDEO_WAYLAND_WMCLASS", TITLE)
 
@@ -135,15 +135,15 @@ def prepare_sdl() -> None:
 def _prefer_shared_memory() -> None:
     """Under X11 show pictures through shared memory instead of OpenGL, unless the environment says otherwise.
 
-    Only the px that changed are sent then; through OpenGL the whole window goes to the card in every picture, and
-    without a card that costs 20 ms (measured with benchmarks/frame_cost.py --display).
+    Then only the changed px are sent; OpenGL sends the whole window in every picture, which costs 20 ms without a
+    graphics card (measured with benchmarks/frame_cost.py --display).
     """
     if pygame.display.get_driver() == "x11":
         os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
 
 
 def _has_window_manager() -> bool:
-    """Whether a window manager has put its name on the X display's root window, as all do that know full screen."""
+    """Whether a window manager has put its name on the X display's root window, as all with full screen do."""
     import ctypes
 
     try:
@@ -168,10 +168,10 @@ def _has_window_manager() -> bool:
 
 
 def fitting_size(wished: tuple[int, int] = (0, 0), *, wide: bool = False) -> tuple[int, int]:
-    """A wished size, as far as the desktop has room; else the stage times the most halves that leave some.
+    """A wished size, limited to the desktop; else the stage times the most halves that leave some room.
 
-    On 1920 x 1080 that is 1188 x 900, in which the editor's palette can be used. ``wide``: nearly all of the desktop,
-    1880 x 980 there, for the roll of the TAS editor beside its level.
+    On 1920 x 1080 that is 1188 x 900, enough for the editor's palette. ``wide``: nearly all of the desktop, 1880 x 980
+    there, for the TAS editor's roll beside its level.
     """
     sizes = pygame.display.get_desktop_sizes() or [(WIDTH, HEIGHT)]
     width, height = sizes[0]
@@ -184,7 +184,7 @@ def fitting_size(wished: tuple[int, int] = (0, 0), *, wide: bool = False) -> tup
 
 
 def icon(size: int, *, corner: float = 1 / 6) -> pygame.Surface:
-    """The running ninja, as the game draws it. ``size``: px; ``corner``: radius of the corners, as a share of it."""
+    """The game's icon, the running ninja. ``size``: px; ``corner``: radius of the corners, as a share of it."""
     from ninja_game.view.ninja.figure import ninja_sprite, run_pose
 
     palette = PALETTES["classic"]
@@ -202,7 +202,7 @@ EDGE = 5
 
 
 class Wipe:
-    """A change that is going on, or none. It only covers: the new screen already takes keys and lets time pass."""
+    """A transition, or none. It only covers: the new screen already takes keys and lets time pass."""
 
     def __init__(self) -> None:
         self._before: pygame.Surface | None = None

@@ -1,4 +1,4 @@
-"""What the level editor and the TAS editor share in the window: a document, its commands, and parts around it."""
+"""The base of the level editor and the TAS editor in the window: a document, its commands, and parts around it."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from ninja_game.ui.theme import Area, Theme, inside
 from ninja_game.ui.widgets import Widget
 
 FIRST_REPEAT_MS = 300
-"""A command whose key is held is repeated after so long."""
+"""ms before the command of a held key repeats."""
 
 
 class Command(NamedTuple):
     """``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them; ``pad``: an input of a standard gamepad.
 
-    ``repeats_ms``: how often it is repeated while it is held; 0: not at all.
+    ``repeats_ms``: interval of repeats while it is held; 0: none.
     """
 
     name: str
@@ -40,7 +40,7 @@ class Command(NamedTuple):
 
 
 def bundled_commands(file: str) -> list[Command]:
-    """The commands of an editor from a bundled file, whose head says what its columns are."""
+    """The commands of an editor from a bundled file, whose head explains its columns."""
     return [_command(*cells) for cells in asset_rows(f"commands/{file}")]
 
 
@@ -51,12 +51,12 @@ def _command(name: str, label: str = "", keys: str = "", pad: str = "", repeats_
 
 
 def key_text(command: Command) -> str:
-    """What to press for a command, for people; '' for nothing."""
+    """The key of a command, for people; '' for none."""
     return "+".join(map(key_label_of, command.keys[0].split("+"))) if command.keys else ""
 
 
 class CommandTable:
-    """All commands of an editor by what means them. The help page shows ``commands``.
+    """All commands of an editor by their keys. The help page shows ``commands``.
 
     ``pads``: commands by buttons of a pad, besides those in the commands.
     """
@@ -68,7 +68,7 @@ class CommandTable:
         self._by_pad = {command.pad: command.name for command in commands if command.pad} | dict(pads or {})
 
     def meaning(self, event: InputEvent) -> str:
-        """The name of the command that a key or a button of a pad means; '' for none."""
+        """The name of the command of a key or a button of a pad; '' for none."""
         if event.source is None:
             return ""
         if event.source[0] == "pad":
@@ -81,7 +81,7 @@ class CommandTable:
 
 
 class CommandMenu(Menu):
-    """A menu of a document; the keys of the commands ``names`` do the same as without it."""
+    """A menu of a document; the keys of the commands ``names`` work in it too."""
 
     def __init__(
         self,
@@ -105,7 +105,7 @@ class CommandMenu(Menu):
 
 
 class HeldCommand(HeldKey[str]):
-    """The command whose key, or button of one of these pads, is held, if it is one that repeats."""
+    """The command whose key, or button of one of these pads, is held, if it repeats."""
 
     def __init__(self, table: CommandTable, pads: Gamepads) -> None:
         super().__init__()
@@ -127,13 +127,13 @@ class HeldCommand(HeldKey[str]):
 
 
 Commands = Mapping[str, Callable[[], object]]
-"""What is done, by the names of the table of commands."""
+"""Actions by the names of the table of commands."""
 
 
 class Pane:
-    """``area``: where it is, logical px. ``widgets``: in it; what they show is part of ``render_key``.
+    """``area``: logical px. ``widgets``: in it; what they show is part of ``render_key``.
 
-    ``wants``: the widget that is to get the focus as soon as the part is shown.
+    ``wants``: the widget that gets the focus as soon as the part is shown.
     """
 
     area: Area = (0, 0, 0, 0)
@@ -146,34 +146,34 @@ class Pane:
         raise NotImplementedError
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """Draw all of it but the widgets; the clip is its area."""
+        """Draw all but the widgets; the clip is its area."""
         raise NotImplementedError
 
     def commands(self) -> Commands:
         return {}
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """A mouse event in its area, or one that ends or continues with a drag that began there; whether it was used.
+        """A mouse event in its area, or of a drag that began there; whether it was used.
 
         ``x``, ``y``: logical px of the window.
         """
         return False
 
     def mouse_left(self) -> None:
-        """The mouse is elsewhere now."""
+        """The mouse has left the area."""
 
     def update(self, real_ms: int) -> None:
         """Let real time pass."""
 
     def place(self, area: Area) -> None:
-        """Be there from now on; all is drawn again."""
+        """Set the area; all is drawn again."""
         self.area = area
 
     def contains(self, x: float, y: float) -> bool:
         return inside(self.area, x, y)
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
-        """Draw it if anything has changed; the px that did."""
+        """Draw it if anything has changed; the px that changed."""
         key = self.render_key()
         if not whole and key == self._drawn:
             return []
@@ -191,7 +191,7 @@ class WorkspaceScreen(MenuScreen):
     """Parts of a window around a document. A key is a command, unless a text field has the focus.
 
     ``table``: the commands, which ``run`` does. ``parts``: those that are shown; each is drawn when its ``render_key``
-    changes, or what its widgets show.
+    or its widgets change.
     """
 
     table: ClassVar[CommandTable]
@@ -219,7 +219,7 @@ class WorkspaceScreen(MenuScreen):
         return [widget for part in self.parts for widget in part.widgets]
 
     def follow_parts(self) -> None:
-        """Have the widgets that the parts have now; one that a part wants gets the focus."""
+        """Take over the parts' present widgets; one that a part wants gets the focus."""
         self.widgets = list(self.build())
         wanted = next((part.wants for part in self.parts if part.wants is not None), None)
         for part in self.parts:
@@ -239,7 +239,7 @@ class WorkspaceScreen(MenuScreen):
     def leave(self) -> None:
         super().leave()
         self.held.end()
-        self._grabbed = None  # its release goes to what covers this
+        self._grabbed = None  # the covering screen gets its release
 
     def chime(self, name: str) -> None:
         """Editing is silent."""
@@ -248,11 +248,11 @@ class WorkspaceScreen(MenuScreen):
         """Escape is a command."""
 
     def widgets_changed(self) -> None:
-        """The parts with widgets are drawn again, not the whole window."""
+        """Draw the parts with widgets again, not the whole window."""
         self._widgets_changed = True
 
     def await_text(self) -> None:
-        """Only while a field has the focus: the letter of a command's key is not typed into what the key opens."""
+        """Only while a field has the focus: else a command's letter would be typed into what the command opens."""
         if self.app.top is self:
             typing = isinstance(self.focus, TextEntry)
             (pygame.key.start_text_input if typing else pygame.key.stop_text_input)()
@@ -261,7 +261,7 @@ class WorkspaceScreen(MenuScreen):
         return self.table.meaning(event)
 
     def capture(self, event: InputEvent) -> bool:
-        """Keys go to the widget with the focus, typed text to a field, until Escape."""
+        """Keys go to the focused widget, typed text to a field, until Escape."""
         self.held.follow(event.raw)
         if self.focus is not None and event.source == ("keys", "escape"):
             self.focus = None
@@ -286,7 +286,7 @@ class WorkspaceScreen(MenuScreen):
         self.await_text()
 
     def edit_by_key(self, event: InputEvent) -> bool:
-        """Take a key that edits without a command; whether it did."""
+        """Handle a key that edits without a command; whether it did."""
         return False
 
     def _give_mouse(self, raw: pygame.Event) -> None:
@@ -308,7 +308,7 @@ class WorkspaceScreen(MenuScreen):
         if part is None or not part.mouse(raw, x, y):
             focus = self.focus
             self._handle_mouse(raw)
-            # Neither the mouse over a widget nor a click on a button takes keys away from the document.
+            # The document keeps the keys while the mouse is over a widget or clicks a button.
             if raw.type == pygame.MOUSEBUTTONDOWN:
                 focus = self.focus if isinstance(self.focus, TextEntry) else None
             self.focus = focus
@@ -333,45 +333,45 @@ class WorkspaceScreen(MenuScreen):
 class Document(Protocol):
     @property
     def name(self) -> str:
-        """What to call it."""
+        """The document's name."""
 
     @property
     def is_saved(self) -> bool:
-        """Whether its file holds what is here."""
+        """Whether its file holds the present document."""
 
     def end(self) -> None:
-        """Whatever is half done is done now."""
+        """Finish a drawing or an edit that is going on."""
 
     def save(self, path: Path, *, replacing: bool = False) -> object:
         """Write it. Raises OccupiedError where that would replace another file, or one changed by others; OSError."""
 
     def close(self) -> None:
-        """Leave it; what is not saved is discarded."""
+        """Leave it; unsaved changes are discarded."""
 
 
 class DocumentCommands:
-    """Saving and leaving. Subclasses say where a document is saved, and ask for a name."""
+    """Saving and leaving. Subclasses give a document's path, and ask for a name."""
 
     def __init__(self, app: App, document: Document) -> None:
         self.app = app
         self.document = document
 
     def own_path(self) -> Path | None:
-        """Where the document is saved without a question; None: ask."""
+        """The path for saving without a question; None: ask."""
         raise NotImplementedError
 
     def save_as(self, then: Action = nothing) -> None:
         raise NotImplementedError
 
     def reload_rows(self, path: Path) -> list[MenuRow]:
-        """What else to offer where the document's file was changed by another program."""
+        """More choices for a document whose file another program has changed."""
         return []
 
     def saved_text(self, path: Path) -> str:
         raise NotImplementedError
 
     def save(self, then: Action = nothing) -> None:
-        """Write the document into its file, and do ``then``; ask for a name where it has none."""
+        """Write the document into its file, and call ``then``; ask for a name where it has none."""
         path = self.own_path()
         if path is None:
             self.save_as(then)
@@ -381,7 +381,7 @@ class DocumentCommands:
     def save_to(
         self, path: Path, then: Action = nothing, *, save: Callable[..., object] | None = None, replacing: bool = False
     ) -> None:
-        """Write the document, and do ``then``; ask before anything is replaced. ``save``: instead of the document's."""
+        """Write the document, and call ``then``; ask before a file is replaced. ``save``: instead of the document's."""
         try:
             (save or self.document.save)(path, replacing=replacing)
         except OccupiedError as error:
@@ -400,7 +400,7 @@ class DocumentCommands:
             then()
 
     def unless_unsaved(self, action: Action) -> None:
-        """Do something after which the present document is gone; ask first if it is not saved."""
+        """Do something that closes the present document; ask first if it is not saved."""
         self.document.end()
         if self.document.is_saved:
             action()
@@ -416,7 +416,7 @@ class DocumentCommands:
         self.app.pop()
 
     def ask_about_recovered(self, name: str, recover: Action, forget: Callable[[], bool], *, about: str) -> None:
-        """Ask what to do with a document that was being edited when the program died. ``about``: how it was left."""
+        """Ask what to do with a document that was open when the program crashed. ``about``: its state."""
         keep: MenuRow = "Keep for later", nothing, "It is offered again"
 
         def discard() -> None:

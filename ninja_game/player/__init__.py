@@ -1,1 +1,1 @@
-"""What a player does and owns: attempts, records, progress, settings."""
+"""A player's data: attempts, records, progress, settings."""

@@ -27,9 +27,9 @@ class Attempt:
     """One try at a level, from its start to the exit, to death, or to giving up.
 
     ``lifetime``: ticks left, which gold adds to. ``inputs``: the recording, one byte per tick. ``score``: ticks, taken
-    at the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assists``: what
-    helped, practice or its tools, so that it does not count as a record. ``death_refused``: the ninja was invincible
-    when it would have died, so that its keys alone no longer make this run.
+    at the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assists``: the
+    help used, practice or its tools, which makes it no record. ``death_refused``: only invincibility saved the ninja,
+    so that its keys alone no longer make this run.
     """
 
     def __init__(
@@ -72,11 +72,11 @@ class Attempt:
 
     @property
     def killer(self) -> str:
-        """What killed the ninja, one of ``deaths.KILLERS``: asked right after the tick of its death."""
+        """The ninja's killer, one of ``deaths.KILLERS``; to be read right after the tick of the death."""
         return SELF if self.self_inflicted else killer_of(self.simulation.world)
 
     def tick(self, held: int, *, invincible: bool = False) -> None:
-        """Run one tick with what is held: 1 left + 2 right + 4 jump. ``invincible``: a death in it is refused."""
+        """Run one tick with the held keys: 1 left + 2 right + 4 jump. ``invincible``: a death in it is refused."""
         world = self.simulation.world
         was_held = world.ninja.jump_held
         gold = world.gold
@@ -103,7 +103,7 @@ class Attempt:
             self.lifetime -= 1
 
     def check_time(self) -> None:
-        """Kill a ninja whose lifetime is over: asked once per picture, after its ticks."""
+        """Kill a ninja whose lifetime is over: called once per picture, after its ticks."""
         if self.lifetime <= 0 and not self.practice_mode and self.outcome == "running":
             self._kill(FALL, 0.0, 0.0)
 
@@ -128,19 +128,19 @@ class Attempt:
         self.assists.add("save-states")
 
     def after_rewind(self) -> None:
-        """Take note that the simulation was put back to an earlier tick of this recording."""
+        """Update after the simulation was set back to an earlier tick of this recording."""
         tick = self.simulation.tick
         ended = self.outcome != "running"
         del self.inputs[tick:]
         self.lifetime = self.start_lifetime + GOLD_BONUS * self.gold
         if not ended:
-            # After a self-chosen death the ticks went on without input.
+            # After a self-chosen death the ticks continued without input.
             self.inputs.extend(bytes(tick - len(self.inputs)))
             self.ended_tick, self.score, self.self_inflicted = -1, 0, False
         self.assists.add("rewind")
 
     def replay(self, name: str = "", author: str = "") -> Replay:
-        """The recording in our form: run again from its inputs, so that it holds what really comes of them."""
+        """The recording as our replay: run again from its inputs, so that its claims are true."""
         ticks = max(1, len(self.inputs) + (self.outcome != "running"))
         level, body, inputs = self.simulation.level, self.simulation.body, bytes(self.inputs)
         replay = record_replay(level, inputs, ticks=ticks, body=body, name=name, author=author, budget=NO_LIMIT)
@@ -151,10 +151,10 @@ _MOST_TRIES = 20  # more than any place has killers: a ninja that is still crush
 
 
 def tick_without_death(simulation: Simulation, keys: int) -> bool:
-    """One tick of a run on the plain memory that goes on; whether a death was refused.
+    """One tick of a run on the plain memory that survives; whether a death was refused.
 
-    An object that kills stands still for the tick and is not met; a landing that kills is met at half the speed.
-    The rules of the world do not change: it is put back to the tick before, changed, and run again.
+    An object that kills is frozen for the tick and cannot be touched; a deadly landing is done at half the speed. The
+    rules of the world do not change: it is set back to the tick before, changed, and run again.
     """
     world, before = simulation.world, simulation.save()
     left_out: dict[int, int] = {}

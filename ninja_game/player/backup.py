@@ -1,8 +1,8 @@
 """All data of a player as one file, and back: a zip that the game in a window and the one in a page exchange.
 
-Importing merges: a best is replaced only by a better one, progress only moves forward, of two counts the larger stays,
-and no file of the player's is overwritten. So a backup may be imported twice. It is untrusted: all of it is checked
-first, and imported whole or not at all.
+Importing merges: only a better best replaces one, progress only moves forward, of two counts the larger stays, and no
+file of the player's is overwritten. So a backup may be imported twice. It is untrusted: all of it is checked first, and
+imported whole or not at all.
 """
 
 from __future__ import annotations
@@ -56,14 +56,15 @@ FOLDERS = {
     EXPORTS: (*SUFFIXES, ".gif", ".png", ".webm"),
     EDITING: (".json",),
 }
-"""What a backup holds of the player's folder besides the settings and the records: files with these suffixes. A system
-does something by itself with others, such as a ``desktop.ini``."""
+"""The files of the player's folder in a backup besides settings and records: only with these suffixes, since systems
+act on some others by themselves, such as a ``desktop.ini``.
+"""
 
 MOST_OF_LEVELS = 16 * 2**20  # bytes of all levels of the replays: each is read, and its replay run again
 MOST_OF_DRAFT = 2**20  # bytes of a level under edit
 MOST_OF_LEVEL = 2**20  # bytes of the level of a replay
 MOST_TICKS = 10_000_000  # of all replays, which are run again
-FEW_TICKS = 200_000  # so many are run before kernels would be ready
+FEW_TICKS = 200_000  # that many are run before kernels would be ready
 
 _SCHEMA = "SELECT type, name, tbl_name, sql FROM sqlite_master WHERE sql IS NOT NULL"
 
@@ -76,11 +77,11 @@ _COUNTS = (
     ("level_mark", ("level", "body"), ("most_gold",), "max"),
     ("level_mark", ("level", "body"), ("fastest",), "min"),
 )
-"""Tables whose rows are joined by number: keys, columns, and which of two numbers stays."""
+"""Tables whose rows are merged by number: keys, columns, and which of two numbers stays."""
 
 
 def write_backup(player: PlayerData, path: Path) -> list[str]:
-    """Write everything of a player's into a zip. Messages: what was left out, and if it is too large to be imported.
+    """Write all data of a player into a zip. Messages: skipped files, and a warning if it is too large to import.
 
     Raises FileError, OSError, sqlite3.Error.
     """
@@ -115,7 +116,7 @@ def _own_files(folder: Path) -> Iterator[str]:
 
 
 def _problem(name: str, size: int = 0) -> str:
-    """Why a file of this name, seen from the player's folder, does not go along; '' if it does."""
+    """Why a file of this name, relative to the player's folder, is skipped; '' if it is not."""
     folder, _, file = name.rpartition("/")
     if name in {SETTINGS, RECORDS}:
         return ""
@@ -131,9 +132,9 @@ def _left_out(name: str, problem: str) -> str:
 
 
 def read_backup(player: PlayerData, data: bytes) -> list[str]:
-    """Take a backup in; returns the result in words. The settings count from the next start on.
+    """Import a backup; the result in words. The settings count from the next start on.
 
-    Raises FileError for what is not a backup, or too much of one; OSError, sqlite3.Error. Then nothing has changed.
+    Raises FileError for an invalid or too large backup; OSError, sqlite3.Error. Then nothing has changed.
     """
     with TemporaryDirectory() as scratch:
         path = Path(scratch) / RECORDS
@@ -153,7 +154,7 @@ def read_backup(player: PlayerData, data: bytes) -> list[str]:
 
 
 def _unpacked(data: bytes) -> tuple[dict[str, bytes], list[str]]:
-    """The files of a backup that belong into a player's folder, by name, and which do not. Raises ValueError."""
+    """The files of a backup for a player's folder, by name, and the names of others. Raises ValueError."""
     files, left_out = {}, []
     archive = open_zip(io.BytesIO(data), most_files=MOST_FILES, most_bytes=MOST_BYTES)
     for entry in archive.infolist():
@@ -169,7 +170,7 @@ def _unpacked(data: bytes) -> tuple[dict[str, bytes], list[str]]:
 
 
 def _without_path(autosave: bytes) -> bytes:
-    """A level under edit as one that has no file: the path of another machine means nothing here."""
+    """A level under edit without its file: the path of another machine means nothing here."""
     level = ""
     with suppress(*DAMAGED):
         level = str(json.loads(autosave)["level"])
@@ -177,17 +178,17 @@ def _without_path(autosave: bytes) -> bytes:
 
 
 def _open_records(path: Path) -> Store:
-    """The records of a backup. Raises ValueError where they hold too much, or a trigger, which would do something."""
+    """The records of a backup. Raises ValueError if they are too large, or contain code such as a trigger."""
     try:
         with closing(sqlite3.connect(path)) as db, bounded(db):
             ((version,),) = db.execute("PRAGMA user_version")
             if version != VERSION:
                 raise ValueError(f"records {OtherVersionError(version)}")
             there = set(db.execute(_SCHEMA))
-            # A trigger, a check, a default or an index of another would be run when the records are opened.
+            # SQLite would run a foreign trigger, check, default or index when the records are opened.
             if other := there ^ _our_schema():
                 raise ValueError("the {} {} is not ours".format(*min(other)))
-            # Pages that are there several times over would be counted for hours, in one instruction.
+            # Pages listed several times would be counted for hours, in one instruction.
             ((state,),) = db.execute("PRAGMA quick_check(1)")
             if state != "ok":
                 raise ValueError(f"damaged records: {state}")
@@ -222,7 +223,7 @@ def _our_schema() -> set[tuple[str, ...]]:
 
 
 def _merge_all(player: PlayerData, store: Store, files: dict[str, bytes]) -> tuple[int, list[str]]:
-    """Take in records and files; how many more replays there are now, and which files are new."""
+    """Import records and files; the number of new replays, and the new files."""
     opened = cache(lambda folder: _TargetFolder(player.folder / folder))
     with ExitStack() as undo:
         with player.store.change() as db:
@@ -234,7 +235,7 @@ def _merge_all(player: PlayerData, store: Store, files: dict[str, bytes]) -> tup
 
 
 class _TargetFolder:
-    """A folder of the player's that takes files in, beside others of their names."""
+    """A folder of the player's that gets imported files, beside others of their names."""
 
     def __init__(self, path: Path) -> None:
         self._tree = Tree(path)
@@ -242,7 +243,7 @@ class _TargetFolder:
         self._content = cache(self._read)
 
     def _read(self, name: str) -> bytes:
-        """The content of a file; for one that cannot be read a byte that equals no file of ours."""
+        """The content of a file; for an unreadable one a byte that equals no file of ours."""
         with suppress(FileError, OSError):
             content = read_bytes(self._tree.root / name, MOST_BYTES)
             return _without_path(content) if self._tree.root.name == EDITING else content
@@ -274,7 +275,7 @@ class _TargetFolder:
 
 
 def _merge(player: PlayerData, store: Store, db: sqlite3.Connection) -> int:
-    """Join other records into the player's, within a transaction; how many more replays there are now."""
+    """Merge other records into the player's, within a transaction; the number of new replays."""
     theirs = Records(store)
     before = _count(db)
     ticks = store.connection.execute("SELECT total(length(inputs)) FROM replay").fetchone()[0]
@@ -295,7 +296,7 @@ def _merge(player: PlayerData, store: Store, db: sqlite3.Connection) -> int:
 
 
 def _replay(theirs: Records, number: int, memory: str) -> Replay | None:
-    """A replay of other records; None if it does not do what it says, or could not be written as a text."""
+    """A replay of other records; None if its claims are false, or it could not be written as a text."""
     replay = theirs.replay(number)
     try:
         if replay and replay.level and replay.level_digest == level_digest(replay.level):

@@ -1,6 +1,6 @@
-"""All levels: the game's own pack, packs and files that the player has put into a folder.
+"""All levels: the game's own pack, and the packs and files in the player's folder.
 
-Levels of a pack that no episode has are single levels.
+Levels of a pack outside of its episodes are single levels.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from ninja_game.sim.level import Level
 
 
 class Catalogue:
-    """All levels, read when they are first asked for. ``folder``: the player's own; ``more``: packs elsewhere."""
+    """All levels, read when they are first needed. ``folder``: the player's own; ``more``: packs elsewhere."""
 
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = folder
@@ -37,7 +37,7 @@ class Catalogue:
 
     @cached_property
     def ours(self) -> EpisodeSet:
-        """The game's own pack; empty, and a problem, where it cannot be read."""
+        """The game's own pack; empty, with a problem, if it cannot be read."""
         path = data_folder("levels")
         pack = self._pack_at(path)
         return self._set_of(path, pack, "", pack.name) if pack else EpisodeSet("", "", (), {}, ())
@@ -53,10 +53,10 @@ class Catalogue:
         return list(dict.fromkeys(problem.replace(f"{self.folder}{os.sep}", "") for problem in self.problems))
 
     def packs(self) -> list[EpisodeSet]:
-        """The game's own pack, then the player's as they are now; what is wrong with them becomes ``problems``.
+        """The game's own pack, then the player's present ones; errors in them become ``problems``.
 
-        Of several packs of one name the first has the key that it would have alone, its name; but no key is GAME or
-        YOURS. Each is called by what tells it from the others too: author, version, else its file.
+        The key of a pack is its name, of the first of several with that name; no key is GAME or YOURS. Packs of one
+        name are shown with author, version, or else file.
         """
         read = {os.path.realpath(path): path for path in [*self.more, *self._pack_paths()]}
         packs = [(path, pack) for path in read.values() if (pack := self._pack_at(path))]
@@ -85,7 +85,7 @@ class Catalogue:
         return pack.episodes.get(entry.position[0]) if pack and entry.position else None
 
     def is_own(self, entry: Entry) -> bool:
-        """Whether the player has made a level: it is in no pack that was received, nor in that of days."""
+        """Whether the player has made a level: it is in no received pack, and no daily level."""
         pack = self._pack_of(entry)
         made = pack and pack.changeable and not pack.received and pack.path and pack.path.name != DAILY
         return entry.source == YOURS or bool(made)
@@ -103,7 +103,7 @@ class Catalogue:
         return min(later, key=lambda other: other.number, default=None)
 
     def preceding(self, episode: Episode) -> Episode | None:
-        """The episode before it in its column, which has to be passed first; None for the first one."""
+        """The episode before it in its column, which must be passed first; None for the first one."""
         earlier = [other for other in self._column(episode) if other.number < episode.number]
         return max(earlier, key=lambda other: other.number, default=None)
 
@@ -119,7 +119,7 @@ class Catalogue:
         yield from (path for path in inside if not path.name.startswith(".") and is_pack(path))
 
     def _set_of(self, path: Path, pack: Pack, key: str, name: str) -> EpisodeSet:
-        """A pack as it is played, the same one as long as nothing has changed."""
+        """A pack as it is played, the same object while nothing has changed."""
         before, known = self._sets.get(path, (None, None))
         if known is None or before is not pack or (known.key, known.name) != (key, name):
             known = episode_set(pack, key, name)
@@ -128,7 +128,7 @@ class Catalogue:
         return known
 
     def _pack_at(self, path: Path) -> Pack | None:
-        """A pack, read again when its files have changed; None, and a problem, where it cannot be read."""
+        """A pack, read again if its files have changed; None, with a problem, if it cannot be read."""
         inside = CERTIFICATES, *files_in(path)
         stamp = [(file, stamp_of(file)) for file in (path, *(path / name for name in inside))]
         if path not in self._packs or self._packs[path][0] != stamp:
@@ -141,14 +141,14 @@ class Catalogue:
         return pack
 
     def single_levels(self) -> list[Entry]:
-        """Every level as a single one: the player's, also those in folders of packs, the game's, then those of zips."""
+        """All single levels: the player's, also those in folders of packs, the game's, then those of zips."""
         packs = sorted(self.packs(), key=lambda pack: not pack.changeable)
         return self.own() + [entry for pack in packs for entry in pack.levels]
 
     def own(self) -> list[Entry]:
-        """The levels in the player's folder as it is now; what cannot be read becomes ``problems``.
+        """The present levels in the player's folder; errors become ``problems``.
 
-        Files that have not changed since they were last asked for are not read again.
+        Files that have not changed since the last call are not read again.
         """
         entries: list[Entry] = []
         if self.folder is not None:
@@ -170,7 +170,7 @@ class Catalogue:
 
 
 def _name_among(packs: Sequence[PackIndex], index: PackIndex, file: str) -> str:
-    """The name of a pack: its title, with author, version or ``file`` where packs of that title differ in it."""
+    """The name of a pack: its title, with author, version or ``file`` if other packs have that title."""
     alike = [other for other in packs if other.name == index.name]
     authors, versions = {other.author for other in alike}, {other.version for other in alike}
     distinct = replace(
@@ -181,7 +181,7 @@ def _name_among(packs: Sequence[PackIndex], index: PackIndex, file: str) -> str:
 
 
 class _ReadFile(NamedTuple):
-    """What was found in a file, and when it had been changed last."""
+    """The content of a file, and its last change."""
 
     stamp: list[int]
     entries: list[Entry]

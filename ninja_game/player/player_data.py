@@ -1,4 +1,4 @@
-"""Everything the game keeps for its player, opened together; saving what was played, and the notices about it."""
+"""All data that the game keeps for its player; saving results, and the notices about them."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from ninja_game.player.store import Store, Work
 
 
 class PlayerData:
-    """The player's data in one folder. Nothing that is wrong with the folder or its files keeps the game from starting.
+    """The player's data in one folder. Errors in the folder or its files never keep the game from starting.
 
-    ``store``, ``catalogue``: others than those of the folder, whose records are opened when they are first needed.
-    ``settings``: instead of those of the folder's file, which is then neither made nor read.
-    ``messages``: problems of settings and, once they are open, records, for the player.
+    ``store``, ``catalogue``: instead of those of the folder, whose records are opened when they are first needed.
+    ``settings``: instead of those of the folder's file, which is then neither made nor read. ``messages``: problems of
+    settings and, once they are open, records, for the player.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class PlayerData:
         return self._store
 
     def newcomer(self) -> PlayerData:
-        """The same levels, for somebody without a name who has played nothing; what is played so is forgotten."""
+        """The same levels for a player without a name who has played nothing; results are not saved."""
         store, settings = Store(None, "this is a preview"), self.settings.changed(name="")
         other = PlayerData(self.folder, store=store, catalogue=self.catalogue, settings=settings)
         other._is_maker = False
@@ -77,13 +77,13 @@ class PlayerData:
         self._messages.append(message)
 
     def new_messages(self) -> str:
-        """The messages that this method has not given yet, as one text."""
+        """The new messages since the last call, as one text."""
         new = [message for message in self.messages if message not in self._reported]
         self._reported.update(new)
         return " ".join(new)
 
     def open_records(self) -> None:
-        """Open the database now, so that ``messages`` says what is wrong with it before anyone needs it."""
+        """Open the database now, so that ``messages`` has its problems before anyone needs it."""
         _ = self.store
 
     @cached_property
@@ -95,13 +95,13 @@ class PlayerData:
         return self.progress_in("")
 
     def progress_in(self, pack: str) -> PackProgress:
-        """How far the player has come in a pack, by its key in the catalogue."""
+        """The player's progress in a pack, by its key in the catalogue."""
         if pack not in self._progress:
             self._progress[pack] = PackProgress(self.store, pack)
         return self._progress[pack]
 
     def beaten_in(self, episode: Episode) -> Place:
-        """The farthest place that the player has reached by right in an episode's column."""
+        """The farthest place that the player has legitimately reached in an episode's column."""
         return self.progress_in(episode.pack).columns[episode.column].beaten
 
     def episode_state(self, episode: Episode) -> str:
@@ -110,12 +110,12 @@ class PlayerData:
         return state if self.catalogue.preceding(episode) else UNLOCKED
 
     def lock_of(self, entry: Entry) -> str:
-        """A sentence: why a level may not be played by itself yet; "" where it may. One rule for every screen."""
+        """A sentence: why a level may not be played by itself yet; "" if it may. One rule for every screen."""
         episode = self.catalogue.episode_of(entry)
         return self.lock_of_episode(episode) if episode else ""
 
     def lock_of_episode(self, episode: Episode) -> str:
-        """A sentence: why an episode may not be played yet; "" where it may."""
+        """A sentence: why an episode may not be played yet; "" if it may."""
         before = self.catalogue.preceding(episode)
         if before is None or self.episode_state(episode) != LOCKED:
             return ""
@@ -126,7 +126,7 @@ class PlayerData:
         return f"Finish {left} more level{'s' * (left != 1)} of episode {before.code} first"
 
     def reached(self, entry: Entry, mark: Mark | None) -> str:
-        """A sentence: what the player has reached in a level, whose mark this is; the same on every screen."""
+        """A sentence: the player's results in a level with this mark; the same on every screen."""
         if mark is None and self.marks.is_passed(entry.digest):
             return progress.HELPED
         episode = None if mark else self.catalogue.episode_of(entry)
@@ -167,7 +167,7 @@ class PlayerData:
         return len({episode.column for episode in self.catalogue.episodes.values()})
 
     def change_settings(self, settings: Settings) -> str:
-        """Take and save settings; a message if they could not be saved, else ''. Then the next change tries again."""
+        """Set and save settings; a message if saving failed, else ''. The next change then tries again."""
         self.settings = settings
         try:
             write_changes(self._saved_settings, settings, self.folder / SETTINGS)
@@ -186,7 +186,7 @@ EPISODE_BEST = "Your best for this episode"
 
 
 def keep_replay(data: PlayerData, replay: Replay) -> str:
-    """Put a replay among the player's, even one that is not the best; a notice about it."""
+    """Save a replay, even one that is not the best; a notice about it."""
 
     def work() -> list[str]:
         data.records.keep_replay(replay)
@@ -196,7 +196,7 @@ def keep_replay(data: PlayerData, replay: Replay) -> str:
 
 
 def forget_replay(data: PlayerData, number: int) -> str:
-    """Remove a replay of the records; why it is still there, or ''."""
+    """Delete a replay of the records; why that failed, or ''."""
 
     def work() -> list[str]:
         return [] if data.records.forget_replay(number) else ["This is one of your bests, so it stays"]
@@ -231,7 +231,7 @@ def save_best(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
 def count_of(
     data: PlayerData, entry: Entry, attempt: Attempt, *, killer: str | None = None, passed: bool = False
 ) -> Work:
-    """What counts an attempt as it is now: passed, killed, or given up; a pass with help gets its mark."""
+    """The counting of an attempt in its present state: passed, killed, or given up; an assisted pass gets its mark."""
     level, gold = entry.digest, attempt.gold
     helped = passed and attempt.assisted and not attempt.practice_mode
     ticks = attempt.simulation.tick if attempt.outcome == "running" else max(attempt.ended_tick, 0)

@@ -1,4 +1,4 @@
-"""Levels in their context: title and ghosts, what is saved, and what comes next in a file or an episode.
+"""Levels in their context: title and ghosts, saving, and the next level of a file or an episode.
 
 game.md §1.4, §2, §8.
 """
@@ -39,7 +39,7 @@ class PacedRun(NamedTuple):
 
 
 class Navigation(Enum):
-    """Where the player goes from a level."""
+    """The next screen after a level."""
 
     SAME_LEVEL = "the level again"
     NEXT_LEVEL = "the level at which the context now stands"
@@ -48,10 +48,10 @@ class Navigation(Enum):
 
 
 class LevelContext:
-    """A level by itself, of a file, of an episode. Subclasses, below, say what follows.
+    """A level by itself, of a file, or of an episode. The subclasses below choose the next level.
 
-    ``entry``: the level to play now. ``lifetime``: ticks at its start. ``notices``: of what was saved.
-    ``next_label``: the label for where it goes from a passed level.
+    ``entry``: the present level. ``lifetime``: ticks at its start. ``notices``: of what was saved. ``next_label``: the
+    label of the way on from a passed level.
     """
 
     next_label = "next level"
@@ -67,12 +67,12 @@ class LevelContext:
 
     @property
     def has_next(self) -> bool:
-        """Whether something else comes after this level is passed; else it begins again."""
+        """Whether another level follows a pass; else this one begins again."""
         return True
 
     @property
     def carries_clock(self) -> bool:
-        """Whether the next level begins with what this one leaves on the clock."""
+        """Whether the next level begins with the lifetime left in this one."""
         return False
 
     @property
@@ -84,34 +84,34 @@ class LevelContext:
         return self.entry.named.level
 
     def beginning(self) -> tuple[Level, bytes]:
-        """The level as its players begin it, and the inputs of its author's run, if there is one: where texts lie."""
+        """The level at its start, and the inputs of its author's run, if there is one: both decide where texts lie."""
         run = self.data.catalogue.author_run(self.entry)
         return self.level, run.inputs if run else b""
 
     @property
     def pars(self) -> Pars | None:
-        """The level's par times, which go by the classic body."""
+        """The level's par times, for the classic body."""
         return self.entry.pars if self.body == "circle" else None
 
     def next_par(self) -> str:
-        """What the level's next medal needs, in words; "" before the first pass, after the last, in practice."""
+        """The next medal and its time, in words; "" before the first pass, after the last medal, in practice."""
         mark = self.data.marks.of(self.entry.digest)
         return "" if self.pars is None or self.practice_mode or mark is None else next_par(self.pars, mark)
 
     @property
     def show_tutorial(self) -> bool:
-        """Whether the keys are explained at its start: to a player who has passed no level yet."""
+        """Whether the keys are explained at its start: to a player without any pass."""
         return not self.data.statistics.played().passes
 
     def ghosts(self) -> list[PacedRun]:
-        """What to race against; read again only when it is another run, since every retry asks."""
+        """Runs to race against; read again only when they change, since every retry asks."""
         best = self.data.records.level_best(self.entry.digest, self.body)
         medal = self._raced_medal()
         state = self.entry.digest, best.id if best else -1, medal
         if state != self._ghosts[0]:
             author = self.data.catalogue.author_run(self.entry) if medal else None
             if author and self.pars:
-                # The certificate, slowed down so that it just earns the medal.
+                # The certificate, slowed down so that it just wins the medal.
                 runs = [PacedRun(author.inputs, author.final_tick / self.pars.par(medal))]
             else:
                 replay = self.data.records.replay(best.id) if best else None
@@ -120,7 +120,7 @@ class LevelContext:
         return self._ghosts[1]
 
     def _raced_medal(self) -> str:
-        """The medal at whose pace a ghost is wanted; "" for the player's best."""
+        """The medal whose pace a ghost has; "" for the player's best."""
         medal_ghost, pars = self.data.settings.ghost, self.pars
         if medal_ghost == "best" or pars is None:
             return ""
@@ -135,11 +135,11 @@ class LevelContext:
 
     @property
     def shows_hints(self) -> bool:
-        """Whether words help in the level: not once it has been passed, nor where the player does not want them."""
+        """Whether the level shows texts: not after a pass, nor if the player does not want them."""
         marks, level = self.data.marks, self.entry.digest
         return self.data.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
 
-    def sayings(self) -> tuple[LevelMessage, ...]:
+    def messages(self) -> tuple[LevelMessage, ...]:
         if not self.shows_hints:
             return ()
         with suppress(LevelError):
@@ -151,33 +151,33 @@ class LevelContext:
         save_work(self.data, count_of(self.data, self.entry, attempt, killer=attempt.killer))
 
     def gave_up(self, attempt: Attempt) -> None:
-        """Called when an attempt is left or started again, whether it has ended or not: counts one that has not."""
+        """Called when an attempt is left or restarted, ended or not: counts one that has not."""
         if attempt.outcome == "running" and attempt.simulation.tick:
-            # Starting again must not wait for the disk.
+            # A restart must not wait for the disk.
             self.data.store.defer(count_of(self.data, self.entry, attempt))
 
     def restart(self) -> bool:
-        """Called when the level starts again; whether it is another one, since its file has changed.
+        """Called when the level restarts; whether it is another one, since its file has changed.
 
         Raises NinjaGameError or OSError for a changed file that cannot be played; the level stays as it was.
         """
         return False
 
     def advance(self) -> Navigation:
-        """Go on from this level, passed or (in practice) left out; NEXT_LEVEL: this context is at another one now."""
+        """Leave this level, passed or (in practice) skipped; NEXT_LEVEL: this context is at another one now."""
         return Navigation.SAME_LEVEL
 
     @property
     def way_out(self) -> Navigation:
-        """Where leaving leads: BACK or EPISODE_END."""
+        """The target of leaving: BACK or EPISODE_END."""
         return Navigation.BACK
 
 
 class LevelSession(LevelContext):
     """A level by itself (single level, time trial): every attempt starts with the full lifetime.
 
-    Its file is read again when it has changed and the level starts again. ``following``: the levels after it in the
-    list that it was chosen from; those that are locked are left out.
+    Its file is read again if it has changed at a restart. ``following``: the levels after it in the list that it was
+    chosen from; locked ones are skipped.
     """
 
     def __init__(
@@ -226,7 +226,7 @@ class LevelSession(LevelContext):
         return Navigation.SAME_LEVEL
 
     def passed(self, attempt: Attempt) -> list[str]:
-        """Save what a passed attempt is worth; notices about it."""
+        """Save the results of a passed attempt; notices about them."""
         count = count_of(self.data, self.entry, attempt, passed=True)
         entry = self.entry
         replay = None if attempt.assisted else replay_of(self.data, entry, attempt)
@@ -241,7 +241,7 @@ class LevelSession(LevelContext):
         return save_work(self.data, work)
 
     def _open_following(self, entry: Entry) -> None:
-        """If the episode stands at this level, move on to the next level that is not passed."""
+        """If the episode is at this level, move on to the next level that is not passed."""
         data, episode = self.data, self.data.catalogue.episode_of(entry)
         if episode is None or entry.position is None or data.episode_state(episode) != UNLOCKED:
             return
@@ -279,8 +279,8 @@ class EpisodeSession(LevelContext):
     """An episode from its first level on. ``position``: of the present one, from 0.
 
     ``legitimate``: neither practice nor a "cheated" episode; else nothing is a best and only "reached" moves on.
-    ``replays``: of the levels passed so far, where it is legitimate. ``whole``: no level was left out or
-    passed with assistance, so that the score of the episode counts.
+    ``replays``: of the levels passed so far, if it is legitimate. ``whole``: no level was skipped or passed with
+    assistance, so that the score of the episode counts.
     """
 
     def __init__(self, data: PlayerData, episode: Episode, *, practice_mode: bool = False) -> None:
@@ -294,7 +294,7 @@ class EpisodeSession(LevelContext):
         self._passed: Attempt | None = None
 
     def resume(self, replays: Sequence[Replay]) -> None:
-        """Go on after the first levels of the episode, which these runs have passed."""
+        """Continue after the first levels of the episode, which these runs have passed."""
         self.replays = list(replays)
         self.position = len(replays)
         self.entry = self.episode.levels[self.position]
@@ -302,7 +302,7 @@ class EpisodeSession(LevelContext):
         self.score = self.lifetime
 
     def skip_to_furthest(self) -> None:
-        """Go to where a run that skipped levels had come, if that is in this episode."""
+        """Go to the farthest level that was reached by skipping, if it is in this episode."""
         beaten = self.data.beaten_in(self.episode)
         if beaten[0] == self.episode.number and 0 < beaten[1] < len(self.episode.levels) and not self.practice_mode:
             self.whole, self.position = False, beaten[1]
@@ -321,9 +321,9 @@ class EpisodeSession(LevelContext):
         return self.position == len(self.episode.levels) - 1
 
     def passed(self, attempt: Attempt) -> list[str]:
-        """Save what a passed attempt is worth, for its level and for the episode; notices about it.
+        """Save the results of a passed attempt, for its level and for the episode; notices about them.
 
-        An assisted one is worth no record, but it opens what follows.
+        An assisted one is no record, but it unlocks the next level.
         """
         counts = self.legitimate and not attempt.assisted
         self.whole = self.whole and counts
@@ -333,7 +333,7 @@ class EpisodeSession(LevelContext):
             self.replays = [*self.replays[: self.position], replay_of(self.data, self.entry, attempt)]
         count = count_of(self.data, self.entry, attempt, passed=True)
         replays = tuple(self.replays) if counts else ()
-        # All of it as it is now: the work may be done later, when the run has gone on.
+        # A copy of the present state: the work may be done later, when the run has gone on.
         work = partial(
             self._save, count, self.position, self.score, replays, legitimate=self.legitimate, whole=self.whole
         )
@@ -362,7 +362,7 @@ class EpisodeSession(LevelContext):
         return False
 
     def advance(self) -> Navigation:
-        """To the next level with the lifetime at the exit; or without passing this one, with that at its start."""
+        """To the next level with the lifetime at the exit; or, skipping this one, with that at its start."""
         if self._passed is None:
             self._leave_out()
         else:
@@ -376,11 +376,11 @@ class EpisodeSession(LevelContext):
 
     @property
     def way_out(self) -> Navigation:
-        """After the last level what the episode has brought, else back."""
+        """After the last level the episode's results, else back."""
         return Navigation.EPISODE_END if self._passed is not None and self.is_last else Navigation.BACK
 
     def _leave_out(self) -> None:
-        """Open what follows the present level; nothing of the episode counts as a best any more."""
+        """Unlock the level after the present one; nothing of the episode counts as a best any more."""
         self.whole = False
         position, legitimate = self.position, self.legitimate
 
@@ -402,7 +402,7 @@ def note_progress(
 ) -> None:
     """A level of an episode was passed or skipped: unlock the next one, and save it as the place to continue.
 
-    ``replays``: those of the episode up to it, where no level was left out. Raises sqlite3.Error.
+    ``replays``: those of the episode up to it, if no level was skipped. Raises sqlite3.Error.
     """
     following = data.catalogue.following(episode)
     levels = len(episode.levels)
@@ -415,9 +415,9 @@ def note_progress(
 
 
 def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeSession | None:
-    """Where play goes on: behind the level played last, or else in the first episode that has not been passed.
+    """The context to continue: after the level played last, or else the first episode that has not been passed.
 
-    None where there are no episodes.
+    None without episodes.
     """
     if not practice_mode and (run := unfinished_run(data)):
         return run
@@ -433,7 +433,7 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeSession
 
 
 def unfinished_run(data: PlayerData, chosen: Episode | None = None) -> EpisodeSession | None:
-    """The run of an episode, or of that played last, where it was left; None where it has not been begun or is over."""
+    """The unfinished run of an episode, or of the one played last; None if it has not been begun or is over."""
     key, replays = load_unfinished(data.store)
     if chosen is None:
         episodes = (episode for pack in data.catalogue.packs() for episode in pack.episodes.values())
@@ -454,14 +454,14 @@ _PLACE = "episode left half-way"
 
 
 def save_unfinished(store: Store, key: str, replays: Sequence[Replay] = ()) -> None:
-    """Note the episode with which play goes on, "" for none, and its runs. Raises sqlite3.Error."""
+    """Save the episode to continue, "" for none, and its runs. Raises sqlite3.Error."""
     with store.change() as db:
         value = json.dumps([key, *map(write_replay, replays)])
         db.execute("REPLACE INTO fact (name, value) VALUES (?, ?)", (_PLACE, value))
 
 
 def load_unfinished(store: Store) -> tuple[str, list[Replay]]:
-    """The key of the episode that play goes on with, and its runs; ("", []) without one, or for a damaged one."""
+    """The key of the episode to continue, and its runs; ("", []) without one, or for a damaged one."""
     for (value,) in store.rows("SELECT value FROM fact WHERE name = ?", (_PLACE,), [str]):
         try:
             key, *texts = json.loads(value)

@@ -1,4 +1,4 @@
-"""What has been reached: columns of episodes and what they unlock; marks, medals, all gold (game.md §2.1, §8)."""
+"""Progress: columns of episodes and what they unlock; marks, medals, all gold (game.md §2.1, §8)."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Place = tuple[int, int]  # episode number (0 to 99) and level in it (0 to 4)
 
 
 class ColumnProgress(NamedTuple):
-    """The farthest place of a column that was reached, and the farthest that was reached legitimately."""
+    """The farthest place that was reached in a column, and the farthest that was reached legitimately."""
 
     reached: Place
     beaten: Place
@@ -35,9 +35,9 @@ _COLUMN_NAMES = "grid_column, reached_episode, reached_level, beaten_episode, be
 
 
 class PackProgress:
-    """Progress in a store: each passed level is merged into what is there, so that two games at once only add to it.
+    """Progress in a store: each passed level is merged into it, so that two games at once only add to it.
 
-    ``pack``: the name of the pack whose episodes these are, "" for the game's own.
+    ``pack``: the name of the pack with these episodes, "" for the game's own.
     """
 
     def __init__(self, store: Store, pack: str = "") -> None:
@@ -48,7 +48,7 @@ class PackProgress:
 
     @property
     def columns(self) -> list[ColumnProgress]:
-        """What is in the store, read again whenever that may have changed; damaged columns start again."""
+        """The stored progress, read again when it may have changed; damaged columns start again."""
         if self._epoch != self.store.epoch:
             self._columns = [ColumnProgress(*[(c * EPISODES_PER_COLUMN, 0)] * 2) for c in range(MOST_COLUMNS)]
             query = f"SELECT {_COLUMN_NAMES} FROM progress WHERE pack = ?"
@@ -76,7 +76,7 @@ class PackProgress:
     ) -> None:
         """A level of an episode has been passed: move "reached", and "beaten" too if it was legitimate.
 
-        ``levels``: how many the episode has; ``following``: the next existing episode of its column, where that is
+        ``levels``: the episode's number of levels; ``following``: the next existing episode of its column, if that is
         not the next number. Raises sqlite3.Error.
         """
         episode, level = place
@@ -98,7 +98,7 @@ class PackProgress:
 
 
 def complete_columns(progress: PackProgress, episodes: Collection[int]) -> int:
-    """How many columns are complete: all of the ``episodes`` that exist in them are beaten, and there are some."""
+    """The number of complete columns: all of the ``episodes`` that exist in them are beaten, and there are some."""
     count = 0
     for column in range(MOST_COLUMNS):
         present = [episode for episode in episodes if episode // EPISODES_PER_COLUMN == column]
@@ -107,7 +107,7 @@ def complete_columns(progress: PackProgress, episodes: Collection[int]) -> int:
 
 
 def unlocked_colours(columns: int) -> int:
-    """How many colours beyond the first one may be chosen with so many columns complete."""
+    """The number of colours beyond the first one that so many complete columns unlock."""
     return min(columns, COLOURS)
 
 
@@ -122,7 +122,7 @@ def overclock_unlocked(columns: int, present: int) -> bool:
 
 
 def new_unlocks(store: Store, columns: int, present: int) -> list[str]:
-    """Messages for what has become unlocked since the last call; each comes once. Raises sqlite3.Error."""
+    """Messages about new unlocks since the last call; each comes once. Raises sqlite3.Error."""
     rows = store.rows("SELECT value FROM fact WHERE name = ?", (_ANNOUNCED,), [str])
     before = int(rows[0][0]) if rows and re.fullmatch("[0-9]{1,3}", rows[0][0]) else 0
     if columns <= before:
@@ -148,8 +148,8 @@ def _ends_column(episode: int) -> bool:
 def _advanced(present: Place, episode: int, goal: Place) -> Place:
     """The farther of two places. Within an episode only from that episode: later levels of earlier ones change nothing.
 
-    >>> _advanced((0, 2), 0, (0, 3)), _advanced((3, 0), 0, (0, 3)), _advanced((0, 1), 0, (1, 0))
-    ((0, 3), (3, 0), (1, 0))
+    >>> _advanced((0, 2), 0, (0, 3)), _advanced((3, 0), 0, (0, 3)), _advanced((0, 1), 0, (1, 0)) ((0, 3), (3, 0), (1,
+    0))
     """
     if goal[0] == episode and present[0] != episode:
         return present
@@ -159,18 +159,18 @@ def _advanced(present: Place, episode: int, goal: Place) -> Place:
 NO_MEDAL = "with help: no medal"
 HELPED = f"Passed {NO_MEDAL}"  # the label of an assisted run, and of a pass by one, on every screen
 
-WITH_HELP = "with help"  # in the place of the body in marks of such passes: they open what follows, and are no records
+WITH_HELP = "with help"  # instead of the body in marks of such passes: they unlock, and are no records
 
 
 class Mark(NamedTuple):
-    """``fastest``: tick of the earliest exit contact; ``most_gold``: pieces in the passed run that took the most."""
+    """``fastest``: tick of the earliest exit contact; ``most_gold``: most pieces in a passed run."""
 
     fastest: int
     most_gold: int
 
 
 class Marks:
-    """Marks in a store. Reading leaves out what is damaged."""
+    """Marks in a store. Damaged ones are not read."""
 
     def __init__(self, store: Store) -> None:
         self.store = store
@@ -198,7 +198,7 @@ class Marks:
 
 
 class Tally(NamedTuple):
-    """What has been reached in levels: how many there are, passed, whose best medal is which, with all gold."""
+    """Results over several levels: how many there are, are passed, have each best medal, have all gold."""
 
     levels: int
     passed: int
@@ -211,12 +211,12 @@ def medal_of(entry: Entry, mark: Mark | None) -> str:
 
 
 def opens_author(entry: Entry, mark: Mark | None) -> bool:
-    """Whether a mark opens the run of the level's author: a gold medal does."""
+    """Whether a mark unlocks the author's run of the level: a gold medal does."""
     return medal_of(entry, mark) in {"gold", "author"}
 
 
 def next_par(pars: Pars, mark: Mark) -> str:
-    """The medal after the one that a mark brings, its time, and by how much that was missed; "" after the best."""
+    """The medal above that of a mark, its time, and by how much the mark missed it; "" after the best."""
     medal = pars.next_medal(mark.fastest)
     par = pars.par(medal) if medal else 0
     missing = seconds_text(mark.fastest - par)
@@ -224,7 +224,7 @@ def next_par(pars: Pars, mark: Mark) -> str:
 
 
 def reached(entry: Entry, mark: Mark | None) -> str:
-    """The player's fastest time in a level and the most gold of a pass, as a sentence; "" without a mark."""
+    """The player's fastest time in a level and most gold in a pass, as a sentence; "" without a mark."""
     if mark is None:
         return ""
     gold = f", gold {mark.most_gold} of {entry.all_gold}" if entry.all_gold else ""
@@ -236,14 +236,14 @@ def has_all_gold(entry: Entry, mark: Mark | None) -> bool:
 
 
 def worst_medal(entries: Iterable[Entry], marks: dict[str, Mark]) -> str:
-    """The medal that all the levels have, or a better one; "" where one has none."""
+    """The worst medal of all the levels; "" if one has none."""
     order = [*MEDALS, ""]
     medals = (order.index(medal_of(entry, marks.get(entry.digest))) for entry in entries)
     return order[max(medals, default=len(MEDALS))]
 
 
 def tally(entries: Iterable[Entry], marks: dict[str, Mark], helped: Collection[str] = ()) -> Tally:
-    """Count what has been reached in levels. ``helped``: digests of those passed with help."""
+    """Count the results over levels. ``helped``: digests of those passed with help."""
     pairs = [(entry, marks.get(entry.digest)) for entry in entries]
     medals = [medal_of(*pair) for pair in pairs]
     passed = sum(mark is not None or entry.digest in helped for entry, mark in pairs)

@@ -23,7 +23,7 @@ NEWEST_SHOWN = 500  # replays listed at most, the newest first
 class SavedReplay(NamedTuple):
     """A replay in the records, without its inputs: ``score`` in ticks (0 unless passed), ``made_at`` in UTC.
 
-    ``kept``: 1 if the player asked for it, else 0.
+    ``kept``: 1 if the player saved it, else 0.
     """
 
     id: int
@@ -43,11 +43,11 @@ _SAVED = ", ".join(f"replay.{name}" for name in SavedReplay._fields)
 _SAVED_KINDS = tuple(get_type_hints(SavedReplay).values())
 
 _level = lru_cache(16)(parse_level_string)
-"""A level by its text: replays of one level often stand near each other."""
+"""A level by its text: consecutive replays are often of one level."""
 
 _TEXTS = ("level", "level_text", "name", "player", "body", "outcome", "digest", "made", "co_authors")
 _WHOLE = {**dict.fromkeys(_TEXTS, str), "final_tick": int, "gold": int, "inputs": bytes}
-"""What is read of a whole replay, by column."""
+"""The columns read for a whole replay, with their types."""
 
 
 class EpisodeBest(NamedTuple):
@@ -61,8 +61,8 @@ class EpisodeBest(NamedTuple):
 def has_words(words: Iterable[str], *texts: str) -> bool:
     """Whether each word (casefolded) is in one of the texts.
 
-    >>> has_words(["first", "ann"], "First Steps", "Anna"), has_words(["first", "bob"], "First Steps", "Anna")
-    (True, False)
+    >>> has_words(["first", "ann"], "First Steps", "Anna"), has_words(["first", "bob"], "First Steps", "Anna") (True,
+    False)
     """
     text = " ".join(texts).casefold()
     return all(word in text for word in words)
@@ -75,22 +75,22 @@ def now_text() -> str:
 class Records:
     """Personal bests and replays in a store.
 
-    What reads leaves out what is damaged. What changes something returns when it is on the disk, or is part of the
-    transaction around it, and raises sqlite3.Error.
+    Reading skips damaged rows. A change returns when it is on the disk, or is part of the transaction around it, and
+    raises sqlite3.Error.
     """
 
     def __init__(self, store: Store) -> None:
         self.store = store
 
     def keep_replay(self, replay: Replay) -> int:
-        """Save a replay because the player asked for it; its id."""
+        """Save a replay at the player's request; its id."""
         with self.store.change() as db:
             return self._insert(db, replay, kept=True)
 
     def replays(self, words: Sequence[str] = ()) -> list[SavedReplay]:
         """The replays whose name and player have all these words (casefolded), newest first; NEWEST_SHOWN at most."""
         if not words:
-            # Ids grow with time, and this order needs no look at all the others.
+            # Ids grow with time; by id not every replay has to be read.
             return self._saved("ORDER BY id DESC LIMIT ?", NEWEST_SHOWN)
         rows = self.store.rows("SELECT id, name, player FROM replay ORDER BY id DESC", (), (int, str, str))
         ids = [number for number, *texts in rows if has_words(words, *texts)][:NEWEST_SHOWN]
@@ -112,7 +112,7 @@ class Records:
         return None
 
     def forget_replay(self, number: int) -> bool:
-        """Remove a replay unless a personal best needs it; whether it has gone."""
+        """Delete a replay unless a personal best needs it; whether it is gone."""
         with self.store.change() as db:
             db.execute("UPDATE replay SET kept = 0 WHERE id = ?", (number,))
             return db.execute(f"DELETE FROM replay WHERE id = ? AND {_UNNEEDED}", (number,)).rowcount > 0
@@ -165,10 +165,10 @@ class Records:
     def _insert(self, db: sqlite3.Connection, replay: Replay, *, kept: bool) -> int:
         """Save a replay, once: the same run may be a level's best, part of an episode's best, and kept.
 
-        Joins an equal row only if that can be read: one with a damaged cell would be left out at the next start.
+        An equal row is used only if it can be read: one with a damaged cell would be skipped at the next start.
         """
         assert replay.level is not None  # noqa: S101 - attempts give replays with their levels
-        # The digest first: it tells most rows apart, and all of them are looked through.
+        # The digest first: it distinguishes most rows, and all of them are compared.
         values = {
             "digest": replay.digest,
             "level": _digest(replay),
@@ -196,7 +196,7 @@ class Records:
 _BEST = "JOIN level_best ON level_best.replay = replay.id AND level_best.level = replay.level WHERE level_best.body = ?"
 
 _UNNEEDED = "id NOT IN (SELECT replay FROM level_best) AND id NOT IN (SELECT replay FROM episode_replay) AND NOT kept"
-"""Replays that are no longer bests, and that the player did not keep."""
+"""Replays that are no longer bests, and that the player did not save."""
 
 _DROP_UNNEEDED = f"DELETE FROM replay WHERE {_UNNEEDED}"
 
@@ -207,7 +207,7 @@ def _digest(replay: Replay) -> str:
 
 
 class Played(NamedTuple):
-    """How much was played, in all or of a level: attempts, passes, deaths, ticks in play, pieces of gold."""
+    """Statistics, in all or of a level: attempts, passes, deaths, ticks in play, pieces of gold."""
 
     attempts: int = 0
     passes: int = 0

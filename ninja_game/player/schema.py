@@ -1,4 +1,4 @@
-"""The tables of the records, and how a file of them is opened and checked (`docs/player-data.md`)."""
+"""The tables of the records, and how their file is opened and checked (`docs/player-data.md`)."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from itertools import count
 from pathlib import Path
 from urllib.parse import quote
 
-APPLICATION_ID = 0x6E696E6A  # tells our files from other people's SQLite files
+APPLICATION_ID = 0x6E696E6A  # distinguishes our files from other SQLite files
 
-OPENING_SECONDS = 1.0  # how long a start waits for another program that has locked the file
+OPENING_SECONDS = 1.0  # longest wait of a start for another program that has locked the file
 
-MOST_CELL_BYTES = 2**26  # the largest value, and row; SQLite itself makes values of a gigabyte where a file asks for it
+MOST_CELL_BYTES = 2**26  # the largest value, and row; SQLite itself makes values of a gigabyte if a file asks for it
 
 MOST_STEPS = 30
-"""Millions of instructions of SQLite to look through a file: some four seconds; the records of years take one."""
+"""Millions of instructions of SQLite to check a file: some four seconds; the records of years take one."""
 
-_WRITE_VERSION = 18  # place of the byte in a file's header that is 1 or 2 where SQLite may write it
+_WRITE_VERSION = 18  # place of a byte in the file's header: 1 or 2 if SQLite may write it
 
 
 VERSION = 7  # the version of the tables, in a file's header; raise it with every change of them
@@ -98,12 +98,12 @@ class OtherVersionError(Exception):
 
 
 def open_database(name: str, source: Path | None = None, seconds: float = OPENING_SECONDS) -> sqlite3.Connection:
-    """A connection to a sound, up-to-date database, which is made where it is missing.
+    """A connection to a sound, up-to-date database, which is made if it is missing.
 
     ``source``: copied into it first. ``seconds``: how long to wait for another program that has locked the file.
 
-    Raises OtherVersionError; sqlite3.OperationalError where the file cannot be used now (locked, read-only, no room);
-    another sqlite3.DatabaseError where it is damaged or not ours.
+    Raises OtherVersionError; sqlite3.OperationalError if the file cannot be used now (locked, read-only, no room);
+    another sqlite3.DatabaseError if it is damaged or not ours.
     """
     connection = sqlite3.connect(name, timeout=seconds, isolation_level=None)
     try:
@@ -122,7 +122,7 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
         if connection.execute("PRAGMA user_version").fetchone()[0] != VERSION:
             _create(connection)
     except UnicodeDecodeError:
-        # What SQLite says about a damaged schema holds its bytes, and Python fails to make a text of them.
+        # SQLite's message about a damaged schema contains its bytes, which Python cannot decode.
         connection.close()
         raise sqlite3.DatabaseError("its tables cannot be read") from None
     except BaseException:
@@ -133,7 +133,7 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
 
 @contextmanager
 def bounded(connection: sqlite3.Connection) -> Iterator[None]:
-    """Let what is asked of a file end, whatever its pages say. Raises sqlite3.DatabaseError where it would not."""
+    """Bound the work of queries on a file, whatever its pages say. Raises sqlite3.DatabaseError beyond the bound."""
     steps = count(1)
     connection.set_progress_handler(lambda: next(steps) > MOST_STEPS, 1_000_000)
     try:
@@ -147,7 +147,7 @@ def bounded(connection: sqlite3.Connection) -> Iterator[None]:
 
 
 def copy_in_memory(path: Path) -> sqlite3.Connection:
-    """A database in memory with what a file holds that cannot be written; empty where it cannot be read either."""
+    """A database in memory with the content of a file that cannot be written; empty if it cannot be read either."""
     try:
         return open_database(":memory:", path)
     except (sqlite3.Error, OtherVersionError):
@@ -163,7 +163,7 @@ def _copy(source: Path, connection: sqlite3.Connection) -> None:
             opened.execute("SELECT count(*) FROM sqlite_master").fetchone()
             opened.backup(connection)
     except sqlite3.OperationalError:
-        # Where its folder cannot be written either, SQLite reads only what it takes for unchangeable.
+        # If its folder cannot be written either, SQLite reads only files declared immutable.
         with closing(sqlite3.connect(f"{uri}?immutable=1", uri=True)) as opened:
             opened.backup(connection)
 
@@ -175,7 +175,7 @@ def _text(data: bytes) -> str:
 def _check_file(connection: sqlite3.Connection, name: str) -> None:
     """Raise sqlite3.DatabaseError unless this is a sound file of ours or an empty one.
 
-    Raises OtherVersionError for another version; sqlite3.OperationalError where it can be read only, or not now.
+    Raises OtherVersionError for another version; sqlite3.OperationalError if it is read-only, or locked.
     """
     version = connection.execute("PRAGMA user_version").fetchone()[0]
     application = connection.execute("PRAGMA application_id").fetchone()[0]
@@ -198,13 +198,13 @@ def _check_file(connection: sqlite3.Connection, name: str) -> None:
 
 
 def _forbids_writing(name: str) -> bool:
-    """Whether a database's own header says that it can be read only, as those of formats after ours would."""
+    """Whether a database's own header makes it read-only, as those of later formats would."""
     with Path(name).open("rb") as file:
         return file.read(_WRITE_VERSION + 1)[_WRITE_VERSION:] > b"\2"
 
 
 def _create(connection: sqlite3.Connection) -> None:
-    """Make the tables of a new file, in one transaction; a second process that does the same meanwhile waits."""
+    """Make the tables of a new file, in one transaction; a second process with the same aim waits."""
     connection.execute("BEGIN IMMEDIATE")
     try:
         if connection.execute("PRAGMA user_version").fetchone()[0] != VERSION:
@@ -219,7 +219,7 @@ def _create(connection: sqlite3.Connection) -> None:
 
 
 def _check_tables(connection: sqlite3.Connection) -> None:
-    """Raise sqlite3.DatabaseError where a table is missing, too many or other than in a sound file of its version."""
+    """Raise sqlite3.DatabaseError if a table is missing, surplus or other than in a sound file of its version."""
     version = connection.execute("PRAGMA user_version").fetchone()[0]
     with closing(sqlite3.connect(":memory:", isolation_level=None)) as sound:
         for statement in SCHEMA.values() if version else ():

@@ -1,4 +1,4 @@
-"""What a player can choose, with what each choice may be and its default."""
+"""All settings, with the allowed values and the default of each."""
 
 from __future__ import annotations
 
@@ -25,24 +25,24 @@ VERSION = 1
 BINDING_TABLES = {"keys": "keys", "pad": "pad-buttons"}
 
 COMMENT = "Settings of ninja-game. What is missing or wrong here has its default; comments stay."
-MAX_BYTES = 2**16  # more than this is not a file of settings; a number of so many digits is read within 0.1 s
+MAX_BYTES = 2**16  # a larger file is no file of settings; a number of so many digits is read within 0.1 s
 
 LOCK_SECONDS = 1.0
 
-BY_COLUMN = "by-column"  # the palette that is another one in each column of episodes
+BY_COLUMN = "by-column"  # the palette that changes with the column of episodes
 
 GHOSTS = ("best", "next", "silver", "gold", "author")
-"""What may play along: the player's best run, or the pace of the next medal or of one."""
+"""Ghosts in play: the player's best run, or the pace of the next medal or of one."""
 
-MOST_INPUTS = 16  # keys or buttons of one action at most
+MOST_INPUTS = 16  # most keys or buttons of one action
 
 InputNames = Mapping[str, tuple[str, ...]]  # action to the names of its inputs (ui/input/bindings.py)
 
 
 class SettingRule(NamedTuple):
-    """Where a setting stands in the file, what it may be, and what it means.
+    """The place of a setting in the file, its allowed values, and its meaning.
 
-    ``span``: of a number, the lowest, the highest and a slider's step. ``convert``: what becomes of a value in a file.
+    ``span``: of a number, the lowest, the highest and a slider's step. ``convert``: converts a value from a file.
     """
 
     table: str
@@ -62,7 +62,7 @@ def _flag(default: bool, table: str, meaning: str) -> Any:
 
 
 def _number(default: float, table: str, low: float, high: float, meaning: str, step: float = 1) -> Any:
-    """A setting that is a whole number where its default is one."""
+    """A number as a setting; a whole number if its default is one."""
     sort, kind = ("a whole number", int) if isinstance(default, int) else ("a number", (int, float))
 
     def fits(value: Any) -> bool:
@@ -103,9 +103,9 @@ def _bindings(what: str, example: str) -> dict[str, SettingRule]:
 
 @dataclass(frozen=True)
 class Settings:
-    """Every setting. ``keys`` and ``pad`` hold only the actions whose inputs are not the default ones."""
+    """Every setting. ``keys`` and ``pad`` hold only the actions without default inputs."""
 
-    # Which palettes there are is known where they are drawn.
+    # The module that draws knows the palettes.
     palette: str = _text(
         BY_COLUMN,
         "look",
@@ -173,7 +173,7 @@ class Settings:
         return self.volume, self.effects_volume, self.loop_volume, self.music_volume
 
     def changed(self, **values: Any) -> Settings:
-        """These settings with some of them changed. Raises ValueError for a value that a setting cannot have."""
+        """These settings with some changes. Raises ValueError for a value that a setting cannot have."""
         for name, value in values.items():
             if not RULES[name].fits(value):
                 raise ValueError(f"{name} is {value!r}; expected {RULES[name].expected}")
@@ -185,7 +185,7 @@ RULES: dict[str, SettingRule] = {setting.name: setting.metadata["rule"] for sett
 
 
 def read_settings(path: Path) -> tuple[Settings, list[str]]:
-    """The settings in a file, and messages about what in it could not be used.
+    """The settings in a file, and messages about unusable parts.
 
     A missing file gives the defaults. A file that is not TOML, or from another version of the game, is moved aside; a
     wrong value only falls back to its default.
@@ -205,7 +205,7 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
 
 
 def read_usable_settings(path: Path) -> Settings:
-    """The settings in a file as far as they can be used, for what cannot wait: no message, no file moved."""
+    """The usable settings in a file, for a caller that cannot wait: no message, no file moved."""
     try:
         with _long_numbers():
             return _settings_of(parse_toml(read_utf8(path, MAX_BYTES), any_number=True))[0]
@@ -215,7 +215,7 @@ def read_usable_settings(path: Path) -> Settings:
 
 @contextmanager
 def _long_numbers() -> Iterator[None]:
-    """Numbers of any length are read within, so that one only costs its own setting."""
+    """Read numbers of any length, so that a long one only costs its own setting."""
     limit = sys.get_int_max_str_digits()
     sys.set_int_max_str_digits(0)
     try:
@@ -225,7 +225,7 @@ def _long_numbers() -> Iterator[None]:
 
 
 def _put_aside(path: Path, why: str) -> str:
-    """What was done about an unusable file."""
+    """A message about an unusable file."""
     try:
         return f"It is kept as {quarantine(path, why).name}; the defaults are used."
     except OSError as error:
@@ -265,7 +265,7 @@ def key_of(name: str) -> str:
 
 
 def write_changes(before: Settings, after: Settings, path: Path) -> None:
-    """Put what differs between two settings into a file, whole or not at all; everything else in it stays.
+    """Write the difference between two settings into a file, whole or not at all; the rest of it stays.
 
     A missing file gets all settings, an unusable one is moved aside first. Raises OSError, FileError.
     """
@@ -314,7 +314,7 @@ def _new_text(settings: Settings) -> str:
 
 
 def _put(document: TOMLDocument, name: str, before: Any, after: Any) -> None:
-    """Bring one setting in the document to its new value; of bindings only the actions that have changed."""
+    """Write one setting's new value into the document; of bindings only the changed actions."""
     import tomlkit
 
     table_name = BINDING_TABLES.get(name, RULES[name].table)

@@ -1,8 +1,8 @@
-"""The database of records: atomic transactions, and what happens when the database fails.
+"""The database of records: atomic transactions, and the handling of its failures.
 
-Write-ahead log with full synchronisation: a transaction that has returned is on the disk, and the game tells the
-player that something is saved only after that. A process killed in between loses the transaction it was in, no other.
-What cannot be saved now is kept and tried again with every later save, and once more at the end.
+Write-ahead log with full synchronisation: a transaction that has returned is on the disk, and the game shows "saved"
+only after that. A process killed in between loses only its own transaction. Failed saves are kept and tried again with
+every later save, and once more at the end.
 """
 
 from __future__ import annotations
@@ -17,21 +17,21 @@ from ninja_game.files.locking import locked
 from ninja_game.files.user_folder import quarantine
 from ninja_game.player.schema import OPENING_SECONDS, OtherVersionError, copy_in_memory, open_database
 
-GAME_WAIT_MS = 200  # a save during play waits so long for another program that writes: it holds up the picture
-LAST_WAIT_MS = 3000  # the last one of a game
+GAME_WAIT_MS = 200  # longest wait during play for another program that writes: it holds up the picture
+LAST_WAIT_MS = 3000  # longest wait at the end of the game
 
 STARTS_WAIT = 20.0  # seconds that a start waits for other games that are opening the same file
 
 Work = Callable[[], Sequence[str]]
-"""Changes to be made within one transaction; gives notices for the player. It may be done more than once."""
+"""Changes within one transaction; gives notices for the player. It may be called more than once."""
 
 
 class Store:
-    """An open database. ``path``: None for one in memory, which forgets, for a reason that ``problem`` may say.
+    """An open database. ``path``: None for one in memory, which forgets, for a reason in ``problem`` if there is one.
 
     A damaged file, or one of another version, is moved aside and a new one begun. If the file cannot be opened or
-    written, the session continues with a copy in memory, and ``problem`` says why what is saved would not last.
-    ``messages``: what the player should know. ``epoch`` changes whenever something read before may be out of date.
+    written, the session continues with a copy in memory, and ``problem`` says why nothing would be saved. ``messages``:
+    for the player. ``epoch`` changes whenever earlier results may be out of date.
     """
 
     def __init__(self, path: Path | None, problem: str = "") -> None:
@@ -53,7 +53,7 @@ class Store:
             return copy_in_memory(self.path)
 
     def _open(self, path: Path, turn: float, wait: float) -> sqlite3.Connection:
-        """The file, or a new one where it had to be moved aside. Raises sqlite3.Error, OtherVersionError, OSError.
+        """The file, or a new one if it had to be moved aside. Raises sqlite3.Error, OtherVersionError, OSError.
 
         ``turn`` and ``wait``: seconds to wait for others that are opening it, and for one that has locked it.
         """
@@ -77,7 +77,7 @@ class Store:
         self.report(f"{text}. They are kept as {quarantine(path, why).name}; new ones are begun.")
 
     def _reopen(self) -> None:
-        """Try once more to open the file; what was saved in memory meanwhile waits in ``_pending``."""
+        """Try once more to open the file; changes made in memory until now wait in ``_pending``."""
         if not self.problem or self.path is None:
             return
         try:
@@ -90,7 +90,7 @@ class Store:
         self.epoch += 1
 
     def rows(self, query: str, values: Sequence[object], kinds: Sequence[type]) -> list[tuple[Any, ...]]:
-        """The rows that a query finds, if their values are of these ``kinds``; damaged rows are left out and reported.
+        """The rows of a query whose values are of these ``kinds``; damaged rows are skipped and reported.
 
         A file that cannot be read has no rows, and is reported; within a transaction this raises sqlite3.Error.
         """
@@ -113,7 +113,7 @@ class Store:
 
     @contextmanager
     def change(self) -> Iterator[sqlite3.Connection]:
-        """One transaction: all of it is on the disk when the block has been left, or nothing of it is.
+        """A transaction: after the block all of it is on the disk, or nothing.
 
         Within another one it is part of that. Raises sqlite3.Error.
         """
@@ -126,7 +126,7 @@ class Store:
             yield self.connection
             self.connection.execute("COMMIT")
         except BaseException:
-            # Some errors, a full disk for one, have ended the transaction already.
+            # Some errors, as a full disk, have ended the transaction already.
             with suppress(sqlite3.Error):
                 self.connection.execute("ROLLBACK")
             raise
@@ -134,9 +134,9 @@ class Store:
             self.epoch += 1
 
     def save(self, work: Work) -> tuple[Sequence[str], str]:
-        """Do ``work`` in a transaction, after all that could not be saved before.
+        """Do ``work`` in a transaction, after all earlier failed saves.
 
-        Gives its notices and ''; or why it is not on the disk, in which case it is tried again with the next save.
+        Gives its notices and ''; or why it is not on the disk: it is then tried again with the next save.
         """
         self._reopen()
         self._pending.append(work)
@@ -149,7 +149,7 @@ class Store:
             return [], self.problem
 
     def defer(self, work: Work) -> None:
-        """Do ``work`` with the next save or ``flush``, for what need not be on the disk at once."""
+        """Do ``work`` with the next save or ``flush``, for changes that may reach the disk later."""
         self._pending.append(work)
 
     def flush(self) -> None:
@@ -166,7 +166,7 @@ class Store:
                 with self.change():
                     notices, problem = self._pending[0](), ""
             except sqlite3.OperationalError as error:
-                # Locked or full: what waits keeps waiting.
+                # Locked or full: the waiting changes stay.
                 return [], str(error)
             except sqlite3.Error as error:
                 notices, problem = [], str(error)

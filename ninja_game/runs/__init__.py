@@ -1,1 +1,1 @@
-"""Whole runs: the result, traces, verification, measurements."""
+"""Whole runs: results, traces, verification, measurements."""

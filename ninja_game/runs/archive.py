@@ -107,7 +107,7 @@ def verify_all(
 
 @dataclass(frozen=True)
 class VerifyOptions:
-    """What results depend on besides their chunks: ``verify_chunk``'s arguments."""
+    """The arguments of ``verify_chunk``: all that results depend on besides their chunks."""
 
     memory: str
     level: Level | None
@@ -157,7 +157,7 @@ def _verify_all(
 
 
 def batched(chunks: Iterable[Chunk], log: CheckpointLog | None, context: str = "") -> Iterator[Job]:
-    """Chunks in jobs of some weight, neighbours together. What the checkpoint log has counts as no work."""
+    """Chunks in jobs of some weight, neighbours together. Chunks in the checkpoint log weigh nothing."""
     batch: list[Chunk] = []
     weight = 0
     for chunk in chunks:
@@ -192,9 +192,9 @@ def _verify_as_text(options: VerifyOptions, job: Job) -> str:
 def _isolate_failing(
     pool: Workers, function: Callable[[Any], Any], jobs: Iterator[Job], read: Callable[[Any, Job], list[list[Result]]]
 ) -> Done:
-    """All jobs with their results; one that kills its workers is done again chunk by chunk, to find the one chunk.
+    """All jobs with their results; one that kills its workers is repeated chunk by chunk, to find the one chunk.
 
-    ``read``: what turns an answer into the results of a job.
+    ``read``: turns an answer into the results of a job.
     """
     for job, results in in_order(pool, function, jobs):
         if isinstance(results, WorkerLostError) and len(job) > 1:
@@ -204,7 +204,7 @@ def _isolate_failing(
 
 
 def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
-    """The results of all jobs, noted in the checkpoint log as they come; what it has already is taken from it."""
+    """The results of all jobs, written to the checkpoint log as they come; earlier ones are read from it."""
     for job, answer in done:
         if isinstance(answer, WorkerLostError):
             yield from (Lost(f"{chunk.file}: {answer}") for chunk in job)
@@ -220,7 +220,7 @@ def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
 
 @dataclass
 class Totals:
-    """Results, counted; of what failed nothing is kept but the number."""
+    """Counts of results; failed ones are not kept."""
 
     recordings: int = 0
     ticks: int = 0
@@ -260,7 +260,7 @@ def write_report(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
     out.write(b'\n], "summary": ' + json.dumps(totals.as_json()).encode() + b"}\n")
 
 
-TRACES = 32  # recordings that a job traces: sending one costs more than a short run
+TRACES = 32  # recordings per tracing job: sending one costs more than a short run
 
 
 def trace_all(

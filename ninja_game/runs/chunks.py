@@ -67,7 +67,7 @@ class Chunk:
 
     @property
     def digest(self) -> str:
-        """Sha256 (hex) of its content and its file's name: of everything in it that its results tell of."""
+        """Sha256 (hex) of its content and its file's name: of everything that its results depend on."""
         return sha256(json.dumps(asdict(self)).encode()).hexdigest()
 
 
@@ -93,7 +93,7 @@ def chunks_in(paths: Iterable[Path], record: int | None = None) -> Iterator[Chun
 
 
 def self_contained(chunk: Chunk, level: Level | None = None) -> Chunk:
-    """The chunk with all files inside that its text takes in; where something is wrong, as it is."""
+    """The chunk with all files inside that its text includes; unchanged if that fails."""
     included: dict[str, IncludedFile] = {}
     if not chunk.records and not chunk.problem:
         with known_files(included, no_more=False):
@@ -131,7 +131,7 @@ def _result(recording: Recording | Unreadable, memory: str, counting: Container[
     try:
         return verify_recording(recording, memory, counting, budget)
     except (BudgetError, DemoError, LevelError, OutOfRangeError, ReplayError) as error:
-        # What is wrong with the run; anything else is wrong here, where then nothing can be judged.
+        # An error of the run; any other one is an error here, and nothing can be judged.
         return Unreadable(str(error))
 
 
@@ -150,7 +150,7 @@ def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result
         if len(all_results) != len(chunks):
             raise ValueError(f"{len(all_results)} answers to {len(chunks)} questions")
         for chunk, results in zip(chunks, all_results, strict=True):
-            # A text that was found in a folder may hold levels alone.
+            # A text that was found in a folder may hold only levels.
             expected_count = 0 if chunk.done else 1 if chunk.problem else len(chunk.records) or int(chunk.named)
             if len(results) != expected_count and (chunk.records or len(results) < expected_count):
                 raise ValueError(f"{len(results)} results of {expected_count}")
@@ -166,7 +166,7 @@ _TYPES = {name: hint for name, hint in get_type_hints(Verdict).items() if name !
 
 
 def result_from_data(data: object) -> Result:
-    """The result that ``asdict`` gave, also after a way through JSON. Raises ValueError for anything else."""
+    """The inverse of ``asdict``, also after JSON. Raises ValueError for anything else."""
     if isinstance(data, dict) and data.keys() == {"message"} and isinstance(data["message"], str):
         return Unreadable(data["message"])
     if not isinstance(data, dict) or data.keys() != {*_TYPES, "problems"}:
@@ -218,7 +218,7 @@ class CheckpointLog:
             raise
 
     def _read(self) -> None:
-        """Note where the results of every finished chunk stand, and cut off what was not finished."""
+        """Index the results of every finished chunk, and cut off an unfinished line."""
         if not lock(self._file.fileno()):
             raise FileError("another program writes this checkpoint log", str(self.path), hint="wait, or name another")
         header = json.dumps(HEADER).encode() + b"\n"
@@ -226,7 +226,7 @@ class CheckpointLog:
         if first == header:
             whole = self._read_chunks(len(header))
         elif not first or (header.startswith(first) and first.startswith(header[:20])):
-            # Empty, or its writer died in the first line; a shorter beginning may be that of anything.
+            # Empty, or its writer died in the first line; any shorter file is not ours.
             whole = 0
         else:
             raise self._bad_line(1, first, f"{json.dumps(HEADER)}; start another file")
@@ -236,7 +236,7 @@ class CheckpointLog:
             self._write(header)
 
     def _read_chunks(self, whole: int) -> int:
-        """Note the chunks of all lines but the first; where the last whole line ends."""
+        """Index the chunks of all lines but the first; the end of the last whole line."""
         number = 1
         while line := self._file.readline(LONGEST_LINE):
             number += 1
@@ -287,7 +287,7 @@ class CheckpointLog:
 
 
 def _parse(line: bytes) -> tuple[str, list[Result]]:
-    """The key and the results of a chunk's line. Raises ValueError where it is none, RecursionError."""
+    """The key and the results of a chunk's line. Raises ValueError for an invalid one, RecursionError."""
     fields = json.loads(line)
     if not isinstance(fields, dict) or fields.keys() != {"chunk", "results"} or not isinstance(fields["results"], list):
         raise ValueError("not the line of a chunk")

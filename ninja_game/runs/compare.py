@@ -1,4 +1,4 @@
-"""Runs side by side: the ticks at which they take gold, touch switches and doors and end, and who leads where."""
+"""Runs side by side: the ticks of gold, switches, doors and the end, and the lead of one over the other."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ SPLIT_EVENTS = tuple(_NAMES)  # the events that are splits (`ninja_game/sim/even
 
 
 Key = tuple[str, int | None, int]
-"""What makes splits of two runs the same: event, id of the object, and which occurrence of it, from 0."""
+"""Identifies a split in several runs: event, id of the object, and which occurrence of it, from 0."""
 
 
 class Split(NamedTuple):
-    """Something that a run reaches: tick, event, id of its object (None: the ninja's own), place in px.
+    """An event of a run: tick, event, id of its object (None: the ninja's own), place in px.
 
     ``number``: how often the same has happened before in this run; automatic doors open again and again.
     """
@@ -62,15 +62,15 @@ class Split(NamedTuple):
 
     @property
     def kind(self) -> str:
-        """What is reached there, without which one."""
+        """The sort of event, without the object."""
         return _NAMES.get(self.event, self.event)
 
 
 @dataclass(frozen=True)
 class RunSplits:
-    """The splits of a run in order, until its end as ``verify`` has it.
+    """The splits of a run in order, until its end as in ``verify``.
 
-    ``positions``: float64 (ticks, 2), px, the ninja after each tick. ``death``: what killed it, in words; "": nothing.
+    ``positions``: float64 (ticks, 2), px, the ninja after each tick. ``death``: its killer, in words; "": none.
     """
 
     recording: Recording = field(repr=False)
@@ -115,11 +115,11 @@ def run_splits(
         ninja = run.ninja
         positions.append((ninja.x, ninja.y))
         for event in run.events:
-            # A ninja may die in the tick in which it touches the exit: it has passed.
+            # A ninja that dies in the tick in which it touches the exit has passed.
             if event.name in events and not (event.name == "died" and run.outcome == "exit"):
                 number = counts.get((event.name, event.object_id), 0)
                 counts[event.name, event.object_id] = number + 1
-                # Who killed is told by traces; runs that die share the split.
+                # Only traces name the killer; runs that die share the split.
                 id_ = None if event.name == "died" else event.object_id
                 splits.append(Split(run.tick - 1, event.name, id_, number, event.x, event.y))
         if run.outcome != "running":
@@ -136,10 +136,10 @@ def run_splits(
 
 
 class SplitRow(NamedTuple):
-    """A row of a table: a split, its tick in each run (None: not reached), and the shortest way to it in ticks.
+    """A row of a table: a split, its tick in each run (None: not reached), and the fastest segment to it in ticks.
 
-    ``best_segment``: the fewest ticks that any run needs from the split of the row before, whatever it reaches in
-    between that is not in the best run; None where no run goes from that one to this one.
+    ``best_segment``: the fewest ticks that any run needs from the split of the row before, whatever else it reaches in
+    between; None if no run goes from that one to this one.
     """
 
     split: Split
@@ -148,7 +148,7 @@ class SplitRow(NamedTuple):
 
 
 def best_run(runs: Sequence[RunSplits]) -> RunSplits:
-    """The run that the others are measured against: the shortest of those that reach the exit, else the longest."""
+    """The run that the others are compared with: the shortest with an exit, else the longest."""
     passed = [run for run in runs if run.outcome == "exit"]
     return min(passed, key=lambda run: run.ticks) if passed else max(runs, key=lambda run: run.ticks)
 
@@ -170,9 +170,9 @@ def split_table(runs: Sequence[RunSplits], best: RunSplits) -> list[SplitRow]:
 
 
 def sum_of_best(rows: Sequence[SplitRow]) -> int:
-    """The tick at which a run would end that goes every segment as fast as the fastest of them.
+    """The end, in ticks, of a run with the fastest of all segments.
 
-    A hint, not a lower bound: the speed with which a run leaves a segment is part of the next one.
+    A hint, not a lower bound: the speed at the end of a segment is part of the next one.
     """
     return sum(row.best_segment for row in rows if row.best_segment is not None)
 
@@ -188,17 +188,17 @@ def _shortest_segments(runs: Sequence[RunSplits], known: Container[Key]) -> dict
     return shortest
 
 
-NEAR = CELL  # how far apart two runs may be at the same place, px: a cell
+NEAR = CELL  # greatest distance of two runs at the same place, px: a cell
 
-MAX_PAIRS = 100_000_000  # most pairs of ticks that are looked at: two runs of four minutes
+MAX_PAIRS = 100_000_000  # most pairs of ticks that are compared: two runs of four minutes
 
 MAX_TOGETHER = 60_000  # most ticks of both: each costs some work by itself
 
 
 class Lead(NamedTuple):
-    """How far one run is ahead of the other at a place (px): their ticks there.
+    """The lead of one run over the other at a place (px): their ticks there.
 
-    ``at``: the split or the marker that both reach there, or "" where it is only a place.
+    ``at``: the split or the marker that both reach there, or "" if it is only a place.
     """
 
     at: str
@@ -220,12 +220,12 @@ class Lead(NamedTuple):
 
 @dataclass(frozen=True)
 class Comparison:
-    """What two runs of a level have in common.
+    """The common events and places of two runs of a level.
 
     ``first_keys``: the first tick with other keys; ``first_place``: the first tick after which the ninja is at another
-    place, or the shorter run is over; None where there is no such tick. ``splits``: the lead at each split that both
+    place, or the shorter run is over; None if there is no such tick. ``splits``: the lead at each split that both
     reach; ``places``: the lead wherever the second run passes within NEAR px of the first, tick by tick of the first.
-    ``positions``: of both, float64 (ticks, 2), px. ``deaths``: what killed each, in words; "": nothing.
+    ``positions``: of both, float64 (ticks, 2), px. ``deaths``: the killers, in words; "": none.
     """
 
     first_keys: int | None
@@ -237,10 +237,10 @@ class Comparison:
 
 
 def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -> Comparison:
-    """Compare two recordings of one level, each until its end as ``verify`` has it.
+    """Compare two recordings of one level, each until its end as in ``verify``.
 
-    Raises ArgumentError for recordings of different levels, and for runs that are too long to be compared place by
-    place; what ``run_splits`` raises.
+    Raises ArgumentError for recordings of different levels, and for runs that are too long to compare place by place;
+    and as ``run_splits`` does.
     """
     if level_digest(ours.level) != level_digest(theirs.level):
         raise ArgumentError(f"{ours.file} and {theirs.file} are recordings of different levels")
@@ -270,10 +270,10 @@ def each_second(places: tuple[Lead, ...]) -> list[Lead]:
 
 
 def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[np.intp]:
-    """For each position of one run, float64 (ticks, 2), the tick at which the other is at the same place; -1: nowhere.
+    """For each position of one run, float64 (ticks, 2), the tick at which the other is at the same place; -1: never.
 
-    Dynamic time warping: of all ways to go through both runs in step, forwards only, the one whose sum of distances is
-    smallest. Raises ArgumentError for more than MAX_PAIRS pairs of ticks, or MAX_TOGETHER ticks.
+    Dynamic time warping: of all ways to step forwards through both runs, the one with the least sum of distances.
+    Raises ArgumentError for more than MAX_PAIRS pairs of ticks, or MAX_TOGETHER ticks.
     """
     n, m = len(ours), len(theirs)
     if n * m > MAX_PAIRS or n + m > MAX_TOGETHER:
@@ -292,7 +292,7 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
         cells[start * (m - 1) + diagonal : (end - 1) * (m - 1) + diagonal + 1 : max(1, m - 1)] = way
         apart = np.hypot(*(ours[start:end] - backwards[start + shift : end + shift]).T)
         costs[start + 1 : end + 1] = np.minimum(both, one) + apart
-        # What the oldest holds beyond the next diagonal is never read, but for the place in front of the first ticks.
+        # Entries of the oldest beyond the next diagonal are never read, except the place in front of the first ticks.
         before[0] = np.inf
         costs, last, before = before, costs, last
     return _nearest_on_path(came_from, ours, theirs)
@@ -301,7 +301,7 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
 def _nearest_on_path(
     came_from: NDArray[np.uint8], ours: NDArray[np.float64], theirs: NDArray[np.float64]
 ) -> NDArray[np.intp]:
-    """Follow the cheapest path back; of each of our ticks the nearest of those that it is paired with."""
+    """Follow the cheapest path back; for each of our ticks the nearest of its partners."""
     i, j = (size - 1 for size in came_from.shape)
     partner = np.full(len(ours), -1)
     smallest = np.full(len(ours), NEAR)
@@ -325,9 +325,9 @@ def _first_unequal(ours: NDArray[np.generic], theirs: NDArray[np.generic]) -> in
 
 @dataclass(frozen=True)
 class LeadTable:
-    """The leads at splits, markers and seconds, by ticks of the first run, and what the runs have in common.
+    """The leads at splits, markers and seconds, by ticks of the first run, and the comparison.
 
-    ``apart``: full seconds of the first run without a row, where the other one does not come near.
+    ``apart``: full seconds of the first run without a row, since the other one is not near there.
     """
 
     rows: tuple[Lead, ...]

@@ -27,9 +27,9 @@ _COMMENT = re.compile(r"(?![^;]*:)[^|;]*;.*")
 
 
 def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> Iterator[str]:
-    """Each recording as a replay text of ours with its level inside, run to see the result of it.
+    """Each recording as our replay text with its level inside, run for its result.
 
-    Raises LevelError for a level that cannot be played, BudgetError for a run that is not over when its ``budget`` is.
+    Raises LevelError for a level that cannot be played, BudgetError for a run that exceeds its ``budget``.
     """
     return (write_replay(recorded_again(recording, budget)) for recording in recordings)
 
@@ -37,9 +37,9 @@ def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> I
 def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
     """A recording as a replay of today with its level; names, markers, how it was made stay. Raises as above.
 
-    The one name of a record of N is its level's maker's: the player stays unknown.
+    The one name in a record of N is its level's author: the player stays unknown.
 
-    One whose claims are no longer so was edited: its text by hand, or its level.
+    If its claims are no longer true, it was edited: its text by hand, or its level.
     """
     old, level, inputs = recording.replay, recording.level, recording.inputs
     with named_errors(recording):
@@ -61,7 +61,7 @@ def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
 def episode_text(recordings: Sequence[Recording], budget: int = RUN_BUDGET) -> str:
     """Recordings, in the order of their levels, as the text of an episode: run again, with the time carried on.
 
-    Raises ReplayError for runs that are not an episode, and what ``replay_texts`` raises.
+    Raises ReplayError for runs that are not an episode, and as ``replay_texts`` does.
     """
     text = write_episode([recorded_again(recording, budget) for recording in recordings])
     for recording, written in zip(recordings, parse_replays(text), strict=True):
@@ -88,9 +88,9 @@ def input_texts(recordings: Iterable[Recording], form: str) -> Iterator[str]:
 
 
 def on_level(recording: Recording, level: Level | None = None) -> Recording:
-    """The inputs of a recording on a level; None: on its own as it is now.
+    """The inputs of a recording on a level; None: on its own level in its present state.
 
-    The same recording where that is the level on which it was made, else one without claims.
+    The same recording if that is the level of the recording, else one without claims.
     """
     there = replace(recording, level=level or recording.level)
     digest, now = level_digest(recording.level), level_digest(there.level)
@@ -116,11 +116,11 @@ def _without_claims(recording: Recording) -> Replay:
 
 
 def level_file_text(texts: Iterable[tuple[str, str]], level: Level | None = None) -> str:
-    """All levels and recordings in texts as one level file of N; ``level``: of recordings that leave theirs out.
+    """All levels and recordings in texts as one level file of N; ``level``: of recordings without one.
 
-    ``texts``: names of files and what they hold.
+    ``texts``: names of files and their contents.
 
-    Raises LevelError, ReplayError or DemoError for what cannot be read, or what such a file cannot hold.
+    Raises LevelError, ReplayError or DemoError for an unreadable text, or one that such a file cannot hold.
     """
     return write_level_file(record for file, text in texts for record in _records(text, file, level))
 
@@ -138,7 +138,7 @@ def _records(text: str, file: str, level: Level | None) -> Iterator[LevelRecord]
 
 
 def left_out(form: str, records: Sequence[NamedLevel | Recording], texts: Sequence[str]) -> list[str]:
-    """Sentences about what a form, as ``convert --to`` names them, cannot hold of what was found in texts."""
+    """Sentences about contents of texts that a form, as ``convert --to`` names them, cannot hold."""
     lost = []
     if form in ("ascii", "string") and any(map(holds_recordings, texts)):
         lost.append("the recordings (--to replay or --to file keeps them)")
@@ -158,11 +158,11 @@ def left_out(form: str, records: Sequence[NamedLevel | Recording], texts: Sequen
 
 
 def _own_comments(text: str) -> bool:
-    """Whether somebody wrote comments into an ASCII level, beside those that we write."""
+    """Whether somebody wrote comments into an ASCII level, besides those that we write."""
     ours = {line.strip() for line in (RULER + legend_text()).splitlines()}
     return any(_COMMENT.fullmatch(line) and line.strip() not in ours for line in text.splitlines())
 
 
 def _rounded(level: Level) -> bool:
-    """Whether a level changes on its way through the in-game string."""
+    """Whether writing a level as an in-game string changes it."""
     return level_digest(parse_level_string(write_level_string(level, exact=True))) != level_digest(level)

@@ -1,11 +1,11 @@
-"""What killed the ninja: its name, and in words."""
+"""The ninja's killers: their names, and in words."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
-from ninja_game.formats.ascii.object_lines import WEAPONS
+from ninja_game.formats.ascii.legend import WEAPONS
 from ninja_game.sim.events import DIED
 from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
 from ninja_game.sim.memory.schema import World
@@ -19,17 +19,17 @@ KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and
 
 
 def _death(events: Sequence[Any]) -> tuple[int, int]:
-    """Cause and killer's slot (0: nobody) of the ninja's death among a tick's events; NO_CAUSE where it did not die."""
+    """Cause and killer's slot (0: nobody) of the ninja's death among a tick's events; NO_CAUSE without a death."""
     return next(((event.cause, event.slot) for event in events if event.kind == DIED), (NO_CAUSE, 0))
 
 
 def cause_of(world: World) -> int:
-    """The cause of the ninja's death in the world's last tick, as in ``sim.states``; NO_CAUSE where it did not die."""
+    """The cause of the ninja's death in the world's last tick, as in ``sim.states``; NO_CAUSE without a death."""
     return _death(world.events[: world.event_count])[0]
 
 
 def killer_of(world: World) -> str:
-    """What killed the ninja in the world's last tick, one of KILLERS."""
+    """The ninja's killer in the world's last tick, one of KILLERS."""
     _, slot = _death(world.events[: world.event_count])
     return _name(world.objects[slot]) if slot else SELF
 
@@ -39,9 +39,9 @@ def _name(killer: Any) -> str:
 
 
 def death_text(events: Sequence[Any], ninja: Any, objects: Sequence[Any]) -> str:
-    """What killed the ninja in a world's last tick, in words; "" where it did not die. All three: that world's.
+    """The ninja's killer in a world's last tick, in words; "" without a death. All three arguments: that world's.
 
-    A killer with its id; of a landing the speed against the floor, px/tick, and the greatest that is survived there.
+    A killer with its id; for a landing the speed against the floor, px/tick, and the greatest survivable one.
     """
     (cause, slot), n = _death(events), ninja
     if slot:
@@ -53,10 +53,10 @@ def death_text(events: Sequence[Any], ninja: Any, objects: Sequence[Any]) -> str
 
 
 def ending_text(outcome: str, tick: int, death: str = "") -> str:
-    """How a run ends, in words. ``tick``: its last one.
+    """The end of a run, in words. ``tick``: its last one.
 
-    >>> ending_text("dead", 96, "mine 12"), ending_text("exit", 219), ending_text("running", 59)
-    ('dead in tick 96: mine 12', 'exit in tick 219', 'still running after 60 ticks')
+    >>> ending_text("dead", 96, "mine 12"), ending_text("exit", 219), ending_text("running", 59) ('dead in tick 96: mine
+    12', 'exit in tick 219', 'still running after 60 ticks')
     """
     if outcome == "running":
         return f"still running after {tick + 1} ticks"

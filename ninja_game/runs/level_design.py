@@ -1,4 +1,4 @@
-"""What makes a level good, as far as it can be counted (docs/good-levels.md), from a level and a run that passes it."""
+"""Countable properties of a good level (docs/good-levels.md), from a level and a run that passes it."""
 
 from __future__ import annotations
 
@@ -21,30 +21,30 @@ from ninja_game.sim.states import LAUNCHER_FLIGHT, TURRET_PRE_FIRE
 
 Points = NDArray[np.float64]  # places, px: (n, 2)
 
-STANDING_TICKS = 400  # how long one stands still at the start: ten seconds
-NEAR = 20.0  # a near miss: so few px between the ninja and what kills
-BAIT = 40.0  # gold so near (px) to where a hazard can be is in danger
-EMPTY = 4 * CELL  # space so far (px) from every object and from the run is not used
-FEW = 6  # fewer pieces are neither even nor in groups
+STANDING_TICKS = 400  # pause at the start: ten seconds
+NEAR = 20.0  # a near miss: fewer px between the ninja and a hazard
+BAIT = 40.0  # gold closer (px) to a possible place of a hazard is in danger
+EMPTY = 4 * CELL  # space farther (px) from every object and from the run is unused
+FEW = 6  # with fewer pieces, evenness is not measured
 BAY = 6, 5  # columns and rows of a bay that may repeat
 
 HAZARDS = [kind for kind in kinds.KINDS if kind.killer]
 RADII = {kind.name: kind.disc or kind.box or 0.0 for kind in HAZARDS}
-"""How far from its place in a trace a hazard kills, px: the shot of a turret and the tip of a rocket are points."""
+"""Distance from its place in a trace at which a hazard kills, px: a turret's shot and a rocket's tip are points."""
 GUNS = {"gauss turret": TURRET_PRE_FIRE, "homing launcher": LAUNCHER_FLIGHT}
-"""Hazards that kill by what they shoot, and their status number while that is under way."""
+"""Hazards that kill by shots, and their status number during a shot."""
 DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)  # right, down, left, up, as a thwump's direction numbers them
-LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}  # what strikes along a line, farther than it goes by itself
+LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}  # hazards that strike along a line
 
 
 class Design(NamedTuple):
-    """The counts of a level. Distances in px, shares from 0 to 1; None: it has too little to be counted.
+    """The counts of a level. Distances in px, shares from 0 to 1; None: too few things to count.
 
-    ``hazard_distance``: from a hazard to the run, the median. ``bait``: the share of the gold that lies where a hazard
-    can be, or in the sight of a gun. ``gold_evenness``, ``mine_evenness``: mean distance to the nearest other piece
-    over what chance would give; above 1 they are strewn evenly. ``bays``: how often the commonest bay of tiles occurs.
+    ``hazard_distance``: from a hazard to the run, the median. ``bait``: the share of the gold near a possible place of
+    a hazard, or in the sight of a gun. ``gold_evenness``, ``mine_evenness``: mean distance to the nearest other piece
+    over the random expectation; above 1 they are evenly strewn. ``bays``: how often the commonest bay of tiles occurs.
     ``unused``: the share of the open space far from every object and from the run. ``detour``: length of the run over
-    the distance from start to exit. ``near_ticks``: the share of the run's ticks within 20 px of what kills.
+    the distance from start to exit. ``near_ticks``: the share of the run's ticks within 20 px of a hazard.
     """
 
     hazard_distance: float | None
@@ -66,11 +66,11 @@ BOUNDS = {
     "unused-space": ("unused", "<=", 0.25),
     "short-trip": ("detour", ">=", 1.6),
 }
-"""What is asked of a count, by the code of the finding: the outer tenths of the reference, or what judges asked for."""
+"""The demanded range of a count, by the code of the finding: the outer tenths of the reference, or the judges' wish."""
 
 
 def design_findings(counts: Design, place: str = "") -> Iterator[PackFinding]:
-    """What a level lacks. ``place``: its file."""
+    """The design findings of a level. ``place``: its file."""
     for code, (name, sign, bound) in BOUNDS.items():
         value = getattr(counts, name)
         if value is not None and (value < bound if sign == ">=" else value > bound):
@@ -115,7 +115,7 @@ def distances(points: Points, others: Points) -> NDArray[np.float64]:
 
 
 def clearance(run: RunTrace) -> NDArray[np.float64]:
-    """The space between the ninja and the nearest thing that kills, after each tick, px: (ticks,)."""
+    """Distance between the ninja and the nearest hazard, after each tick, px: (ticks,)."""
     nearest = np.full(len(run.ninja), np.inf)
     for column, kind in enumerate(run.kinds):
         rows = run.objects[:, column]
@@ -128,7 +128,7 @@ def clearance(run: RunTrace) -> NDArray[np.float64]:
 
 
 def in_danger(level: Level, ground: Ground, still: RunTrace, points: Points) -> NDArray[np.bool_]:
-    """Which points lie within 40 px of where a hazard can be, or in the sight of a gun."""
+    """Which points lie within 40 px of a possible place of a hazard, or in the sight of a gun."""
     by_touch = RADII.keys() - GUNS.keys()
     moving = [rows[::5] for kind, rows in zip(still.kinds, still.objects.T, strict=True) if kind in by_touch]
     reached = [np.column_stack([rows["x"], rows["y"]]) for rows in moving]
@@ -142,7 +142,7 @@ def in_danger(level: Level, ground: Ground, still: RunTrace, points: Points) -> 
 
 
 def lane(ground: Ground, record: ObjectSpec) -> Iterator[tuple[float, float]]:
-    """The places along which a thwump strikes, or a guard runs: steps of half a cell up to the rock."""
+    """The places where a thwump strikes or a guard runs: steps of half a cell up to the rock."""
     x, y = record.values[:2]
     is_guard = record.kind == kinds.FLOOR_GUARD
     for dx, dy in [(1, 0), (-1, 0)] if is_guard else [DIRECTIONS[int(record.values[2]) % 4]]:
@@ -163,7 +163,7 @@ def in_sight(ground: Ground, gun: Sequence[float], point: Sequence[float]) -> bo
 
 
 def evenness(points: Points, room: float) -> float | None:
-    """Mean distance to the nearest other piece over that of pieces placed by chance (Clark and Evans, 1954)."""
+    """Mean distance to the nearest other piece over that of randomly placed pieces (Clark and Evans, 1954)."""
     if len(points) < FEW:
         return None
     apart = np.hypot(*(points[:, None] - points[None]).transpose(2, 0, 1))
@@ -184,7 +184,7 @@ def most_bays(level: Level) -> int:
 
 
 def _apart(cells: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
-    """As many of the blocks at these cells as do not overlap, from the left."""
+    """The number of the blocks at these cells without overlaps, from the left."""
     kept: list[tuple[int, int]] = []
     for i, j in cells:
         if all(abs(i - a) >= BAY[0] or abs(j - b) >= BAY[1] for a, b in kept):

@@ -1,4 +1,4 @@
-"""Packs: their certificates, the pars that are made of them, and what is odd about a pack, for its maker."""
+"""Packs: their certificates, the pars made from them, and findings for the pack's maker."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from ninja_game.runs.verify import Verdict, verify_recording, with_demands
 from ninja_game.sim.level import Level
 
 _verdict = lru_cache(maxsize=1024)(verify_recording)
-"""A pack's certificates are asked for by each of the checks here, and again after each change of the pack."""
+"""Each of the checks here needs a pack's certificates, and again after each change of the pack."""
 
 
 @dataclass(frozen=True)
 class Certificate:
-    """A replay that shows what can be done in a level. ``kind``: "exit", or "gold" for one with all gold."""
+    """A replay that proves something about a level. ``kind``: "exit", or "gold" for one with all gold."""
 
     place: str
     kind: str
@@ -41,7 +41,7 @@ class Certificate:
 
     @property
     def problems(self) -> list[str]:
-        """Why it certifies nothing; empty where it does."""
+        """Why it certifies nothing; empty if it does."""
         digest = level_digest(self.level)
         verdict = with_demands(self.verdict, {digest: self.place}, only_these=True, strict=True)
         if verdict.level_digest != digest:
@@ -56,7 +56,7 @@ class Certificate:
 def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
     """The certificate of a level file, or None.
 
-    Raises ReplayError, or another NinjaGameError, where it cannot be read.
+    Raises ReplayError, or another NinjaGameError, if it cannot be read.
     """
     name = pack.certificate(file, kind)
     if name is None:
@@ -79,8 +79,8 @@ def is_certified(pack: Pack, file: str, kind: str) -> bool:
 def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
     """The pars of every level file with a sound certificate to the exit, one after another.
 
-    What is in the pack's table and still right is not measured again. ``tries``: as ``difficulty`` has them, 0 for no
-    difficulty. Raises what ``certificate`` raises.
+    Valid entries of the pack's table are not measured again. ``tries``: as of ``difficulty``, 0 for no difficulty.
+    Raises as ``certificate`` does.
     """
     known = pack.read_pars()
     for file, named in pack.levels.items():
@@ -116,14 +116,14 @@ def file_of(pack: Pack, finding: PackFinding) -> str:
 
 
 def level_of(pack: Pack, file: str) -> str:
-    """The level file that a file is, or of which it is a certificate; else the file."""
+    """The level file that a file is, or that it certifies; else the file."""
     return next((level for level in pack.files.levels for kind in KINDS if certificate_name(level, kind) == file), file)
 
 
 def lint(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> Iterator[PackFinding]:
     """Every finding that the pack does not accept; none for a proper pack.
 
-    ``with_design``: what its levels lack, too (docs/good-levels.md); ``with_gold``: no run with all gold, too.
+    ``with_design``: with design findings (docs/good-levels.md); ``with_gold``: with missing runs for all gold.
     """
     unasked = {*(() if with_design else DESIGN_RULES), *(() if with_gold else ("no-gold-run",))}
     open_ones = {(finding.file, finding.code): finding for finding in pack.index.accepted}
@@ -187,7 +187,7 @@ def _about_index(pack: Pack) -> Iterator[PackFinding]:
 
 
 def _about_levels(pack: Pack) -> Iterator[PackFinding]:
-    names: dict[str, str] = {}  # as people tell them apart
+    names: dict[str, str] = {}  # as people read them
     levels: dict[str, str] = {}
     places: dict[str, str] = {}
     for file, named in pack.levels.items():

@@ -1,4 +1,4 @@
-"""Recordings out of files and folders, in order; what cannot be read is reported and does not stop the rest."""
+"""Recordings from files and folders, in order; unreadable ones are reported and do not stop the rest."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from ninja_game.formats.replay.text import is_replay
 from ninja_game.sim.level import Level
 
 _MEANT_AS_DEMO = re.compile(r"[-+]?[0-9.]++\s*+:|(?=\S++\Z)([^|:]*+[|:]|A[A-Za-z]*+[^A-Za-z])")
-"""What stands in a demo's place and is none, but looks like one: not the free text of level files."""
+"""A malformed demo in a demo's place: not the free text of level files."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ _level = lru_cache(LEVELS_KEPT)(parse_level_string)
 def recording_of_text(
     text: str, file: str, level: Level | None = None, *, named: bool
 ) -> Iterator[Recording | Unreadable]:
-    """What a text without records holds: a replay of ours, a bare demo; nothing for levels that were not named."""
+    """The recordings of a text without records: our replay, a bare demo; none for levels that were not named."""
     try:
         yield from parse_replays(text, file=file, level=level)
     except NinjaGameError as error:

@@ -44,8 +44,8 @@ class RunResult:
 
     ``outcome``: "exit", "dead" or "running"; ``end_tick``: the tick of that contact or death, -1 while running;
     ``places``: the ninja after each tick, x and y in turn as little-endian float64, px; ``state_numbers``: a byte each.
-    ``in_time``: the lifetime never ran out (game.md §1.1). ``digest``: of what the world shows after the last tick, as
-    replays have it, where it was asked for. ``death``: what killed the ninja, in words, "" where it did not die.
+    ``in_time``: the lifetime never ran out (game.md §1.1). ``digest``: of the world after the last tick, as in replays,
+    if requested. ``death``: the ninja's killer, in words, "" without a death.
     """
 
     outcome: str
@@ -58,7 +58,7 @@ class RunResult:
 
     @property
     def ticks(self) -> int:
-        """How many ticks were run."""
+        """The number of simulated ticks."""
         return len(self.state_numbers)
 
     @property
@@ -76,7 +76,7 @@ class RunResult:
         return np.frombuffer(self.state_numbers, np.uint8)
 
     def waypoint(self, tick: int) -> Waypoint:
-        """Where the ninja was after a tick, and in which state."""
+        """The ninja's place and state after a tick."""
         x, y = _little_endian(array("d", self.places[16 * tick : 16 * (tick + 1)]))
         return Waypoint(tick, x, y, STATE_NAMES[self.state_numbers[tick]])
 
@@ -153,7 +153,7 @@ def run_in_slices(
     in_time = True
     while world.tick() < most and not world.outcome():
         world = switch_to_compiled(world, memory, most - world.tick())
-        # Up to the tick at which the lifetime would run out without more gold; nothing else can be too late.
+        # Up to the tick at which the lifetime would run out without more gold; later ticks cannot be in time.
         deadline = lifetime + GOLD_BONUS * world.gold()
         in_time = in_time and world.tick() < deadline
         end = min(most, deadline) if in_time else most

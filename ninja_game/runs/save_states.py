@@ -16,9 +16,9 @@ FEWEST_STATES = 10  # that there may be even of the largest level and run
 
 
 class SaveStates(Generic[State]):
-    """The save-states of one run, by tick. ``first``: its start, always kept. ``spacing`` 0: nothing else is kept.
+    """The save-states of one run, by tick. ``first``: its start, always kept. ``spacing`` 0: only the start is kept.
 
-    ``values``: about how many numbers a state holds; of large ones there are fewer.
+    ``values``: about how many numbers a state holds; fewer large ones are kept.
     """
 
     def __init__(self, tick: int, first: State, *, spacing: int = SPACING, values: int = 0) -> None:
@@ -50,7 +50,7 @@ class SaveStates(Generic[State]):
         return self._ticks[at], self._states[at]
 
     def forget_after(self, tick: int) -> None:
-        """Drop the states after a tick: from there the run goes another way."""
+        """Drop the save-states after a tick: the inputs differ from there on."""
         keep = self._at(tick) + 1
         del self._ticks[keep:], self._states[keep:]
 

@@ -42,7 +42,7 @@ OBJECT_RECORD = np.dtype([("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
 
 MAX_CELLS = 8_000_000  # most objects times ticks in a trace: some 330 MB while it is made
 
-BLOCK = 256  # ticks that are traced at a time where the end of the run is not known
+BLOCK = 256  # ticks traced at a time if the end of the run is unknown
 
 
 @dataclass(frozen=True)
@@ -80,10 +80,10 @@ def trace_recording(
     events: bool = False,
     budget: int = RUN_BUDGET,
 ) -> RunTrace:
-    """The trace of a recording: of exactly ``ticks`` ticks, else until its end as ``verify`` has it and ``after`` more.
+    """The trace of a recording: of exactly ``ticks`` ticks, else until its end as in ``verify`` and ``after`` more.
 
-    Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that costs more
-    work than its ``budget``.
+    Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that exceeds its
+    ``budget`` of work.
     """
     with named_errors(recording):
         inputs = recording.replay.playback(min(recording.ticks + after, MAX_TICKS) if ticks is None else ticks)
@@ -111,10 +111,10 @@ def trace_level(
     after: int | None = None,
     budget: int = NO_LIMIT,
 ) -> RunTrace:
-    """Run all of ``inputs``, whatever happens, and record the ninja after each tick (canonical numbers).
+    """Run all of ``inputs``, past any end, and record the ninja after each tick (canonical numbers).
 
-    ``with_objects``: record objects too. ``events``: record the names of what happens. ``after``: end so many ticks
-    behind the first exit contact or death. Raises what ``run_level`` does.
+    ``with_objects``: record objects too. ``events``: record the names of events. ``after``: end that many ticks behind
+    the first exit contact or death. Raises as ``run_level`` does.
     """
     inputs = inputs_of(inputs)
     check_inputs(inputs)
@@ -176,7 +176,7 @@ def object_rows(record: TraceArrays, count: int) -> NDArray[np.void]:
 
 
 def switched_doors(record: TraceArrays, count: int) -> NDArray[np.uint8]:
-    """Whether each object is a door that is not as it began: an automatic or locked one open, a trap closed."""
+    """Whether each object is a door in its changed state: an automatic or locked one open, a trap closed."""
     return np.frombuffer(record.switched, np.uint8).reshape(len(record.numbers) // len(TRACED_INTS), count)
 
 
@@ -200,7 +200,7 @@ class TraceDigests:
 
 
 def trace_digests(trace: RunTrace) -> TraceDigests:
-    """The digests that tell whether two runs are the same in every bit."""
+    """The digests that identify a run to the last bit."""
     ticks = len(trace.ninja)
     ninja = trace.ninja.tobytes()
     widths = NINJA_RECORD.itemsize, OBJECT_RECORD.itemsize * len(trace.ids)
@@ -215,7 +215,7 @@ def trace_digests(trace: RunTrace) -> TraceDigests:
 
 @dataclass(frozen=True)
 class Difference:
-    """Where two traces part: the first tick, and in it the first object and field."""
+    """The first difference of two traces: the tick, and in it the first object and field."""
 
     tick: int
     subject: str
@@ -232,8 +232,7 @@ class Difference:
 def first_difference(ours: RunTrace, theirs: RunTrace, section: str = "") -> Difference | None:
     """The first tick, object and field that differ, None if nothing does.
 
-    Objects are compared where both traces have objects at all; ``section`` of the specification is carried into the
-    report.
+    Objects are compared if both traces have objects; ``section`` of the specification is copied into the report.
     """
     with_objects = bool(ours.ids and theirs.ids)
     if with_objects and (ours.ids, ours.kinds) != (theirs.ids, theirs.kinds):

@@ -34,13 +34,13 @@ MOST_BYTES = 2**28  # the largest CSV, or all arrays of a .npz: a million ticks 
 
 _KEYS = (("L", Input.LEFT), ("R", Input.RIGHT), ("J", Input.JUMP_HELD), ("!", Input.JUMP_PRESSED))
 
-ZIPPED = b"PK"  # what a .npz begins with
+ZIPPED = b"PK"  # the first bytes of a .npz
 
 _UNREADABLE = (*UNREADABLE, csv.Error)
 
 
 class FiledTrace(NamedTuple):
-    """A trace, and which record of which name and file it was made from; ``inputs``: one byte per tick.
+    """A trace with the name, file and record of its recording; ``inputs``: one byte per tick.
 
     ``comment``: of the recording; files of traces do not hold it.
     """
@@ -127,7 +127,7 @@ def _read_run(table: Iterable[Mapping[str, str]], record: int, file: str) -> Fil
 
 
 def _checked(**fields: Any) -> RunTrace:
-    """The trace of these fields. Raises ValueError where they are not those of one run."""
+    """The trace of these fields. Raises ValueError if they are not those of one run."""
     run = RunTrace(**fields)
     ticks, columns = len(run.ninja), len(run.ids)
     if run.objects.shape != (ticks, columns) or len(run.kinds) != columns or len(run.events) not in (0, ticks):
@@ -167,7 +167,7 @@ def read_npz(data: IO[bytes], path: Path) -> Iterator[FiledTrace]:
 
 
 def _read_arrays(archive: ZipFile, arrays: Mapping[str, ZipInfo], number: int) -> FiledTrace:
-    """One run. Raises an error of ``_UNREADABLE`` where its arrays are none or do not fit each other."""
+    """One run. Raises an error of ``_UNREADABLE`` if its arrays are invalid or do not fit each other."""
 
     def array(name: str, dtype: DTypeLike = np.str_) -> NDArray[Any]:
         dimensions = 1 + (dtype is OBJECT_RECORD)
@@ -185,7 +185,7 @@ def _read_arrays(archive: ZipFile, arrays: Mapping[str, ZipInfo], number: int) -
 
 
 def is_trace(path: Path) -> bool:
-    """Whether a file is a trace, by what it begins with. Raises FileError for what is not a regular file; OSError."""
+    """Whether a file is a trace, by its first bytes. Raises FileError for anything but a regular file; OSError."""
     with open_regular(path) as file:
         return file.readline(len(COLUMNS[0]) + 1).startswith((f"{COLUMNS[0]},".encode(), ZIPPED))
 

@@ -1,7 +1,7 @@
-"""Verification: a recording is run again, and what comes out is compared with what it claims.
+"""Verification: a recording is run again, and the result is compared with its claims.
 
 A recording of N (``$name#author#comment#level#demo#``) claims to reach the exit. A replay of ours claims an outcome, a
-final tick, gold and the digest of the world after that tick. Inputs alone are trusted, results are always recomputed.
+final tick, gold and the digest of the world after that tick. Only inputs are trusted, results are always recomputed.
 """
 
 from __future__ import annotations
@@ -33,13 +33,13 @@ STRICT = {
     "practice": False,
     "complete": True,
 }
-"""What a strict verdict demands of its fields, besides a level that counts."""
+"""The fields of a strict verdict, besides a level that counts."""
 
 NOT_RUN = "not run"  # the outcome of a run that was not simulated, since its level does not count
 
 
 class OutOfRangeError(NinjaGameError):
-    """A run led out of the arrays of its world: it is not judged, and the program is at fault."""
+    """A run read outside of the arrays of its world: it is not judged, and the program is at fault."""
 
 
 @dataclass(frozen=True)
@@ -90,11 +90,11 @@ class Verdict:
 
     @property
     def good(self) -> bool:
-        """Whether the run did what its file says."""
+        """Whether the run does what its file claims."""
         return not self.problems
 
     def as_json(self) -> dict[str, Any]:
-        """The fields for programs; where there are problems, also these in words and their ``codes``."""
+        """The fields for programs; with problems, also these in words and their ``codes``."""
         fields = {name: value for name, value in vars(self).items() if name != "problems"}
         if not self.problems:
             return fields
@@ -181,10 +181,10 @@ def verify_in_slices(
 def with_demands(
     verdict: Verdict, levels: Mapping[str, str], episodes: Container[str] = (), *, only_these: bool, strict: bool
 ) -> Verdict:
-    """The verdict with the name of its level and with what is demanded of it beyond its own claims.
+    """The verdict with the name of its level and with the demands on it beyond its own claims.
 
     ``levels``: the names of the levels that count, by digest; ``episodes``: the keys of those that count;
-    ``only_these``: a run on any other level is a problem; ``strict``: so is each field that is not as STRICT has it.
+    ``only_these``: a run on any other level is a problem; ``strict``: so is each field that differs from STRICT.
     """
     demanded = []
     if (only_these or strict) and verdict.level_digest not in levels:
@@ -212,7 +212,7 @@ def _ending(recording: Recording, run: RunResult) -> str:
 
 
 def _broken_claims(replay: Replay, run: RunResult) -> Iterator[RunProblem]:
-    """What a replay of ours says and is not so: the first waypoint that is missed, then what its last tick claims."""
+    """False claims of our replays: the first missed waypoint, then the claims about its last tick."""
     if replay.rules != RULES_VERSION:
         yield run_problem("other-rules", rules=replay.rules, now=RULES_VERSION)
     yield from _missed_waypoint(replay, run)

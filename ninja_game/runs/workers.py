@@ -1,8 +1,8 @@
-"""One way to run many jobs, in order, on threads, on processes or on a cluster; workers that die lose nothing.
+"""Runs many jobs, in order, on threads, on processes or on a cluster; no job is lost with a worker that dies.
 
 All three are `concurrent.futures` underneath or look like it: ``submit`` gives a future, results come in the order of
-the jobs, and only so many jobs are in flight as keep the workers busy. So memory stays bounded, every result is taken
-exactly once, and what comes out does not depend on who did it.
+the jobs, and only enough jobs are in flight to keep the workers busy. So memory stays bounded, every result is taken
+exactly once, and the results do not depend on the workers.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ R = TypeVar("R")
 
 AHEAD = 4  # jobs in flight for each worker: enough that none waits
 
-TRIES = 3  # how often a job may take a process with it before it is given up; a cluster's scheduler counts by itself
+TRIES = 3  # times that a job may kill a process before it is given up; a cluster's scheduler counts by itself
 
-WORKER_BYTES = 2 << 30  # memory of a worker process, where the system has such limits
+WORKER_BYTES = 2 << 30  # memory of a worker process, on systems with such limits
 JOB_SECONDS = 3600  # processor time of one job there
 
 PATIENCE = 30  # seconds to wait for a cluster's first worker
@@ -50,8 +50,8 @@ class WorkerLostError(NinjaGameError):
 class Local:
     """Threads or processes of this machine.
 
-    ``count``: jobs that run at a time; ``lost``: what is raised when a worker died; ``tries``: a job that is lost so
-    often is given up.
+    ``count``: jobs that run at a time; ``lost``: raised when a worker died; ``tries``: losses after which a job is
+    given up.
     """
 
     lost: tuple[type[BaseException], ...] = (BrokenProcessPool, MemoryError)
@@ -81,7 +81,7 @@ class Local:
                 return self._executor.submit(function, job)
 
     def renew(self) -> None:
-        """Start new processes instead of a pool of which one died."""
+        """Start new processes instead of a pool with a dead one."""
         self._executor.shutdown(wait=False)
         self._executor = self._start()
 
@@ -97,7 +97,7 @@ class Local:
 
 @contextmanager
 def _safe_path() -> Iterator[None]:
-    """What is started meanwhile imports nothing from the current folder."""
+    """Processes started in the block import nothing from the current folder."""
     before = os.environ.get("PYTHONSAFEPATH")
     os.environ["PYTHONSAFEPATH"] = "1"
     try:
@@ -111,8 +111,8 @@ def _safe_path() -> Iterator[None]:
 def _begin_worker() -> None:
     """Prepare a worker process.
 
-    Ctrl-C goes to all processes of a terminal; one that it hits between two jobs would keep the pool from ending, so
-    only the parent listens to it. When that is gone, however it ended, the worker ends too.
+    Ctrl-C goes to all processes of a terminal; one hit between two jobs would keep the pool from ending, so only the
+    parent listens to it. When the parent is gone, the worker ends too.
     """
     _set_limit("RLIMIT_DATA", WORKER_BYTES)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -120,13 +120,13 @@ def _begin_worker() -> None:
 
 
 def _in_limits(function: Callable[[J], R], job: J) -> R:
-    """``function(job)`` in a worker process, which ends where that takes too long."""
+    """``function(job)`` in a worker process, which ends if that takes too long."""
     _set_limit("RLIMIT_CPU", int(time.process_time()) + JOB_SECONDS)
     return function(job)
 
 
 def _set_limit(name: str, most: int) -> None:
-    """Lower a limit of this process for good or for a job, where the system has it; the hard limit stays."""
+    """Lower a limit of this process for good or for a job, if the system has it; the hard limit stays."""
     with suppress(ImportError, AttributeError, OSError, ValueError):
         import resource
 
@@ -155,7 +155,7 @@ class Cluster:
         except ImportError:
             raise ClusterError(f"a cluster needs Dask distributed; {install_hint('cluster')}") from None
         self.lost: tuple[type[BaseException], ...] = (KilledWorker,)
-        # What it has to say comes as exceptions.
+        # Its messages come as exceptions.
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         try:
             connect: Any = Client
@@ -177,7 +177,7 @@ class Cluster:
         return self._client.submit(function, job, pure=False)
 
     def renew(self) -> None:
-        """Nothing: the scheduler knows the workers that are left."""
+        """Do nothing: the scheduler knows the workers that are left."""
 
     def close(self) -> None:
         self._client.close()
@@ -213,7 +213,7 @@ def in_order(pool: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> It
         try:
             result = future.result()
         except pool.lost:
-            # Whose fault it was is not known: this job goes again alone, then all that fell with it.
+            # The cause is unknown: this job runs again alone, then all that were lost with it.
             result = _retry(pool, function, job)
             flying = deque((job, _kept(pool, function, job, future)) for job, future in flying)
         yield job, result

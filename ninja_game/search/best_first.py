@@ -41,7 +41,7 @@ from ninja_game.search.nodes import (
     random_below,
 )
 from ninja_game.search.states import Goal, estimate, find_entry, gold_hash, is_done, is_new, key_of, switch_state_of
-from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.declare import fast, kernel
 from ninja_game.sim.memory.schema import Ninja
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import JUMPING, OUTCOME_DEAD, OUTCOME_EXIT, OUTCOME_RUNNING
@@ -61,7 +61,7 @@ SURVIVAL = 60
 MORE, EXHAUSTED, OUT_OF_NODES = 0, 1, 2  # how a slice of a search ended
 
 
-@entry_point
+@kernel
 def add_root(start: Start, arrays: SearchArrays, goal: Goal, resolution: Resolution) -> None:
     """Make the scratch world a node from which the search begins."""
     w = start.worlds[1]
@@ -84,12 +84,12 @@ def add_root(start: Start, arrays: SearchArrays, goal: Goal, resolution: Resolut
     push(index, 0.0 + w.tick, arrays)
 
 
-@entry_point
+@kernel
 def load_node(start: Start, arrays: SearchArrays, index: int) -> None:
     load_state(start.scratch, start.initial, arrays.nodes[index], arrays)
 
 
-@entry_point
+@kernel
 def expand(
     start: Start,
     arrays: SearchArrays,

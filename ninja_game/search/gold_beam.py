@@ -29,7 +29,7 @@ from ninja_game.search.legs import (
 from ninja_game.search.nodes import PASSES, Resolution, Start
 from ninja_game.search.searching import Search
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bit
-from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.declare import kernel
 from ninja_game.sim.world import step
 
 BEAM_LEGS = (
@@ -60,7 +60,7 @@ HOPE = 1.1
 """A pass ends where the estimated ticks exceed those of the best run by this share."""
 
 
-@entry_point
+@kernel
 def play_on(start: Start, keys: int) -> None:
     w = start.worlds[1]
     step(start.levels[0], w, with_press_bit(keys & KEYS_DOWN, w.ninja.jump_held))

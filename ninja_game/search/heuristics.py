@@ -16,7 +16,7 @@ from ninja_game.backend.memories import compiled_if_possible
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.declare import fast, kernel
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import AUTOMATIC, LOCKED
@@ -48,7 +48,7 @@ Costs = NDArray[np.float32]
 Blocks = NDArray[np.uint8]
 
 
-@entry_point
+@kernel
 def free_points(levels: Any, costs: Costs) -> None:
     """Set the cost factor of every point: 1 where the ninja fits among the tiles, 0 where it does not."""
     level = levels[0]
@@ -65,7 +65,7 @@ def free_points(levels: Any, costs: Costs) -> None:
         costs[point] = 1.0 if free else 0.0
 
 
-@entry_point
+@kernel
 def spread(costs: Costs, blocked: Blocks, field: DistanceField, queue: NDArray[np.int32], waiting: Blocks) -> None:
     """Lower ``field`` (ticks, UNREACHED where unknown) to the shortest way to the points that are set already.
 
@@ -369,7 +369,7 @@ def open_mask(w: World, slots: Any) -> int:
     return open_bits(w, slots, 0, len(slots))
 
 
-@entry_point
+@kernel
 def open_mask_at(worlds: Any, index: int, slots: Any) -> int:
     """The switch state over all ``slots`` of world ``index``."""
     return open_bits(worlds[index], slots, 0, len(slots))

@@ -16,7 +16,7 @@ from ninja_game.batch.batch import Keys
 from ninja_game.search.heuristics import UNREACHED, open_mask
 from ninja_game.search.nodes import Start, copy_words
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bit
-from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.declare import fast, kernel
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_RUNNING
 from ninja_game.sim.world import step
@@ -61,7 +61,7 @@ def note(run: KnownRun, w: World, switch_slots: NDArray[np.int64]) -> None:
     run.gold[w.tick] = w.gold
 
 
-@entry_point
+@kernel
 def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], until: int, noted: int) -> int:
     """Play the run's keys from the start to before tick ``until``, noted if that is 1; the ticks played."""
     w = start.worlds[1]

@@ -19,7 +19,7 @@ from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.nodes import MUTATIONS, RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
+from ninja_game.sim.memory.declare import f8, fast, i8, kernel, struct
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 from ninja_game.sim.world import step
@@ -161,7 +161,7 @@ def score_of(w: World) -> float:
     return float(w.tick) - 0.99 * (1.0 - nearest / 22.0)
 
 
-@entry_point
+@kernel
 def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
     """Play the current run on from the checkpoint at or before ``tick``: its path and checkpoints; its ticks.
 
@@ -233,7 +233,7 @@ def make_trial(runs: Runs, capacity: int) -> tuple[int, int]:
     return tick, shift
 
 
-@entry_point
+@kernel
 def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget: int) -> None:
     """Try mutations of the current run until about ``budget`` ticks were played."""
     w = start.worlds[1]

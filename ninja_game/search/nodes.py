@@ -19,7 +19,7 @@ from ninja_game.backend.layout import STATE_START, Records, dtype_of, new_worlds
 from ninja_game.backend.memories import compiled
 from ninja_game.search.heuristics import UNREACHED
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.declare import entry_point, f4, fast, i4, i8, struct, struct_base
+from ninja_game.sim.memory.declare import f4, fast, i4, i8, kernel, struct, struct_base
 
 StateWords = NDArray[np.int64]
 Int32s = NDArray[np.int32]
@@ -230,7 +230,7 @@ def clear(arrays: Any) -> None:
     arrays.counters[0].best_node = -1
 
 
-@entry_point
+@kernel
 def back_up_values(table: Sequence[TableEntry], links: Sequence[Link], count: int, sweeps: int) -> int:
     """Set ``value`` of all entries to the least ticks to the exit over the first ``count`` links; the sweeps made.
 
@@ -286,8 +286,7 @@ def keep_state(words: StateWords, initial: StateWords, node: Node, arrays: Searc
             arrays.chunk_index[place] = k
             arrays.chunk_value[place] = words[k]
             count += 1
-    if first >= 0:
-        arrays.chunk_next[chunk] = -1
+    arrays.chunk_next[chunk] = -1
     node.chunk = first
     node.words = count
     return True

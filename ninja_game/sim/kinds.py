@@ -1,4 +1,4 @@
-"""The kinds of objects, once: number, name, record, fields, rules, contact. Numbers, names and tables derive from here.
+"""The kinds of objects, once: number, name, record, fields, contact. Numbers, names and tables derive from here.
 
 How to add one: docs/new-kind.md.
 """
@@ -23,20 +23,18 @@ class Kind(NamedTuple):
 
     ``number``: its type number in level strings, below 0 for what only the game makes. ``name``: as people read it.
     ``value_count``: how many values a record needs; any other number makes an inert object (objects.md §2.1).
-    ``fields``: its class in the schema. ``rules``: which of the dispatching functions know it: create, touch, update,
-    think, idle, status. ``disc`` or ``box``: radius or half side, px, of what the ninja touches; neither: nothing. That
-    of a door is an automatic door's: the others are opened or shut by a switch of ``rules.DOOR_SWITCH_RADIUS``.
-    ``killer``: what it is called when it kills ("": it does not). ``by_touch``: it kills who touches it. ``moves``: it
-    is drawn where it goes, not once on the wall. ``traced``: whether traces show it. ``used``: the field that tells
-    that it was taken, set off, opened or switched, if any. ``cost``: the most work that it is in a tick; more than one
-    where it casts rays or never sleeps.
+    ``fields``: its class in the schema. ``disc`` or ``box``: radius or half side, px, of what the ninja touches;
+    neither: nothing. That of a door is an automatic door's: the others are opened or shut by a switch of
+    ``rules.DOOR_SWITCH_RADIUS``. ``killer``: what it is called when it kills ("": it does not). ``by_touch``: it kills
+    who touches it. ``moves``: it is drawn where it goes, not once on the wall. ``traced``: whether traces show it.
+    ``used``: the field that tells that it was taken, set off, opened or switched, if any. ``cost``: the most work that
+    it is in a tick; more than one where it casts rays or never sleeps.
     """
 
     number: int
     name: str
     value_count: int
     fields: type
-    rules: tuple[str, ...]
     disc: float | None = None
     box: float | None = None
     killer: str = ""
@@ -48,45 +46,30 @@ class Kind(NamedTuple):
 
 
 KINDS = (
-    Kind(GOLD, "gold", 2, fields.Gold, ("create", "touch", "idle", "status"), disc=rules.GOLD_RADIUS, used="taken"),
+    Kind(GOLD, "gold", 2, fields.Gold, disc=rules.GOLD_RADIUS, used="taken"),
+    Kind(BOUNCE_BLOCK, "bounce block", 2, fields.BounceBlock, box=rules.BLOCK_HALF, moves=True),
+    Kind(LAUNCH_PAD, "launch pad", 4, fields.LaunchPad, disc=rules.PAD_RADIUS),
+    Kind(TURRET, "gauss turret", 2, fields.Turret, killer="gauss turret", moves=True, cost=10),
     Kind(
-        BOUNCE_BLOCK, "bounce block", 2, fields.BounceBlock, ("create", "touch", "update", "think", "status"),
-        box=rules.BLOCK_HALF, moves=True,
-    ),
-    Kind(LAUNCH_PAD, "launch pad", 4, fields.LaunchPad, ("create", "touch"), disc=rules.PAD_RADIUS),
-    Kind(
-        TURRET, "gauss turret", 2, fields.Turret, ("create", "update", "think", "idle", "status"),
-        killer="gauss turret", moves=True, cost=10,
-    ),
-    Kind(
-        FLOOR_GUARD, "floor guard", 3, fields.FloorGuard, ("create", "touch", "update", "idle", "status"),
+        FLOOR_GUARD, "floor guard", 3, fields.FloorGuard,
         disc=rules.GUARD_RADIUS, killer="floor guard", by_touch=True, moves=True, cost=2,
     ),
-    Kind(NINJA, "ninja", 2, fields.Header, (), traced=False),
+    Kind(NINJA, "ninja", 2, fields.Header, traced=False),
     Kind(
-        DRONE, "drone", 6, fields.Drone, ("create", "touch", "update", "think", "idle", "status"),
+        DRONE, "drone", 6, fields.Drone,
         disc=rules.DRONE_RADIUS, killer="zap drone", by_touch=True, moves=True, cost=2,
     ),
-    Kind(ONE_WAY, "one-way platform", 3, fields.OneWay, ("create", "touch"), box=rules.ONE_WAY_HALF),
+    Kind(ONE_WAY, "one-way platform", 3, fields.OneWay, box=rules.ONE_WAY_HALF),
+    Kind(THWUMP, "thwump", 3, fields.Thwump, box=rules.THWUMP_HALF, killer="thwump", by_touch=True, moves=True, cost=2),
+    Kind(DOOR, "door", 9, fields.Door, disc=rules.AUTOMATIC_DOOR_RADIUS, used="switched"),
     Kind(
-        THWUMP, "thwump", 3, fields.Thwump, ("create", "touch", "update", "status"),
-        box=rules.THWUMP_HALF, killer="thwump", by_touch=True, moves=True, cost=2,
-    ),
-    Kind(
-        DOOR, "door", 9, fields.Door, ("create", "touch", "update", "idle", "status"),
-        disc=rules.AUTOMATIC_DOOR_RADIUS, used="switched",
-    ),
-    Kind(
-        LAUNCHER, "homing launcher", 2, fields.Launcher, ("create", "touch", "update", "think", "idle", "status"),
+        LAUNCHER, "homing launcher", 2, fields.Launcher,
         disc=rules.ROCKET_RADIUS, killer="homing rocket", by_touch=True, moves=True, cost=10,
     ),
-    Kind(EXIT, "exit", 4, fields.Exit, ("create", "touch", "idle", "status"), disc=rules.EXIT_RADIUS, used="is_open"),
-    Kind(
-        MINE, "mine", 2, fields.Mine, ("create", "touch", "status"),
-        disc=rules.MINE_RADIUS, killer="mine", by_touch=True, used="exploded",
-    ),
-    Kind(SWITCH, "exit switch", 0, fields.Switch, ("touch",), disc=rules.SWITCH_RADIUS, traced=False),
-    Kind(INERT, "inert object", 0, fields.Header, (), traced=False),
+    Kind(EXIT, "exit", 4, fields.Exit, disc=rules.EXIT_RADIUS, used="is_open"),
+    Kind(MINE, "mine", 2, fields.Mine, disc=rules.MINE_RADIUS, killer="mine", by_touch=True, used="exploded"),
+    Kind(SWITCH, "exit switch", 0, fields.Switch, disc=rules.SWITCH_RADIUS, traced=False),
+    Kind(INERT, "inert object", 0, fields.Header, traced=False),
 )  # fmt: skip
 """Every kind: those of the level string in the order of their numbers, then the game's own."""
 

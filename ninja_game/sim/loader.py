@@ -38,7 +38,7 @@ class ObjectTable(NamedTuple):
 
 
 def object_table(data: Level) -> ObjectTable:
-    """The records that make an object: the door through which every level comes, whatever its origin.
+    """The records that make an object: every level passes here, whatever its origin.
 
     What comes through it no rule can stumble over. A record of an unknown kind creates nothing (objects.md
     §2.1). Raises LevelError for a level that is none, without a ninja or with too many objects.

@@ -1,1 +1,1 @@
-"""Runs under edit, tick by tick: their simulation, their history, their files and journals. No window."""
+"""Runs under edit, tick by tick: their simulation, history, files and journals, without a window."""

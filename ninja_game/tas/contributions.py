@@ -1,4 +1,4 @@
-"""Who and what took part in the keys of a run under edit."""
+"""The people and programs that contributed to the keys of a run under edit."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ninja_game.formats.replay.provenance import names_of_text
 
 @dataclass(frozen=True)
 class Contributions:
-    """``edits``: of keys; ``commands``: those that searched keys which were taken; ``names``: who else took part."""
+    """``edits``: of keys; ``commands``: those whose searched keys were used; ``names``: other contributors."""
 
     edits: int = 0
     commands: tuple[str, ...] = ()
@@ -19,12 +19,12 @@ class Contributions:
 
     @classmethod
     def of(cls, recording: Recording) -> Self:
-        """Those of a run whose keys are taken; an author who is not known is called by the file."""
+        """Those of a run whose keys are used; an unknown author is named by the file."""
         replay = recording.replay
         return cls(0, replay.made.searches, names_of_text(", ".join((recording.begun_by, *replay.co_authors))))
 
     def __add__(self, other: Contributions) -> Contributions:
-        """Those of both; each command and name once."""
+        """The union: each command and name once."""
         commands, names = (
             tuple(dict.fromkeys((*ours, *theirs)))
             for ours, theirs in ((self.commands, other.commands), (self.names, other.names))
@@ -32,7 +32,7 @@ class Contributions:
         return Contributions(self.edits + other.edits, commands, names)
 
     def credited(self, about: Recording, player: str) -> Recording:
-        """A recording as it was opened, with what was done to it since then by a player."""
+        """A recording as it was opened, with a player's later contributions."""
         old, author = about.replay, about.author or player
         names = names_of_text(", ".join((*old.co_authors, player, *self.names)))
         begun_by = about.begun_by if about.author != player else ""
@@ -45,7 +45,7 @@ class Contributions:
 
     @classmethod
     def of_json(cls, kept: dict[str, Any]) -> Self:
-        """What ``as_json`` gave. Raises one of DAMAGED for anything else."""
+        """The inverse of ``as_json``. Raises one of DAMAGED for anything else."""
         return cls(int(kept["edits"]), tuple(map(str, kept["commands"])), tuple(map(str, kept["names"])))
 
 

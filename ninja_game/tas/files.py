@@ -1,4 +1,4 @@
-"""Runs from files and back: authors stay, and nothing that a person wrote is replaced without being told to."""
+"""Runs from files and back: authors stay, and a person's text is never replaced without consent."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ from ninja_game.tas.tracks import Branches, InputTrack, branches_of_json
 
 @dataclass(frozen=True)
 class RunFile:
-    """Where a run is at home. ``path``: None without a file that may be replaced.
+    """The file of a run. ``path``: None without a file that may be replaced.
 
-    ``digest``: of that file's bytes; ``branches_digest``: of those of its branches; ``track``: what the file holds.
+    ``digest``: of that file's bytes; ``branches_digest``: of its branches'; ``track``: the file's content.
     """
 
     path: Path | None = None
@@ -46,7 +46,7 @@ class RunFile:
 
 @dataclass(frozen=True)
 class OpenedRun:
-    """A run that was opened: its recording, the input track in it, its file, and the branches beside it.
+    """An opened run: its recording, the input track in it, its file, and the branches beside it.
 
     ``moved``: the level is not the recorded one.
     """
@@ -59,12 +59,12 @@ class OpenedRun:
 
 
 def open_run(path: Path, *, record: int | None = None, level: Level | None = None) -> OpenedRun:
-    """The recording number ``record`` of a file or link; None: its only one.
+    """Open the recording number ``record`` of a file or link; None: its only one.
 
-    ``level``: where it is played, None: on its own as it is now; on another one than the recorded it has no file yet.
-    Only replay texts that ``save_run`` could have written are replaced by it: those with comments, blocks or other
-    files in them stay, and so do those of the game. A level, or a text without ticks for ``level``, is a new run.
-    Raises ReplayError, DemoError, LevelError; OSError for a file that cannot be opened.
+    ``level``: where to play it, None: on its own level in its present state; on another level it has no file yet.
+    ``save_run`` replaces only replay texts that it could have written itself: texts with comments, blocks or included
+    files stay, and so do the game's. A level, or a text without ticks for ``level``, is a new run. Raises ReplayError,
+    DemoError, LevelError; OSError for a file that cannot be opened.
     """
     texts = list(texts_of(path))
     if not any(holds_recordings(text) for _, text in texts):
@@ -105,14 +105,14 @@ NO_TICKS = InputTrack(b"")
 
 
 def new_run(on: NamedLevel, track: InputTrack = NO_TICKS, body: Body = "circle") -> OpenedRun:
-    """A run to be made on a level; it has no file yet."""
+    """A new run on a level, without a file."""
     names = {"name": on.name, "level_name": on.name, "level_author": on.author}
     about = Replay.of_inputs(track.inputs, on.level, body=body, **names)
     return OpenedRun(Recording(on.level, about, file=on.file), track)
 
 
 def run_file_of(path: Path, digest: str, branches_digest: str) -> RunFile:
-    """Where a run of a journal is at home: in a file that ``open_run`` would have given it, else nowhere."""
+    """The file of a run in a journal: one that ``open_run`` would have given it, else none."""
     with suppress(OSError, NinjaGameError):
         if _written_by_us(read_bytes(path)):
             return RunFile(path, digest, branches_digest)
@@ -120,7 +120,7 @@ def run_file_of(path: Path, digest: str, branches_digest: str) -> RunFile:
 
 
 def open_recording(recording: Recording) -> OpenedRun:
-    """Open a recording that was loaded already; without a file where that has changed since."""
+    """Open a loaded recording; without a file if that has changed since."""
     with suppress(NinjaGameError, OSError):
         path = Path(recording.file)
         if path.is_file():
@@ -133,7 +133,7 @@ def open_recording(recording: Recording) -> OpenedRun:
 def runs_of_level(path: Path, about: Recording) -> list[Recording]:
     """The recordings of a file or link that can be shown beside a run: all those of its level, with its body.
 
-    Those without a level are on that of the run. Raises ReplayError if there is none, and what ``load_replays`` does.
+    Those without a level get the run's. Raises ReplayError if there is none, and as ``load_replays`` does.
     """
     recordings = load_replays(path, level=about.level)
     fitting = [recording for recording in recordings if same_level(recording, about)]
@@ -155,9 +155,9 @@ def track_of(recording: Recording) -> InputTrack:
 
 
 def inputs_of_text(text: str, place: str) -> Inputs:
-    """The ticks that a text describes: one of our replays, our notation without anything else, or another tool's.
+    """The ticks of a text: one of our replays, our notation alone, or another tool's.
 
-    ``place``: what the text is called in messages. Raises ReplayError, also for a text without ticks; LevelError.
+    ``place``: the text's name in messages. Raises ReplayError, also for a text without ticks; LevelError.
     """
     if is_replay(text):
         replay = parse_replay(text, file=place)
@@ -169,7 +169,7 @@ def inputs_of_text(text: str, place: str) -> Inputs:
 
 
 def _written_by_us(data: bytes) -> bool:
-    """Whether a text says nothing but what we would write, or less: no comments, blocks, taken-in files."""
+    """Whether a text contains only what we would write: no comments, blocks, included files."""
     text = data.decode("utf-8", "replace").replace("\r\n", "\n")
     with suppress(NinjaGameError):
         if is_replay(text):
@@ -184,7 +184,7 @@ def _facts(text: str) -> list[str]:
 
 
 def recording_of(about: Recording, track: InputTrack, name: str = "") -> Recording:
-    """An input track as a recording without claims, of the level and the author of another one."""
+    """An input track as a recording without claims, with the level and the author of another one."""
     replay = replace(unclaimed_replay(about, track), name=name or about.name)
     return replace(about, file=name or about.file, replay=replay, form="replay")
 
@@ -207,10 +207,10 @@ def unclaimed_replay(about: Recording, track: InputTrack) -> Replay:
 
 
 def replay_of_track(about: Recording, track: InputTrack) -> Replay:
-    """An input track as a replay of ours: with claims, or without where keys or names behind its death have to stay.
+    """An input track as our replay: with claims, or without if keys or names behind its death must stay.
 
-    An exit or a death soon behind the last input, which the TAS editor shows, is part of it. Of a run that reaches the
-    exit nothing behind that is left. Raises ArgumentError for a run without ticks.
+    An exit or a death soon behind the last input, which the TAS editor shows, is included. Behind the exit nothing is
+    kept. Raises ArgumentError for a run without ticks.
     """
     unclaimed = unclaimed_replay(about, track)
     record = partial(record_replay, about.level, track.inputs, body=about.body, name=about.name, author=about.author)
@@ -238,10 +238,10 @@ def has_tail(track: InputTrack, ticks: int) -> bool:
 def save_run(
     about: Recording, track: InputTrack, branches: Branches, path: Path, file: RunFile, *, replacing: bool = False
 ) -> RunFile:
-    """Write an input track, and its branches and watched formulas beside it; where it is at home now.
+    """Write an input track, and its branches and watched formulas beside it; its file.
 
-    Raises OccupiedError where that would replace another file, or one that was changed since it was read, unless
-    ``replacing``; FileError, OSError for what cannot be written.
+    Raises OccupiedError if that would replace another file, or one that has changed since it was read, unless
+    ``replacing``; FileError, OSError if writing fails.
     """
     own, branches_file = path == file.path, branches_path(path)
     for file_path, known in ((path, file.digest), (branches_file, file.branches_digest)):
@@ -255,7 +255,7 @@ def save_run(
 
 
 def _with_old_path(replay: Replay, about: Recording) -> Replay:
-    """A replay that names its level's file, as the one that it replaces does."""
+    """A replay with the path of its level's file, as in the one that it replaces."""
     old = about.replay
     if old.level is not None or not old.level_path:
         return replay
@@ -275,9 +275,9 @@ def branches_path(path: Path) -> Path:
 
 
 def read_branches(path: Path) -> Branches:
-    """The branches beside a run; none where there is no such file.
+    """The branches beside a run; none without such a file.
 
-    Raises ReplayError for a file that holds something else: saving would replace it.
+    Raises ReplayError for a file with other content: saving would replace it.
     """
     branches_file = branches_path(path)
     if not branches_file.is_file():

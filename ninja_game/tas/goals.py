@@ -1,4 +1,4 @@
-"""What people want of the ticks of a span, as the goal and the measure of a search."""
+"""Common aims for the ticks of a span, as the goal and the measure of a search."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ from ninja_game.tas.session import Session
 from ninja_game.tas.timeline import Timeline
 
 EXIT_TICKS = 5 * TICKS_PER_SECOND
-"""In which the exit is looked for at least, from a run that does not reach it."""
+"""Least ticks in which the exit is searched, for a run that does not reach it."""
 IMPROVES = IMPROVE, IMPROVE_GOLD = "improve", "improve with the gold"
-"""Methods for a whole run: with whatever gold, or with as much as it has."""
-NEAR = 6.0  # how near to a place counts as there, px
+"""Methods for a whole run: with any gold, or with as much as it has."""
+NEAR = 6.0  # px within which the ninja is at a place
 SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
-"""How far an end that is the same may be from the run's own, px and px/tick."""
+"""Greatest distance between two equal ends, px and px/tick."""
 
 
 class SpanGoal(NamedTuple):
-    """Goal and measure as formulas, ``least`` and ``rest`` as in a SpanTask; ``last``: of another end, 0: as it is.
+    """Goal and measure as formulas, ``least`` and ``rest`` as in a SpanTask; ``last``: another end, 0: the span's.
 
-    ``why``: what the ticks are where they are not the selected ones; ``method``: the one that is meant, "": any.
+    ``why``: a description of the ticks if they are not the selected ones; ``method``: the required one, "": any.
     """
 
     goal: str = ""
@@ -63,11 +63,11 @@ class SearchedSpan:
         return self._ninja(self.last - 1)
 
     def places(self, first: int) -> NDArray[np.float64]:
-        """Where the ninja is from tick ``first`` on to the span's end, (ticks, 2), px. Raises as ``end``."""
+        """The ninja's places from tick ``first`` on to the span's end, (ticks, 2), px. Raises as ``end``."""
         return self._known(self.last - 1).positions[first : self.last]
 
     def _known(self, tick: int) -> Timeline:
-        """What is known of the run, up to a tick at least."""
+        """The simulated run, at least up to a tick."""
         timeline = self.session.timeline
         timeline.ensure(tick)
         if tick >= timeline.simulated_until:
@@ -102,7 +102,7 @@ def stay_alive(span: SearchedSpan) -> SpanGoal:
 
 
 def reach_exit(span: SearchedSpan) -> SpanGoal:
-    """From the first tick of the span on, reach the exit, in any way: sooner than the run, or where it does not."""
+    """Reach the exit from the first tick of the span on, by any route, sooner than the run if that reaches it."""
     tick, outcome = span.session.timeline.end
     known = tick if outcome == "exit" else max(len(span.session.track), span.first + EXIT_TICKS)
     why = "up to the run's exit" if outcome == "exit" else "to the end, 5 s at least"
@@ -110,7 +110,7 @@ def reach_exit(span: SearchedSpan) -> SpanGoal:
 
 
 def whole_run(span: SearchedSpan) -> SpanGoal:
-    """Shorten all of the run, as `ninja-game improve` does: one that ends before the exit is led there first."""
+    """Shorten the whole run, as `ninja-game improve` does; a run that ends before the exit is led there first."""
     tick, _ = span.session.timeline.end
     return SpanGoal("won", last=tick + 1 if tick >= 0 else len(span.session.track), why="the whole run", method=IMPROVE)
 
@@ -124,7 +124,7 @@ def collect(span: SearchedSpan) -> SpanGoal:
 
 
 def collect_too(span: SearchedSpan) -> SpanGoal:
-    """Take the nearest piece that the run leaves on its way, and be where it is at the end, at most a second later.
+    """Collect the nearest piece left beside the run's path, and be at its end, at most a second later.
 
     Raises ArgumentError where there is none.
     """
@@ -136,7 +136,7 @@ def collect_too(span: SearchedSpan) -> SpanGoal:
 
 
 def _piece_left(span: SearchedSpan, first: int) -> int:
-    """The id of the piece that is left at the end of the span and is nearest to the way there from a tick on."""
+    """The id of the piece left at the end of the span that is nearest to the path from a tick on."""
     x, y = span.places(first).T
     splits = run_splits(span.session.recording(), ("gold-taken",)).splits
     taken = {split.object_id for split in splits if split.tick < span.last}
@@ -147,7 +147,7 @@ def _piece_left(span: SearchedSpan, first: int) -> int:
 
 
 def same_end(span: SearchedSpan) -> SpanGoal:
-    """Be as at the end of the span, place, velocity and state, earlier; the rest of the run follows as it is."""
+    """Be at the end of the span, place, velocity and state, earlier; the rest of the run follows unchanged."""
     end = span.end
     parts = [
         f"distance({end['x']:.6g}, {end['y']:.6g}) < {SAME_PLACE:g}",
@@ -159,7 +159,7 @@ def same_end(span: SearchedSpan) -> SpanGoal:
 
 
 def same_state(span: SearchedSpan) -> SpanGoal:
-    """Be exactly in the state of the end of the span, earlier: all that decides what follows, by its digest."""
+    """Be exactly in the state of the end of the span, earlier: everything that decides later ticks, by its digest."""
     return SpanGoal(f"difference({span.last - 1}) == 0", rest=_is_passed(span))
 
 
@@ -170,7 +170,7 @@ def _is_passed(span: SearchedSpan) -> bool:
 
 
 class RunPiece(NamedTuple):
-    """The ticks ``first`` … ``last`` - 1 of a run: what is searched in them, in words, and how to want it."""
+    """The ticks ``first`` … ``last`` - 1 of a run: its name in words, and the function that makes its goal."""
 
     first: int
     last: int
@@ -185,8 +185,8 @@ GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened": 
 def pieces_of(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
     """The pieces of a span, from one piece of gold, switch or exit to the next; from the last one to the exit.
 
-    ``splits``: of the run, of the events in GOALS. Where the run reaches the exit, the rest of it follows, and a span
-    with nothing to reach has two halves. Where it does not, or the span goes to the exit, the whole run comes last.
+    ``splits``: of the run, of the events in GOALS. If the run reaches the exit, the rest of it follows, and a span
+    without any event has two halves. If it does not, or the span goes to the exit, the whole run comes last.
     """
     first, pieces = span.first, list[RunPiece]()
     end, outcome = span.session.timeline.end
@@ -208,7 +208,7 @@ def pieces_of(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
                 wanted = same_end(SearchedSpan(span.session, *bounds))
                 pieces.append(RunPiece(*bounds, f"To tick {bounds[1] - 1}", wanted))
     if len(pieces) < 2:
-        pieces.clear()  # that was the span
+        pieces.clear()  # the span itself
     if to_exit:
         wanted = whole_run(span)
         pieces.append(RunPiece(0, wanted.last, "Whole run", wanted))
@@ -227,7 +227,7 @@ PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], SpanGoal]], ...] = (
     ("This piece too", "The nearest left on the way; then the same place", collect_too),
     ("Stay alive", "From tick {0} to {1}", stay_alive),
 )
-"""Name, explanation ({0}: the first tick, {1}: the last), and what makes goal and measure of a run and its span."""
+"""Name, explanation ({0}: the first tick, {1}: the last), and the function that makes goal and measure."""
 
 
 def _alive(last: int) -> str:

@@ -1,7 +1,7 @@
-"""Every edit on the disk as soon as it is made: a program that is killed loses at most the last one.
+"""Writes every edit to the disk as soon as it is made: a killed program loses at most the last one.
 
-A journal is a text of JSON lines in the player's folder: first what was opened, then each edit as the ticks that it
-replaces, and each change of the branches. It goes when the run is saved or left.
+A journal is a text of JSON lines in the player's folder: first the opened run, then each edit as the ticks that it
+replaces, and each change of the branches. It is deleted when the run is saved or left.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ FOLDER, SUFFIX = "tas", ".jsonl"  # in the player's folder
 
 
 def edit_as_json(old: InputTrack, new: InputTrack) -> dict[str, Any]:
-    """What turns one input track into another: the ticks from ``at`` to ``to`` - 1 are replaced by ``keys``.
+    """The difference of two input tracks: the ticks from ``at`` to ``to`` - 1 are replaced by ``keys``.
 
-    ``sum``: of the new track, so that a damaged edit is noticed; ``made``: what was done to it in all.
+    ``sum``: of the new track, so that a damaged edit is noticed; ``made``: all its contributions.
     """
     at = old.first_difference(new)
     tail = first_difference(old.inputs[at:][::-1], new.inputs[at:][::-1])
@@ -54,7 +54,7 @@ def _sum(track: InputTrack) -> int:
 
 
 def edited(track: InputTrack, change: dict[str, Any]) -> InputTrack:
-    """An input track after an edit of a journal. Raises one of DAMAGED for what is none."""
+    """An input track after an edit of a journal. Raises one of DAMAGED for an invalid edit."""
     at, to = int(change["at"]), int(change["to"])
     if not 0 <= at <= to <= len(track):
         raise ValueError("an edit outside the run's ticks")
@@ -78,7 +78,7 @@ class Journal(RecoveryFile):
         with self.reporting():
             if self._handle is None:
                 self._handle = self._open()
-            # A line that was truncated by a full disk or a kill ends where the next one begins.
+            # A line truncated by a full disk or a kill is completed by a line end first.
             data = b"\n" + json.dumps(line, separators=(",", ":")).encode()
             if os.write(self._handle, data) < len(data):
                 raise FileError("the disk is full")
@@ -91,12 +91,12 @@ class Journal(RecoveryFile):
         return os.open(self.file, os.O_WRONLY | os.O_APPEND)
 
     def begin_again(self, opened: dict[str, Any]) -> None:
-        """The run was saved: what was noted so far is no longer needed."""
+        """The run was saved: earlier lines are no longer needed."""
         self.close()
         self.opened = opened
 
     def close(self, *, keep: bool = False) -> None:
-        """End. ``keep``: what was noted stays, to be found by the next session."""
+        """End. ``keep``: keep the file for the next session."""
         if self._handle is not None:
             os.close(self._handle)
             self._handle = None
@@ -105,9 +105,9 @@ class Journal(RecoveryFile):
 
 @dataclass(frozen=True)
 class RecoveredRun:
-    """What a session that has died was editing. ``opened``: as it began; ``tracks``: after each edit.
+    """The run of a crashed session. ``opened``: its first state; ``tracks``: after each edit.
 
-    ``branches``: as they were last; ``said``: the first line of the journal ``file``.
+    ``branches``: their last state; ``said``: the first line of the journal ``file``.
     """
 
     opened: OpenedRun

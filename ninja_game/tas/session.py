@@ -1,4 +1,4 @@
-"""A run under edit: its input track with undo, what it leads to, its branches, its file and its journal. No window."""
+"""A run under edit: its input track with undo, its simulation, branches, file and journal, without a window."""
 
 from __future__ import annotations
 
@@ -18,16 +18,15 @@ from ninja_game.tas.timeline import EMPTY_TRAJECTORY, Timeline, Trajectory
 from ninja_game.tas.tracks import Branch, Branches, InputTrack, branch_as_json, track_as_json
 
 TICKS_PER_FRAME = 6000
-"""Ticks that are simulated at once after an edit on the compiled memory: some ms."""
+"""Ticks simulated at once after an edit on the compiled memory: some ms."""
 TICKS_PER_FRAME_PLAIN = 2000
 
 
 class Session:
-    """One run that is edited. ``folder``: the player's, for the journal; ``player``: who edits it.
+    """A run under edit. ``folder``: the player's, for the journal; ``player``: the editor of the run.
 
     ``about``: level, body, name and author of the run; ``moved``: it was recorded on another level. ``before_track``:
-    the run before the last edit; ``before``: what the ninja did in it. Raises LevelError for a level that cannot be
-    played.
+    the run before the last edit; ``before``: its trajectory. Raises LevelError for a level that cannot be played.
     """
 
     def __init__(self, opened: OpenedRun, folder: Path, *, player: str = "", memory: str = "auto") -> None:
@@ -76,12 +75,12 @@ class Session:
 
     @property
     def is_saved(self) -> bool:
-        """Whether the file holds what is here."""
+        """Whether the file holds the present run."""
         return self.is_run_saved and self._kept() == self._saved_branches
 
     @property
     def is_run_saved(self) -> bool:
-        """Whether the file holds the keys and the markers; not so the branches and the watched values beside it."""
+        """Whether the file holds the keys and the markers; branches and watched values do not count."""
         return not self._file_differs and self.track == self.saved
 
     def _kept(self) -> tuple[list[Branch], tuple[str, ...]]:
@@ -89,9 +88,9 @@ class Session:
 
     @property
     def tail_behind(self) -> str:
-        """The end behind which there are keys or names of ticks, "exit" or "dead"; "" where there are none.
+        """The end behind which there are keys or names of ticks, "exit" or "dead"; "" without any.
 
-        Behind a death they keep the run from being a replay with claims; behind an exit they are left out of it.
+        Behind a death they prevent a replay with claims; behind an exit they are left out of it.
         """
         self.timeline.simulate(len(self.timeline))
         end, outcome = self.timeline.end
@@ -99,13 +98,13 @@ class Session:
 
     @property
     def ticks_per_frame(self) -> int:
-        """Ticks to be simulated in one picture at most."""
+        """Most ticks to simulate in one picture."""
         return TICKS_PER_FRAME if self.timeline.memory == "compiled" else TICKS_PER_FRAME_PLAIN
 
     # --- edits ---
 
     def begin(self) -> None:
-        """A stroke begins: what changes until its end is one edit."""
+        """Begin a stroke: all changes until its end are one edit."""
         self.end()
         self.history.begin()
         self._look_back()
@@ -113,9 +112,10 @@ class Session:
     def change(
         self, track: InputTrack, *, ticks: int | None = None, taken: Contributions | None = None, whole: bool = False
     ) -> None:
-        """Another track, as a part of the stroke or an edit of its own. So many ticks of it are simulated at once.
+        """Set another track, as a part of the stroke or an edit of its own, and simulate a number of ticks.
 
-        ``ticks``: None: as many as are quick; ``taken``: of those whose keys are taken, ``whole``: and no others stay.
+        ``ticks``: None: as many as are quick; ``taken``: the contributions of copied keys, ``whole``: which replace
+        all.
         """
         if track == self.track:
             return
@@ -153,11 +153,11 @@ class Session:
         return True
 
     def _look_back(self) -> None:
-        """Note what there is before an edit."""
+        """Keep the state before an edit."""
         self.before, self.before_track = self.timeline.trajectory(), self.track
 
     def _follow(self, ticks: int | None = None) -> None:
-        """Show what the input track leads to, and note it."""
+        """Simulate the input track, and write it to the journal."""
         self.timeline.set_inputs(self.track.inputs)
         self.timeline.simulate(self.ticks_per_frame if ticks is None else ticks)
         self._note()
@@ -168,7 +168,7 @@ class Session:
         self.about = opened if made == NONE else made.credited(opened, self._player)
 
     def name_player(self, player: str) -> None:
-        """Say who edits the run, which was not known so far."""
+        """Name the editor of the run, who was unknown so far."""
         self._player = player
         self._credit()
 
@@ -185,12 +185,12 @@ class Session:
     # --- branches ---
 
     def keep_branch(self, name: str) -> int:
-        """Keep the input track as a branch; its number. What is not simulated yet is simulated first."""
+        """Keep the input track as a branch; its number. Missing ticks are simulated first."""
         self._change_branches({"keep": branch_as_json(self._as_branch(name))})
         return len(self.branches) - 1
 
     def keep_version(self, name: str) -> None:
-        """Keep the input track as a branch, unless one has its keys: then it goes on from that one."""
+        """Keep the input track as a branch, or continue the branch with its keys."""
         inputs = [each.track.inputs for each in self.branches.all]
         if self.track.inputs not in inputs:
             self.keep_branch(name)
@@ -204,7 +204,7 @@ class Session:
         return Branch(name, self.track, self.branches.current, end, outcome, int(gold[end]) if len(gold) else 0)
 
     def _keep_undone(self, undone: Branch) -> None:
-        """Keep what redo leads to, before an edit takes that away: if neither the run nor a branch is as good."""
+        """Keep the run that redo leads to, before an edit drops it: if neither the run nor a branch is as good."""
         self._undone = None
         known = [*self.branches.all, self._as_branch("")]
         if undone.outcome == "exit" and not any(each.is_as_good_as(undone) for each in known):
@@ -213,30 +213,30 @@ class Session:
             self._change_branches(kept)
 
     def checkout_branch(self, number: int) -> None:
-        """Go on from a branch; undo brings back what was there before. Raises ArgumentError without such a one."""
+        """Make a branch the present run; undo restores the run before. Raises ArgumentError for an unknown one."""
         self.end()
         self._change_branches({"checkout": number})
         track = self.branches.all[number].track
         self.change(track, taken=track.made, whole=True)
 
     def drop_branch(self, number: int) -> None:
-        """Forget a branch. Raises ArgumentError without such a one."""
+        """Delete a branch. Raises ArgumentError for an unknown one."""
         self._change_branches({"drop": number})
 
     def rename_branch(self, number: int, name: str) -> None:
-        """Give a branch another name. Raises ArgumentError without such a one."""
+        """Rename a branch. Raises ArgumentError for an unknown one."""
         self._change_branches({"rename": number, "name": name})
 
     def watch(self, formulas: Iterable[str]) -> None:
         self._change_branches({"watch": list(formulas)})
 
     def _change_branches(self, change: dict[str, Any]) -> None:
-        """Make a change in the words of the journal, and note it."""
+        """Make a change given in the journal's words, and write it there."""
         self.branches.do(change)
         self._branches_noted = self.journal.note(change if self._branches_noted else self.branches.as_json())
 
     def recording(self, track: InputTrack | None = None, name: str = "") -> Recording:
-        """An input track (None: the present one) as a recording, for what compares and searches runs."""
+        """An input track (None: the present one) as a recording, for comparisons and searches."""
         return recording_of(self.about, self.track if track is None else track, name)
 
     # --- files ---
@@ -250,14 +250,14 @@ class Session:
         self.journal.begin_again(self._opened())
 
     def close(self, *, keep: bool = False) -> None:
-        """End. ``keep``: what is not saved stays in the journal, for the next session."""
+        """End. ``keep``: unsaved work stays in the journal, for the next session."""
         self.end()
         self.journal.close(keep=keep and not self.is_saved)
 
     def recover(self, run: RecoveredRun) -> None:
-        """Go on where a session that has died was, which had opened the same run; its edits can be undone.
+        """Continue a crashed session of the same run; its edits can be undone.
 
-        Raises FileError where another window does so already.
+        Raises FileError if another window has done so already.
         """
         journal = Journal(run.file.parent.parent, run.said, run.file)
         self.journal.close()
@@ -266,7 +266,7 @@ class Session:
             self.history.change(track)
         self._credit()
         self.branches = run.branches
-        # The program may have died when the file was written, and the journal not yet started again.
+        # The program may have crashed after writing the file, and before starting the journal again.
         self._file_differs = self.file.path is not None and digest_of_file(self.file.path) != self.file.digest
         self._noted = self.track
         self._follow()

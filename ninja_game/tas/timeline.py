@@ -1,4 +1,4 @@
-"""What a run leads to, tick by tick, kept while its inputs change; and formulas over that, which its maker watches."""
+"""The simulation of a run, tick by tick, kept while its inputs change; and watched formulas over it."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ from ninja_game.simulation import SaveState
 from ninja_game.tas.tracks import first_difference
 
 AFTERMATH = 40
-"""Ticks that are run behind the last input, without a key: what it leads to."""
-_GROWTH = 4096  # rows by which the table grows at least
+"""Ticks simulated behind the last input, without a key."""
+_GROWTH = 4096  # least growth of the table, rows
 _WATCHED_RECORD = np.dtype([*OBJECT_RECORD.descr, ("switched", "u1")])
 
 NINJA_FIELDS = (*TRACED_FLOATS, "state", "in_air")
@@ -37,7 +37,7 @@ NINJA_FIELDS = (*TRACED_FLOATS, "state", "in_air")
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """Where a run's ninja is after each tick: what is left to look at when the run is changed.
+    """The ninja after each tick of a run: kept when the run is changed.
 
     ``columns``: the NINJA_FIELDS after each tick, of one length.
     """
@@ -54,7 +54,7 @@ class Trajectory:
 
     @property
     def velocities(self) -> NDArray[np.float64]:
-        """How far the ninja came in each tick: float64 (ticks, 2), px/tick."""
+        """The ninja's displacement in each tick: float64 (ticks, 2), px/tick."""
         moved: NDArray[np.float64] = self.positions - np.column_stack([self.columns["prev_x"], self.columns["prev_y"]])
         return moved
 
@@ -70,10 +70,10 @@ EMPTY_TRAJECTORY = Trajectory({name: np.zeros(0) for name in NINJA_FIELDS})
 class Timeline:
     """The world after every tick of a run.
 
-    ``simulated_until``: so many ticks are simulated, the *greenzone*; ``simulate`` adds more.
+    ``simulated_until``: the number of simulated ticks, the *greenzone*; ``simulate`` adds more.
 
-    Row k of each column is the world after tick k. ``watched``: ids of the objects that are recorded too.
-    Raises LevelError for a level that cannot be played.
+    Row k of each column is the world after tick k. ``watched``: ids of the objects that are recorded too. Raises
+    LevelError for a level that cannot be played.
     """
 
     def __init__(self, level: Level, inputs: bytes, *, body: Body = "circle", memory: str = "auto") -> None:
@@ -96,11 +96,11 @@ class Timeline:
 
     @property
     def memory(self) -> MemoryName:
-        """Which memory it is now; "auto" may go over to the compiled one."""
+        """The present memory; "auto" may switch to the compiled one."""
         return self._worlds.name
 
     def __len__(self) -> int:
-        """Ticks to be simulated: those with inputs and some more."""
+        """Ticks to simulate: those with inputs, and AFTERMATH."""
         return len(self.inputs) + AFTERMATH
 
     @property
@@ -110,8 +110,8 @@ class Timeline:
     # --- edits ---
 
     def set_inputs(self, inputs: bytes) -> int:
-        """Other inputs. What they have in common with those before stays simulated. The first tick that differs."""
-        # Behind the inputs no key is down: a run that grows by such ticks goes the same way.
+        """Set other inputs. Their common beginning stays simulated. Gives the first tick that differs."""
+        # Behind the inputs no key is down: a run that grows by such ticks is the same.
         longest = max(len(self.inputs), len(inputs))
         same = first_difference(fit_inputs(self.inputs, longest), fit_inputs(inputs, longest))
         self.inputs = inputs
@@ -119,7 +119,7 @@ class Timeline:
         return same
 
     def watch(self, ids: Collection[int]) -> None:
-        """Record these objects besides the ninja, instead of those before; for others all is simulated again.
+        """Record these objects besides the ninja, instead of earlier ones; new ones need a new simulation.
 
         Raises ArgumentError for an unknown object.
         """
@@ -132,20 +132,20 @@ class Timeline:
             self._forget(0)
 
     def _forget(self, tick: int) -> None:
-        """From this tick on nothing is known any more."""
+        """Drop all simulated ticks from this one on."""
         self._states.forget_after(tick)
         self.simulated_until = min(self.simulated_until, tick)
         del self._events[self.simulated_until :]
 
     def simulate(self, ticks: int) -> bool:
-        """Simulate up to so many ticks more; whether all is simulated now."""
+        """Simulate up to a number of ticks more; whether all are simulated now."""
         self._reserve(len(self))
         stop = min(len(self), self.simulated_until + ticks)
         self._go_on(stop - self.simulated_until)
         first = self._states.nearest(self.simulated_until)[0]
         while self.simulated_until < stop:
             start, state = self._states.nearest(self.simulated_until)
-            # A world at the same tick may have got there by other inputs.
+            # A world at the same tick may have other inputs behind it.
             if self._worlds.tick() != start or start == first:
                 self._worlds.restore(state)
             end = min(stop, start + max(1, self._states.spacing))
@@ -155,7 +155,7 @@ class Timeline:
         return self.complete
 
     def _go_on(self, ticks: int) -> None:
-        """Before so many ticks: be in the compiled memory, once it is worth it and its kernels are there."""
+        """Before a number of ticks: switch to the compiled memory, once it is worth it and its kernels are ready."""
         self._ticks_on_plain += ticks
         worlds = switch_to_compiled(self._worlds, self.asked_memory, self._ticks_on_plain)
         if worlds is not self._worlds:
@@ -164,12 +164,12 @@ class Timeline:
             self._states = SaveStates(0, worlds.save(), values=tick_cost(self.level))
 
     def ensure(self, tick: int) -> None:
-        """Have all ticks up to this one simulated."""
+        """Simulate all ticks up to this one."""
         if self.simulated_until <= min(tick, len(self) - 1):
             self.simulate(tick + 1 - self.simulated_until)
 
     def _run(self, first: int, last: int) -> None:
-        """Simulate the ticks ``first`` … ``last`` - 1 and note what they show."""
+        """Simulate the ticks ``first`` … ``last`` - 1 and record them."""
         inputs = fit_inputs(self.inputs[first:last], last - first)
         record = self._worlds.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
         for name, values in ninja_columns(record).items():
@@ -189,7 +189,7 @@ class Timeline:
             self._columns[name] = np.concatenate([column, np.zeros(more, column.dtype)])
         self._objects = np.concatenate([self._objects, np.zeros((more, len(self.watched)), _WATCHED_RECORD)])
 
-    # --- looking ---
+    # # --- reading ---
 
     def column(self, name: str) -> NDArray[Any]:
         """A field of TRACED_FLOATS (px, px/tick) or TRACED_INTS after each simulated tick: (simulated_until,)."""
@@ -200,7 +200,7 @@ class Timeline:
         return self._objects[: self.simulated_until, self.watched.index(id_)][name]
 
     def events(self, tick: int) -> str:
-        """The names of what happened in a simulated tick, with blanks between; of others ''."""
+        """The names of the events of a simulated tick, with spaces between; of others ''."""
         return self._events[tick] if 0 <= tick < len(self._events) else ""
 
     @property
@@ -229,7 +229,7 @@ class Timeline:
         return np.column_stack([self.column("x"), self.column("y")])
 
     def trajectory(self) -> Trajectory:
-        """What the ninja does in the simulated ticks, as it is now."""
+        """The trajectory of the simulated ticks."""
         return Trajectory({name: self.column(name).copy() for name in NINJA_FIELDS})
 
     @property
@@ -241,13 +241,13 @@ class Timeline:
 
     @property
     def ending(self) -> str:
-        """The end in words, of a death with what killed; "" without one."""
+        """The end in words, for a death with the killer; "" without one."""
         end, outcome = self.end
         return ending_text(outcome, end, self.death) if end >= 0 else ""
 
     @property
     def death(self) -> str:
-        """What killed the ninja, in words; "" where it did not die in the simulated ticks."""
+        """The ninja's killer, in words; "" without a death in the simulated ticks."""
         end, outcome = self.end
         if outcome != OUTCOME_NAMES[OUTCOME_DEAD]:
             return ""
@@ -260,13 +260,13 @@ class Timeline:
         return self._death[1]
 
     def save_state(self, tick: int) -> SaveState:
-        """The nearest moment that is kept at or before the one after this many ticks, for ``Simulation.restore``."""
+        """The nearest kept moment at or before the one after this many ticks, for ``Simulation.restore``."""
         at, state = self._states.nearest(min(tick, self.simulated_until, MAX_TICKS))
         return SaveState(self.level, self.body, self.memory, fit_inputs(self.inputs[:at], at), state)
 
 
 WATCHABLE = {**NAMES, "status": 1, "exit_distance": 0}
-"""The names in a watched formula: those of a search, an object's status, how far it is to the nearest exit's disc."""
+"""The names in a watched formula: those of a search, an object's status, the distance to the nearest exit's disc."""
 
 
 class _UnwatchedError(Exception):
@@ -279,13 +279,13 @@ class _UnwatchedError(Exception):
 
 @dataclass(frozen=True)
 class Watch:
-    """A watched formula. ``text``: as its maker wrote it."""
+    """A watched formula. ``text``: as typed."""
 
     text: str
     formula: Formula
 
     def values(self, timeline: Timeline) -> Values:
-        """Its value after each simulated tick, float64 (simulated_until,); a truth is 1 or 0, what has no value is NaN.
+        """Its value after each simulated tick, float64 (simulated_until,); truth is 1 or 0, no value is NaN.
 
         Objects that are not recorded yet are recorded from now on. Raises ArgumentError for an unknown one.
         """
@@ -301,7 +301,7 @@ class Watch:
 
 
 def parse_watch(text: str) -> Watch:
-    """A number or a truth to be watched, in the language of goals. Raises FormulaError."""
+    """A number or a truth to watch, in the language of goals. Raises FormulaError."""
     try:
         return Watch(text, parse_number(text, WATCHABLE, FACTS))
     except FormatError as error:
@@ -312,7 +312,7 @@ def parse_watch(text: str) -> Watch:
 
 
 def exit_distance(timeline: Timeline, span: slice = slice(None)) -> Values:
-    """How far the ninja is from the disc of the nearest exit after each tick, px; 0 or less: it touches it.
+    """Distance of the ninja to the disc of the nearest exit after each tick, px; 0 or less: it touches it.
 
     ``span``: of these ticks only.
     """
@@ -323,7 +323,7 @@ def exit_distance(timeline: Timeline, span: slice = slice(None)) -> Values:
 
 
 def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.float64]]]:
-    """What the names of a formula mean after each simulated tick of a timeline."""
+    """The values of a formula's names after each simulated tick of a timeline."""
     column = timeline.column
 
     def of(name: str) -> Values:
@@ -353,7 +353,7 @@ def _object_column(timeline: Timeline, id_: float, name: str) -> Values:
 
 
 def _flag(timeline: Timeline, id_: float, what: str) -> Values:
-    """Whether an object is taken, or opened: its status is not the one that it has at the start."""
+    """Whether an object is collected or opened: its status differs from that at the start."""
     kind, _, _, status = timeline.at_start(id_)
     if flag_field(what, kind, id_) == "switched":
         return _object_column(timeline, id_, "switched")

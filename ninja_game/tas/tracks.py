@@ -20,9 +20,9 @@ from ninja_game.tas.contributions import NONE, Contributions
 class InputTrack:
     """``inputs``: one byte per tick, the sum of its ``Input`` flags; in ticks beyond them no key is down.
 
-    The jump triggers where the key goes down. A recording that is odd there (``Input.JUMP_PRESSED`` without the key, or
-    a key that goes down without it) stays as it is in all ticks that are not edited. ``made``: what was done to the
-    keys since the run was opened; a session says it of each track that it holds.
+    A jump triggers when the key goes down. Other jumps in a recording (``Input.JUMP_PRESSED`` without the key, or a key
+    that goes down without it) stay in all ticks that are not edited. ``made``: the contributions to the keys since the
+    run was opened; a session sets it for each track.
     """
 
     inputs: bytes
@@ -37,10 +37,10 @@ class InputTrack:
         return self.inputs[tick] & KEYS_DOWN if 0 <= tick < len(self.inputs) else 0
 
     def replaced(self, first: int, last: int, keys: Sequence[int]) -> InputTrack:
-        """Other keys instead of the ticks ``first`` … ``last`` - 1; what follows moves if they are more or fewer.
+        """Other keys instead of the ticks ``first`` … ``last`` - 1; later ticks move if they are more or fewer.
 
-        All edits are this one. Where the run ends before ``first``, ticks without a key are put between. Markers of
-        ticks that are dropped go; those behind move. Raises ArgumentError for ticks that there cannot be.
+        All edits are this one. If the run ends before ``first``, ticks without a key fill the gap. Markers of dropped
+        ticks go; those behind move. Raises ArgumentError for impossible ticks.
         """
         if not 0 <= first <= last:
             raise ArgumentError(f"ticks {first} to {last} are not a span")
@@ -62,12 +62,12 @@ class InputTrack:
         return InputTrack(self.inputs[:ticks], tuple(marker for marker in self.markers if marker.tick <= ticks))
 
     def _joined(self, tick: int, held: int) -> int:
-        """A tick behind an edit: it triggers as the keys say, unless it was odd before."""
+        """The tick behind an edit: it triggers as the keys say, unless it did otherwise before."""
         keys, held_before = self.inputs[tick], self.inputs[tick - 1] & JUMP_HELD if tick else 0
         return with_press_bit(keys, held) if keys == with_press_bit(keys, held_before) else keys
 
     def _markers_after(self, first: int, last: int, count: int) -> tuple[Marker, ...]:
-        """The markers when ``count`` ticks stand for the ticks ``first`` … ``last`` - 1."""
+        """The markers when ``count`` ticks replace the ticks ``first`` … ``last`` - 1."""
         kept = []
         for tick, name in self.markers:
             if tick >= last:
@@ -86,7 +86,7 @@ class InputTrack:
     def named(self, tick: int, name: str) -> InputTrack:
         """With another name for a tick, or a comment; '': without one. The run grows if it ends before the tick.
 
-        Raises ReplayError for a name that replay texts cannot hold, ArgumentError for a tick that there cannot be.
+        Raises ReplayError for a name that replay texts cannot hold, ArgumentError for an impossible tick.
         """
         name = marker_name(name)
         if name and not is_marker_name(name):
@@ -104,7 +104,7 @@ class InputTrack:
 
 
 def marker_name(text: str) -> str:
-    """What a text is as the name of a tick: replay texts write names in quotes, so it holds none."""
+    """A text as the name of a tick, without quotes, since replay texts write names in quotes."""
     return text.strip().replace('"', "'")
 
 
@@ -117,7 +117,7 @@ def first_difference(ours: bytes, theirs: bytes) -> int:
 
 @dataclass(frozen=True)
 class Branch:
-    """An input track that is kept. ``parent``: the branch from which it was made, by number; None for the first ones.
+    """A kept input track. ``parent``: the number of the branch that it was made from; None for the first ones.
 
     ``end``: the tick of the exit contact or death (-1: none), ``outcome`` which of them, ``gold`` the pieces then.
     """
@@ -130,14 +130,14 @@ class Branch:
     gold: int = 0
 
     def is_as_good_as(self, other: Branch) -> bool:
-        """Whether it is at the exit no later than another one, with no less gold."""
+        """Whether it reaches the exit no later than another one, with no less gold."""
         return self.outcome == "exit" and self.end <= other.end and self.gold >= other.gold
 
 
 class Branches:
-    """The branches of a run, in the order in which they were kept. ``current``: the one from which the track comes.
+    """The branches of a run, in the order of their making. ``current``: the one that the track comes from.
 
-    ``watched``: the formulas that are watched in the run, kept with them; empty: the usual ones.
+    ``watched``: the watched formulas of the run, saved with them; empty: the default ones.
     """
 
     def __init__(self) -> None:
@@ -149,7 +149,7 @@ class Branches:
         return len(self.all)
 
     def keep(self, branch: Branch) -> int:
-        """Keep an input track as a child of the current branch, and go on from it; its number."""
+        """Keep an input track as a child of the current branch, and continue from it; its number."""
         self.all.append(replace(branch, parent=self.current))
         self.current = len(self.all) - 1
         return self.current
@@ -164,7 +164,7 @@ class Branches:
         return self.all[number].track
 
     def drop(self, number: int) -> None:
-        """Forget a branch; what was made from it hangs on its parent. Raises ArgumentError without such a one."""
+        """Delete a branch; its children move to its parent. Raises ArgumentError for an unknown one."""
         parent = self.all[self.checked(number)].parent
 
         def moved(other: int | None) -> int | None:
@@ -181,7 +181,7 @@ class Branches:
         return number
 
     def in_tree(self) -> Iterator[tuple[int, int]]:
-        """The branches as a tree is read, children under their parent: number and depth."""
+        """The branches in tree order, children under their parent: number and depth."""
         children: dict[int | None, list[int]] = {}
         for number, branch in enumerate(self.all):
             children.setdefault(branch.parent, []).append(number)
@@ -196,7 +196,7 @@ class Branches:
         return {**data, "watched": list(self.watched)}
 
     def do(self, change: dict[str, Any]) -> None:
-        """A change as a journal tells it: one of the words below, or all of it. Raises DAMAGED."""
+        """Do a change given in a journal's words: one of those below, or all branches. Raises DAMAGED."""
         if "branches" in change:
             whole = branches_of_json(change)
             self.all, self.current, self.watched = whole.all, whole.current, whole.watched
@@ -213,7 +213,7 @@ class Branches:
 
 
 def branches_of_json(kept: dict[str, Any]) -> Branches:
-    """What ``as_json`` gave. Raises one of DAMAGED for anything else."""
+    """The inverse of ``as_json``. Raises one of DAMAGED for anything else."""
     branches = Branches()
     for number, entry in enumerate(kept["branches"]):
         branch = branch_of_json(entry)
@@ -234,7 +234,7 @@ def branch_as_json(branch: Branch) -> dict[str, Any]:
 
 
 def branch_of_json(kept: dict[str, Any]) -> Branch:
-    """What ``branch_as_json`` gave. Raises one of DAMAGED for anything else."""
+    """The inverse of ``branch_as_json``. Raises one of DAMAGED for anything else."""
     parent = kept["parent"]
     end, gold, outcome = int(kept["end"]), int(kept["gold"]), str(kept["outcome"])
     if outcome not in OUTCOME_NAMES:
@@ -243,13 +243,13 @@ def branch_of_json(kept: dict[str, Any]) -> Branch:
 
 
 def track_as_json(track: InputTrack) -> dict[str, Any]:
-    """An input track as JSON can say it: its inputs a hexadecimal digit a tick."""
+    """An input track as JSON: its inputs a hexadecimal digit per tick."""
     data = {"inputs": track.inputs.hex()[1::2], "markers": [list(marker) for marker in track.markers]}
     return data | {"made": track.made.as_json()}
 
 
 def track_of_json(kept: dict[str, Any]) -> InputTrack:
-    """What ``track_as_json`` gave. Raises one of DAMAGED for anything else."""
+    """The inverse of ``track_as_json``. Raises one of DAMAGED for anything else."""
     made = Contributions.of_json(kept["made"]) if "made" in kept else NONE
     return replace(checked_track(inputs_of_json(kept["inputs"]), markers_of_json(kept["markers"])), made=made)
 

@@ -1,4 +1,4 @@
-"""The TAS editor's commands: what they are called and which keys mean them; those that concern the file of a run."""
+"""The TAS editor's commands with their keys; and the commands on the file of a run."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ BY_PAD = {
     "start": "take_over", "y": "play", "leftshoulder": "step_back", "rightshoulder": "step", "x": "undo",
     "dpad-up": "up", "dpad-down": "down",
 }  # fmt: skip
-"""Commands by buttons of a pad; of a run that is taken over, only those that step."""
+"""Commands by buttons of a pad; while the player plays on by hand, only those that step."""
 
 TABLE = CommandTable(bundled_commands("tas-editor.txt"), BY_PAD)
-"""Everything that a key does, unless the run is taken over: then the keys of the game play."""
+"""All commands with a key, unless the player plays on by hand: then the keys of the game count."""
 
 IN_MENU = {"save", "save_as", "open_other", "help"}
 
@@ -47,9 +47,9 @@ a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to
 
 
 class RunCommands(DocumentCommands):
-    """The commands that concern files.
+    """The commands on files.
 
-    ``run``: does a command of any part by its name; ``recover``: opens what was not saved; ``begin_new``: a new run.
+    ``run``: does a command of any part by its name; ``recover``: opens unsaved work; ``begin_new``: a new run.
     """
 
     def __init__(
@@ -90,7 +90,7 @@ class RunCommands(DocumentCommands):
 
     @property
     def _folder(self) -> Path:
-        """Where the run is, or was opened from; else the player's replays, also for runs of the game."""
+        """The folder of the run's file; else the player's replays, also for runs of the game."""
         opened = self.session.file.path or Path(self.session.about.file)
         with suppress(OSError):
             if opened.is_file() and not is_bundled(opened):
@@ -115,7 +115,7 @@ class RunCommands(DocumentCommands):
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 
         place = short_path(folder.absolute())
-        title = f"Save in {'...' * (len(place) > 38)}{place[-38:]}"  # of a long path the end says more
+        title = f"Save in {'...' * (len(place) > 38)}{place[-38:]}"  # the end of a long path says more
         fields = [("Name or path of the file", name, 300)]
         if self._asks_name:
             fields.append(("Your name, kept in the settings", "", 40))
@@ -132,7 +132,7 @@ class RunCommands(DocumentCommands):
 
     @property
     def _asks_name(self) -> bool:
-        """Whether nobody is named whose edits these are."""
+        """Whether the run's editor has no name yet."""
         known = self.session.about.replay.author or self.app.settings.name
         return self.session.track.made != NONE and not known
 
@@ -154,9 +154,9 @@ class RunCommands(DocumentCommands):
         self.app.push(ReplayScreen(self.app, [self.session.recording(), *beside], editable=False))
 
     def offer_recovered(self) -> None:
-        """Ask what to do with this run, if it was being edited when the program died; name others.
+        """Ask what to do with this run if it was open when the program crashed; name others.
 
-        Of a run that was recorded on another level ask whether it is to be edited on this one.
+        For a run recorded on another level ask whether to edit it on this one.
         """
         lost = list(recovered(self.app.player.folder))
         own = next((run for run in lost if self._is_of_this_run(run)), None)

@@ -1,4 +1,4 @@
-"""What all parts of the TAS editor share: the session, cursor, selection, other runs; and where the parts are."""
+"""The shared state of all parts of the TAS editor: session, cursor, selection, other runs; and the layout."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ Span = tuple[int, int]  # the first tick, and the first one behind the last
 
 @dataclass(frozen=True)
 class OtherRun:
-    """A run that is shown beside the one under edit.
+    """A run shown beside the one under edit.
 
-    ``trajectory``: what its ninja does; ``made``: how, and by whom; ``ending``: its end in words.
+    ``trajectory``: its ninja's; ``made``: how, and by whom; ``ending``: its end in words.
     """
 
     name: str
@@ -48,17 +48,15 @@ class OtherRun:
 
 
 class TasEditor:
-    """What all parts of the TAS editor share.
+    """The shared state of all parts of the TAS editor.
 
-    ``cursor``: the tick whose row is the present one; the level is shown as it is after that tick.
-    ``anchor``: where a selection began; None: only the tick under the cursor is selected. ``others``: runs that were
-    opened beside this one; ``chosen``: the number of the one that parts are taken from, where there are any.
-    ``preview``: a result of a search, or a branch, that is looked at. ``tab``: the name of the tab that is to be shown.
-    ``against``: the run that the lead is told over; None: the chosen other one, else the run as it was opened.
-    ``theme``: the look of all parts, in the TAS editor's own logical px, which are not those of other screens.
-    ``places``: cursor and anchor when a run was edited or taken over, for undo.
-    ``hint``: of what is under the mouse, for the line below. ``leads``: by how many ticks the run is ahead of the one
-    beside it at everything that both do, by its own tick.
+    ``cursor``: the tick of the present row; the level is shown after that tick. ``anchor``: where a selection began;
+    None: only the tick under the cursor is selected. ``others``: runs opened beside this one; ``chosen``: the number of
+    the one to copy from, if there are any. ``preview``: a search result or a branch that is shown. ``tab``: the name of
+    the tab to show. ``against``: the run that the lead is measured against; None: the chosen other one, else the run as
+    it was opened. ``theme``: the look of all parts, in the TAS editor's own logical px, unlike other screens'.
+    ``places``: cursor and anchor when a run was edited, for undo. ``hint``: of what is under the mouse, for the line
+    below. ``leads``: by how many ticks the run is ahead of the other at every event that both have, by its own tick.
     """
 
     def __init__(self, app: App, session: Session) -> None:
@@ -104,7 +102,7 @@ class TasEditor:
         return len(self.session.timeline) - 1
 
     def go(self, tick: int, *, select: bool = False) -> None:
-        """Put the cursor on a tick; ``select``: what lies between is selected."""
+        """Put the cursor on a tick; ``select``: select the ticks between."""
         if not select:
             self.anchor = None
         elif self.anchor is None or (tick > self.cursor and (self.cursor, self.anchor) == self._selected):
@@ -113,7 +111,7 @@ class TasEditor:
         self.cursor = min(max(0, tick), self.last_tick)
 
     def select(self, first: int, last: int) -> None:
-        """Select the ticks ``first`` … ``last`` - 1; ``go`` selects on from either end of them."""
+        """Select the ticks ``first`` … ``last`` - 1; ``go`` extends the selection from either end."""
         self._selected = self.cursor, self.anchor = first, max(first, last - 1)
 
     def refuse(self, why: str) -> None:
@@ -121,7 +119,7 @@ class TasEditor:
         self.app.notify(why)
 
     def accept(self) -> None:
-        """Forget the last refusal: something was done since."""
+        """Clear the last refusal after a successful action."""
         if self._refusal and self.app.notice == self._refusal:
             self.app.notify("")
         self._refusal = ""
@@ -140,9 +138,9 @@ class TasEditor:
         return True
 
     def edit(self, make: Callable[[InputTrack], InputTrack], taken: Contributions | None = None) -> bool:
-        """Change the run as a function of what it is; a refusal is reported. Whether it was done.
+        """Change the run by a function of its track; a refusal is reported. Whether it was done.
 
-        ``taken``: of those whose keys are taken.
+        ``taken``: the contributions of those whose keys are copied.
         """
         return self.attempt(lambda: self.session.change(make(self.track), taken=taken))
 
@@ -163,17 +161,17 @@ class TasPart(Pane):
 
 NARROWEST_LEFT, LOWEST_LEVEL, LOWEST_TABS, NARROWEST_ROLL = 424.0, 200.0, 150.0, 350.0
 WIDEST_ROLL, USUAL_TABS = 460.0, 203.0
-"""Where nothing else is wished, logical px."""
+"""Default sizes, logical px."""
 
 _HEAD, _FOOT, _STRIP = 26.0, 21.0, 18.0
 _EDGE, _GAP, _THIN = 6.0, 3.0, 2.0
 _ABOVE, _BELOW = _HEAD + _THIN, _FOOT + _GAP
 _BETWEEN = _GAP + _STRIP + _THIN
-"""From the level to the tabs."""
+"""Distance between the level and the tabs."""
 
 
 class LayoutPreferences(NamedTuple):
-    """What the player has chosen, each a percentage or 0 for what suits the window.
+    """The player's choices, each a percentage or 0 for the default of the window.
 
     ``text_scale``: the size of a logical px; ``left``: the level's share of the width; ``tabs``: of the height.
     """
@@ -196,10 +194,9 @@ class TasLayout(NamedTuple):
 
 
 def tas_canvas(window: tuple[int, int], text_scale: int = 0) -> Canvas:
-    """A canvas that fills the window. A logical px, and so the text, grows as the root of the window does.
+    """A canvas that fills the window. A logical px, and so the text, grows as the square root of the window's size.
 
-    >>> [round(tas_canvas(size).scale, 2) for size in ((792, 600), (1920, 1080), (2560, 1440))]
-    [1.0, 1.34, 1.55]
+    >>> [round(tas_canvas(size).scale, 2) for size in ((792, 600), (1920, 1080), (2560, 1440))] [1.0, 1.34, 1.55]
     """
     width, height = max(1, window[0]), max(1, window[1])
     largest = min(width / WIDTH, height / HEIGHT)
@@ -210,8 +207,8 @@ def tas_canvas(window: tuple[int, int], text_scale: int = 0) -> Canvas:
 def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
     """The areas in a window of this logical size, at least that of the stage.
 
-    Level and tabs are at the left, the roll at the right. By default the level is as large as the usual
-    height of the tabs lets it be, and the roll has what that leaves of the width.
+    Level and tabs are at the left, the roll at the right. By default the level is as large as the tabs' default height
+    allows, and the roll has the rest of the width.
     """
     w, h = size
     shared = w - 3 * _EDGE
@@ -235,13 +232,13 @@ def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
 
 
 _TEXT_SCALES = (80, 90, 100, 110, 125, 140, 160, 180, 200, 240, 280, 320, 400)
-"""Sizes of the letters that one can choose, percent."""
+"""Sizes of the letters to choose from, percent."""
 
 
 class Splitters(TasPart):
-    """The borders between the parts, which the mouse drags. ``layout``: where everything is, once it ``fit``.
+    """The borders between the parts, which the mouse drags. ``layout``: valid after ``fit``.
 
-    What was dragged, and the size of the letters, are settings.
+    Dragged borders and the size of the letters are settings.
     """
 
     layout: TasLayout
@@ -261,7 +258,7 @@ class Splitters(TasPart):
         return self._dragged_to or LayoutPreferences(settings.text_scale, settings.level_width, settings.tabs_height)
 
     def fit(self) -> bool:
-        """Have theme and layout for the window as it is now, with all parts in their places; whether that is new."""
+        """Update theme and layout for the window, and place all parts; whether they have changed."""
         shown, preferences = self.editor.app.theme, self.preferences
         if (shown, preferences) == self._known:
             return False
@@ -302,7 +299,7 @@ class Splitters(TasPart):
         return bool(self._side_at(x, y))
 
     def _side_at(self, x: float, y: float) -> str:
-        """Which border is there: "left" of the roll, above the "tabs", or ''."""
+        """The border at a place: "left" of the roll, above the "tabs", or ''."""
         level, strip, roll = self.layout.level, self.layout.strip, self.layout.roll
         if level[0] + level[2] <= x < roll[0] and level[1] <= y < roll[1] + roll[3]:
             return "left"
@@ -336,7 +333,7 @@ class Splitters(TasPart):
         if self._dragged_to is not None:
             preferences, self._dragged_to = self._dragged_to, None
             if self.layout == self._before:
-                # Where there is no room to drag, nothing is wished for larger windows either.
+                # A window too small to drag in changes no choice for larger windows.
                 return
             self.editor.app.change_settings(level_width=preferences.left, tabs_height=preferences.tabs)
 

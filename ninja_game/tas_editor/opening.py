@@ -1,4 +1,4 @@
-"""Opens the TAS editor, behind a waiting screen where rules must be loaded or compiled first."""
+"""Opens the TAS editor, behind a waiting screen if rules must be loaded or compiled first."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from ninja_game.ui.input.bindings import InputEvent
 if TYPE_CHECKING:
     from ninja_game.tas_editor.screen import TasScreen
 
-PATIENCE_MS = 1000  # what takes longer is explained
+PATIENCE_MS = 1000  # longer waits are explained
 
 
 def open_tas_editor(app: App, recording: Recording, others: Sequence[Recording], tick: int) -> None:
-    """Open the TAS editor on a run, with others of its level beside it; a notice where that is impossible."""
+    """Open the TAS editor on a run, with others of its level beside it; a notice if that is impossible."""
 
     def make() -> TasScreen:
-        # They import NumPy, which watching does without.
+        # They import NumPy, which watching does not need.
         from ninja_game.tas.files import open_recording, same_level
         from ninja_game.tas_editor.screen import TasScreen
 
@@ -54,20 +54,20 @@ def is_prepared() -> bool:
 
 
 def prepare(run: Recording) -> None:
-    """Have the rules that the TAS editor needs for a run in this process: loaded, or compiled."""
+    """Load or compile the rules that the TAS editor needs for a run in this process."""
     from ninja_game.simulation import Simulation
     from ninja_game.tas.timeline import Timeline
 
-    # What is wrong with the run, the TAS editor says.
+    # The TAS editor reports errors of the run.
     with suppress(NinjaGameError):
         Timeline(run.level, b"\0", body=run.body).simulate(1)
         Simulation(run.level, body=run.body, memory="auto").step_keys(0)
 
 
 class OpeningScreen(Screen):
-    """Says what is being done until the rules are there; then the TAS editor, which ``make`` gives, takes its place.
+    """A waiting screen until the rules are there; then the TAS editor, which ``make`` gives, replaces it.
 
-    What is wrong then is reported on the screen below, or raised without one: NinjaGameError, OSError.
+    An error then is reported on the screen below, or raised without one: NinjaGameError, OSError.
     """
 
     def __init__(self, app: App, run: Recording, make: Callable[[], TasScreen]) -> None:
@@ -99,7 +99,7 @@ class OpeningScreen(Screen):
         return f"Loading the rules ({seconds})"
 
     def capture(self, event: InputEvent) -> bool:
-        """Nothing can be done yet, except close the window."""
+        """Only closing the window is possible yet."""
         return True
 
     def update(self, real_ms: int) -> None:

@@ -31,11 +31,11 @@ from ninja_game.ui.theme import Theme
 
 
 class TasScreen(WorkspaceScreen):
-    """The screen on which a run is edited. ``editor``: cursor, selection, layout; ``session``: the run.
+    """The screen for editing a run. ``editor``: cursor, selection, layout; ``session``: the run.
 
-    ``others``: other runs of its level; ``recovered_run``: what was not saved of the run last time. Raises LevelError
-    for a run on a level that cannot be played, ReplayError for another run that is of another level or has another
-    body, FileError for what another window continues with.
+    ``others``: other runs of its level; ``recovered_run``: unsaved work of the last time. Raises LevelError for a run
+    on a level that cannot be played, ReplayError for another run on another level or with another body, FileError for
+    a run that another window has recovered.
     """
 
     table = TABLE
@@ -69,7 +69,7 @@ class TasScreen(WorkspaceScreen):
 
     @property
     def theme(self) -> Theme:
-        """The TAS editor's own: a larger window has room for more, where other screens are larger."""
+        """The TAS editor's own theme: a larger window has room for more, while other screens become larger."""
         if self.splitters.fit():
             self.redraw = True
         return self.editor.theme
@@ -91,7 +91,7 @@ class TasScreen(WorkspaceScreen):
         self.editor.hint = text
 
     def _begin_new(self) -> None:
-        """Open an empty run of the level above this one."""
+        """Open an empty run of the level over this one."""
         about = self.session.about
         on = NamedLevel(about.replay.level_name or about.name, about.level_author, "", about.level, about.file)
         self.app.push(TasScreen(self.app, new_run(on, body=about.body)))
@@ -103,9 +103,9 @@ class TasScreen(WorkspaceScreen):
         self.app.replace(screen)
 
     def enter(self) -> None:
-        self.editor.theme = self.theme  # all parts are in their places before the first of them looks around
+        self.editor.theme = self.theme  # all parts are placed before the first of them reads its area
         super().enter()
-        # All that there is now (compiled code has much) is left out when memory is cleared up: that took 80 ms.
+        # Exclude present objects (compiled code has many) from garbage collection: that took 80 ms.
         gc.freeze()
         if not self._entered:
             self._entered = True
@@ -119,13 +119,13 @@ class TasScreen(WorkspaceScreen):
         if self not in self.app.stack:
             for tab in self.tabs:
                 tab.close()
-            self.session.close(keep=True)  # what is not saved is offered again
+            self.session.close(keep=True)  # unsaved work is offered again
 
     def meaning(self, event: InputEvent) -> str:
         return self.level.meaning(event)
 
     def capture(self, event: InputEvent) -> bool:
-        """Keys of the game go to the ninja that was taken over; Escape ends a search that is shown."""
+        """During play by hand the game's keys go to the ninja; Escape ends a visible search."""
         if self.level.capture(event):
             self.held.follow(event.raw)
             return True

@@ -1,1 +1,1 @@
-"""What every screen is drawn with: canvas, colours, letters, widgets."""
+"""The base of every screen: canvas, colours, letters, widgets."""

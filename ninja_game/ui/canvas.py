@@ -1,4 +1,4 @@
-"""From the 792 x 600 logical px of the stage to the px of a window of any size, drawn crisp, never stretched."""
+"""From the 792 x 600 logical px of the stage to the px of a window of any size, drawn sharply, never stretched."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Canvas:
         return pygame.Rect(left, top, right - left, bottom - top)
 
     def logical(self, px: tuple[int, int]) -> Point:
-        """The logical point under a px, such as the mouse's."""
+        """The logical point of a px, such as the mouse's."""
         return (px[0] - self.origin[0]) / self.scale, (px[1] - self.origin[1]) / self.scale
 
     # --- shapes, anti-aliased, in logical px ---
@@ -64,7 +64,7 @@ class Canvas:
     def fill_rect(
         self, surface: pygame.Surface, colour: Colour, x: float, y: float, w: float, h: float, radius: float = 0
     ) -> pygame.Rect:
-        """A filled rectangle; ``radius`` rounds its corners. A colour with alpha below 255 lets shine through."""
+        """A filled rectangle; ``radius`` rounds its corners. A colour with alpha below 255 is transparent."""
         rect = self.rect(x, y, w, h)
         colour = pygame.Color(colour)
         if colour.a < 255:
@@ -110,7 +110,7 @@ class Canvas:
 
 
 def _drawn_limb(surface: pygame.Surface, colour: Colour, points: Sequence[Point], radii: Sequence[float]) -> None:
-    """A line through points (px), round at each of them and as thick there as its radius says; no edge is smoothed."""
+    """A line through points (px), with a radius at each of them and round ends; without anti-aliasing."""
     circle, polygon = pygame.draw.circle, pygame.draw.polygon
     before = None
     for (x, y), radius in zip(points, radii, strict=True):
@@ -127,14 +127,13 @@ def _drawn_limb(surface: pygame.Surface, colour: Colour, points: Sequence[Point]
 
 
 draw_limb = getattr(pygame.draw, "limb", _drawn_limb)
-"""The page has it as one shape: a text is made of some hundred, a figure of twenty."""
+"""A page has its own function: a text is made of some hundred such lines, a figure of twenty."""
 
 
 class Lens(Canvas):
-    """A part of the stage, at any scale. ``origin``: px where the stage's upper left corner would be.
+    """A part of the stage, at any scale. ``origin``: px of the stage's upper left corner, which may be outside.
 
-    >>> Lens((100, 50), 4, (-400, -40)).logical((0, 0))
-    (100.0, 10.0)
+    >>> Lens((100, 50), 4, (-400, -40)).logical((0, 0)) (100.0, 10.0)
     """
 
     def __init__(self, window: tuple[int, int], scale: float, origin: tuple[int, int]) -> None:
@@ -150,17 +149,17 @@ class Lens(Canvas):
         return self._seen.copy()
 
 
-LARGEST_SCALE = 8.0  # px of the window a px of the level, at most
-_MARGIN = 0.3  # the part of the picture, at each side, in which what is followed moves the picture
-_STILL = 3  # the mouse that moves less, px, clicks
+LARGEST_SCALE = 8.0  # px of the window per px of the level, at most
+_MARGIN = 0.3  # share of the picture at each side in which a followed place moves the picture
+_STILL = 3  # less movement of the mouse than this, px, is a click
 
 
 class Camera:
-    """Which part of a level is seen in a picture of some size (``window``, px); the mouse zooms and moves it.
+    """The part of a level in a picture of some size (``window``, px); the mouse zooms and moves it.
 
     ``zoom``: 1: all of the level; one notch of the wheel multiplies it by ``step``, up to ``most``, 0: to
-    LARGEST_SCALE. ``centre``: what is in the middle, px of the level. ``held``: where the mouse has hold of it, px;
-    ``moved``: it has moved since.
+    LARGEST_SCALE. ``centre``: px of the level in the middle. ``held``: the px where a drag is, ``moved``: whether it
+    has moved.
     """
 
     def __init__(self, step: float = 1.25, most: float = 0.0) -> None:
@@ -187,7 +186,7 @@ class Camera:
         self.centre: Point = (WIDTH / 2, HEIGHT / 2)
 
     def zoom_at(self, window: tuple[int, int], px: tuple[int, int], notches: float) -> None:
-        """Show it larger or smaller; what is under a px stays there as far as that is possible."""
+        """Zoom; the level's place under a px stays there as far as possible."""
         x, y = self.canvas(window).logical(px)
         most = self._most or max(1.0, LARGEST_SCALE / Canvas(window).scale)
         steps = round(log(self.zoom, self._step)) + notches
@@ -203,7 +202,7 @@ class Camera:
         self.held, self.moved = px, False
 
     def drag(self, window: tuple[int, int], px: tuple[int, int]) -> None:
-        """The mouse is there: move what it drags, once it has moved farther than a click may."""
+        """Drag the level to the mouse, once that has moved farther than a click may."""
         if self.held:
             dx, dy = px[0] - self.held[0], px[1] - self.held[1]
             self.moved = self.moved or max(abs(dx), abs(dy)) > _STILL
@@ -212,14 +211,14 @@ class Camera:
                 self.held = px
 
     def follow(self, window: tuple[int, int], x: float, y: float) -> None:
-        """Have a place of the level well inside of the picture."""
+        """Scroll until a place of the level is well inside of the picture."""
         scale = self.canvas(window).scale
         reach = [length / scale * (0.5 - _MARGIN) for length in window]
         cx, cy = self.centre
         self._look_at(window, min(max(cx, x - reach[0]), x + reach[0]), min(max(cy, y - reach[1]), y + reach[1]))
 
     def _look_at(self, window: tuple[int, int], x: float, y: float) -> None:
-        """Have a place in the middle, but nothing beside the level in the picture."""
+        """Centre a place, without a gap beside the level."""
         scale = Canvas(window).scale * self.zoom
         half_w, half_h = window[0] / scale / 2, window[1] / scale / 2
         self.centre = (
@@ -229,7 +228,7 @@ class Camera:
 
 
 def _origin(window: int, length: float, centre: float, scale: float) -> int:
-    """Where the level begins, px: in the middle if it is smaller than the window, else without a gap."""
+    """The level's corner, px: centred if it is smaller than the window, else without a gap."""
     whole = round(length * scale)
     if whole <= window:
         return (window - whole) // 2

@@ -1,4 +1,4 @@
-"""Text at any window size: the game's own letters, round strokes in two weights, drawn once and kept while used.
+"""Text at any window size: the game's own letters, round strokes in two weights, cached as pictures.
 
 Letters with accents are composed of their parts. A text with any other character is drawn as a whole in pygame's font.
 """
@@ -18,13 +18,13 @@ from ninja_game.files.user_folder import asset_lines
 from ninja_game.formats.ascii.places import Point
 from ninja_game.ui.canvas import Canvas, Colour, draw_limb
 
-_KEPT = 400  # texts kept; a changing time adds one a picture
+_KEPT = 400  # cached texts; a running clock adds one per picture
 
 _SHARE_LEFT = {"left": 0.0, "centre": 0.5, "right": 1.0}
 
 
 class Lettering:
-    """Draws text on a canvas; keeps what it rendered."""
+    """Draws text on a canvas; caches the pictures."""
 
     def __init__(self, canvas: Canvas) -> None:
         self.canvas = canvas
@@ -51,7 +51,7 @@ class Lettering:
         self, surface: pygame.Surface | None, text: str, x: float, y: float, size: float, colour: Colour,
         *, align: str = "left", bold: bool = False,
     ) -> pygame.Rect:  # fmt: skip
-        """Draw a text whose top is at logical ``y``; ``align``: what ``x`` is, "left", "centre" or "right" of it."""
+        """Draw a text whose top is at logical ``y``; ``align``: whether ``x`` is its "left", "centre" or "right"."""
         picture = self.rendered(text, size, colour, bold=bold)
         rect = picture.get_rect()
         px, py = self.canvas.point(x, y)
@@ -63,7 +63,7 @@ class Lettering:
 
 @lru_cache(maxsize=_KEPT)
 def _safe(text: str) -> str:
-    """A text as it may be shown; four blanks, which part two things, become a wide one."""
+    """A text without what could break drawing; four spaces become a wide one."""
     return "\u2003".join(map(shown_text, text.split("    ")))
 
 
@@ -73,12 +73,12 @@ _TOP = 0.1
 WEIGHTS = (0.95, 1.42)  # width of the strokes of plain and bold letters, on the glyphs' grid
 SPACING = 1.18  # free space between two letters, on the grid, stroke ends not counted
 _FINE = 4
-_LOWERED = 0.8  # height of a tall letter under an accent, as a share of its own
+_LOWERED = 0.8  # height of a tall letter under an accent, as a share of its usual height
 _COMMANDS = re.compile(r"([MLQOAD])([^MLQOAD]*)")
 
 
 CAP = 7.0  # height of capitals on the glyphs' grid
-ASCENDERS = frozenset("bdfhklt")  # small letters as tall as capitals: with an accent they are drawn lower
+ASCENDERS = frozenset("bdfhklt")  # small letters as tall as capitals: lower under an accent
 
 
 def _read_glyphs() -> dict[str, tuple[float, str]]:
@@ -105,7 +105,7 @@ class Glyph(NamedTuple):
 
 @lru_cache(maxsize=1024)
 def glyph(character: str) -> Glyph | None:
-    """A letter, composed of its parts where it has accents; None for one that the game has no strokes for."""
+    """A letter, composed of its parts where it has accents; None for one without strokes."""
     if character in GLYPHS:
         width, path = GLYPHS[character]
         return Glyph(width, _lines(path))
@@ -145,7 +145,7 @@ def _lines(path: str) -> tuple[tuple[Point, ...], ...]:
             x, y, rx, ry = values[:4]
             start, end = (0.0, 360.0) if command == "O" else (values[4], values[5])
             points = _arc(x, y, rx, ry, start, end)
-            # An arc goes on from where the pen is, if that is where it starts.
+            # An arc continues at the pen if it starts there.
             joins = lines and command == "A" and _near(lines[-1][-1], points[0])
             if joins:
                 lines[-1] += points
@@ -187,7 +187,7 @@ class StrokeFont:
         self.width = lru_cache(maxsize=_KEPT)(self._width)
 
     def _advance(self, letter: Glyph) -> float:
-        """From one letter to the next, px."""
+        """Distance to the next letter, px."""
         return (letter.width + SPACING + self._weight) * self._unit
 
     def _width(self, text: str) -> int:
@@ -200,12 +200,12 @@ class StrokeFont:
         return ceil(sum(self._advance(letter) for letter in letters if letter) - SPACING * self._unit + 2)
 
     def _draw(self, character: str, colour: tuple[int, int, int, int], phase: int) -> pygame.Surface:
-        """A letter on a sheet of its own, its origin ``phase`` quarters of a px beside ``_pad`` px from the left."""
+        """A letter on its own sheet, its origin ``phase`` quarters of a px beside ``_pad`` px from the left."""
         letter = glyph(character)
         assert letter is not None  # noqa: S101 - other texts are drawn as a whole
-        # One more unit to the left and right: a few strokes reach beyond their glyph's width.
+        # One more unit to the left and right: some strokes reach beyond their glyph's width.
         size = ceil((letter.width + 2) * self._unit + 2 * self._pad) + 1, self.height
-        # The colour is everywhere, only the alpha is the letter's: averaging does not darken its edge.
+        # The sheet has the colour everywhere and the letter as alpha: averaging then does not darken its edge.
         fine = pygame.Surface((size[0] * _FINE, size[1] * _FINE), pygame.SRCALPHA)
         fine.fill((*colour[:3], 0))
         zoom = self._unit * _FINE
@@ -213,7 +213,7 @@ class StrokeFont:
         width = max(_FINE, self._weight * zoom)
         for line in letter.lines:
             points = [(left + x * zoom, top + y * zoom) for x, y in line]
-            # Small dots would be lost.
+            # A minimum radius, or small dots would vanish.
             radius = max(width * 0.66, 0.85 * _FINE) if len(points) == 1 else width / 2
             draw_limb(fine, colour, points, [radius] * len(points))
         return pygame.transform.smoothscale(fine, size)
@@ -225,7 +225,7 @@ class StrokeFont:
         picture.fill((ink.r, ink.g, ink.b, 0))
         letters = [(character, glyph(character)) for character in text]
         if any(letter is None for _, letter in letters):
-            # pygame refuses a text of characters without width; a blank behind it changes no picture.
+            # pygame refuses a text of characters without width; a space behind it changes no picture.
             picture.blit(self._fallback.render(f"{text} ", True, ink), (1, round(self._baseline_top * 0.2)))
             return picture
         x = 1 + self._weight / 2 * self._unit

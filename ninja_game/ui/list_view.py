@@ -1,4 +1,4 @@
-"""A list of rows that scrolls, and a grid of cells: many things of which one is chosen."""
+"""A list of rows that scrolls, and a grid of cells, to choose one of many things."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Widget
 
 DrawRow = Callable[[pygame.Surface, Theme, int, Area, bool], None]
-"""Shows a row: surface, theme, its number, its area, whether it is the chosen one while the list has the focus."""
+"""Draws a row: surface, theme, number, area, whether it is selected while the list has the focus."""
 
 BAR = 8
 
@@ -18,8 +18,8 @@ BAR = 8
 class ListView(Widget):
     """Cells of one size in ``columns`` columns, top to bottom; one is selected. One column: a list.
 
-    ``choose`` is called with the number of a cell that is confirmed or clicked, ``selected`` when the selection moves.
-    ``opens``: to choose is to leave the screen, so the first click selects, a second one on the same cell chooses.
+    ``choose`` is called with the number of a confirmed or clicked cell, ``selected`` when the selection moves.
+    ``opens``: choosing leaves the screen, so a first click only selects, and a second one on the same cell chooses.
     """
 
     def __init__(
@@ -41,7 +41,7 @@ class ListView(Widget):
         self.first = 0
 
     def fill(self, rows: Sequence[object]) -> None:
-        """Show so many rows; the selection stays where that is possible, a first click where its row is the same."""
+        """Set the number of rows; the selection stays if possible, and so does a first click on an unchanged row."""
         at = self._clicked
         stays = 0 <= at < min(len(self._rows), len(rows)) and self._rows[at] is rows[at]
         self._rows, self.count = rows, len(rows)
@@ -106,7 +106,7 @@ class ListView(Widget):
         return index if shown else None
 
     def click(self, x: float, y: float) -> bool:
-        """Choose what is clicked; on the bar: scroll there."""
+        """Choose the clicked row; on the bar: scroll there."""
         if x >= self.area[0] + self.area[2] - BAR - 4:
             return self.drag(x, y)
         index = self._index_at(x, y)
@@ -119,7 +119,7 @@ class ListView(Widget):
         return index is not None
 
     def hover(self, x: float, y: float) -> bool:
-        """The mouse is over it: select that row, unless rows need a click; whether the selection changed."""
+        """The mouse is over the list: select that row, unless rows need a click; whether the selection changed."""
         index = self._index_at(x, y)
         if index is None or index == self.index or self.opens:
             return False

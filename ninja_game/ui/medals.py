@@ -1,4 +1,4 @@
-"""Medals, and the sign of all gold."""
+"""Medals, and the mark for all gold."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ def draw_medal(
     reached: bool = True,
     shine: float = 1.0,
 ) -> None:
-    """A disc with the medal's first letter, its middle at x, y; only its rim where it is not reached.
+    """A disc with the medal's first letter, centred at x, y; only its rim if it is not reached.
 
-    A large one has relief and hangs from a ribbon, all within ``size``; ``shine``: how far light has swept over it.
+    A large one has relief and hangs from a ribbon, all within ``size``; ``shine``: progress of the light over it.
     """
     canvas, palette, large = theme.canvas, theme.palette, reached and size >= _LARGE
     metal = pygame.Color(_METALS[medal])
@@ -62,16 +62,16 @@ def draw_medal(
 def draw_stamp(
     surface: pygame.Surface, theme: Theme, medal: str, x: float, y: float, size: float, stamp: float, shine: float
 ) -> None:
-    """A medal that is stamped, ``stamp`` 0…1 of the way: it comes too large, and light sweeps over it."""
+    """A medal being stamped, ``stamp`` 0…1: it shrinks to its size, and light moves over it."""
     if stamp > STAMP_SEEN:
         draw_medal(surface, theme, medal, x, y, size * stamp * (1 + 0.6 * sin(pi * stamp)), shine=shine)
 
 
-STAMP_SEEN = 0.2  # how far a stamp has come when it is first seen
+STAMP_SEEN = 0.2  # ``stamp`` of the first visible picture
 
 
 def draw_all_gold(surface: pygame.Surface, theme: Theme, x: float, y: float, size: float = 11) -> None:
-    """A piece of gold, its middle at x, y."""
+    """A piece of gold, centred at x, y."""
     canvas, palette = theme.canvas, theme.palette
     canvas.fill_rect(surface, palette.gold, x - size / 2, y - size / 2, size, size, 2)
     canvas.frame_rect(surface, palette.gold_dark, x - size / 2, y - size / 2, size, size, 1.5, 2)

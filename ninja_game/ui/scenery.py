@@ -12,26 +12,26 @@ from ninja_game.formats.ascii.places import Point
 from ninja_game.ui.canvas import Colour
 from ninja_game.ui.theme import GROUND_ROLES, Palette, mixed
 
-# The sheet on which the layers are painted, px.
+# The sheet for painting the layers, px.
 _WIDE = 396
 _HIGH = 300
 
 _LAYERS = ((0.0, 5.0), (0.35, 4.0), (0.7, 3.0), (1.0, 2.0))
-"""How near each layer is, 0…1, and how wide its haze, px of the sheet: what is farther off is softer."""
+"""Nearness of each layer, 0…1, and width of its haze, px of the sheet: farther layers are softer."""
 
-_COPIES = 6  # of a shape, about a circle around it: its haze
-_FAINT = (255, 255, 255, 60)  # each of them
+_COPIES = 6  # copies of a shape in a circle around it: its haze
+_FAINT = (255, 255, 255, 60)  # colour of each copy
 _BAND = 3  # height of the bands of the sky's colours, px of the sheet
-_HORIZON = 140  # down to here, px of the sheet
-_KEPT = 4  # grounds in memory: one as large as a 4K screen takes 33 MB
-_SHEETS = 24  # small sheets in memory
-_LIFT = 40  # how much higher or lower the layers lie from one level to another, px of the sheet
+_HORIZON = 140  # lower end of the sky's bands, px of the sheet
+_KEPT = 4  # cached grounds: one as large as a 4K screen takes 33 MB
+_SHEETS = 24  # cached small sheets
+_LIFT = 40  # greatest difference in the layers' height between two levels, px of the sheet
 
 Numbers = Iterator[float]
 
 
 def draw_scenery(surface: pygame.Surface, palette: Palette, stage: pygame.Rect, area: pygame.Rect) -> None:
-    """Draw what is behind everything into the part ``area`` of a stage, px."""
+    """Draw the scenery into the part ``area`` of a stage, px."""
     if palette.scenery:
         surface.blit(ground(stage.size, palette), area, area.move(-stage.x, -stage.y))
     else:
@@ -40,13 +40,13 @@ def draw_scenery(surface: pygame.Surface, palette: Palette, stage: pygame.Rect, 
 
 @lru_cache(maxsize=_KEPT)
 def ground(size: tuple[int, int], palette: Palette) -> pygame.Surface:
-    """The sky and the layers of a palette that has a scenery, painted once; nobody may draw on it."""
+    """The sky and the layers of a palette with scenery, painted once; it is shared, so never draw on it."""
     return pygame.transform.smoothscale(scenery_sheet(palette), size)
 
 
 @lru_cache(maxsize=_SHEETS)
 def scenery_sheet(palette: Palette) -> pygame.Surface:
-    """The ground on its small sheet: sky, sun or moon, layers; nobody may draw on it."""
+    """The ground on its small sheet: sky, sun or moon, layers; it is shared, so never draw on it."""
     scenery = palette.scenery
     sky, horizon, far, near = (getattr(palette, role) for role in GROUND_ROLES)
     sheet = pygame.Surface((_WIDE, _HIGH))
@@ -72,9 +72,9 @@ def scenery_sheet(palette: Palette) -> pygame.Surface:
 
 @lru_cache(maxsize=_SHEETS)
 def grain(palette: Palette, role: str) -> pygame.Surface:
-    """What to take from rock of a role's colour, of a palette that has a scenery, so that its marks are left.
+    """What to subtract from rock in a role's colour, for a palette with scenery, so that the rock's marks are left.
 
-    Nobody may draw on it.
+    It is shared, so never draw on it.
     """
     sheet = pygame.Surface((_WIDE, _HIGH), pygame.SRCALPHA)
     GRAINS[palette.scenery](sheet, _numbers(f"rock of {palette.name}"))
@@ -84,7 +84,7 @@ def grain(palette: Palette, role: str) -> pygame.Surface:
 
 
 def _white(numbers: Numbers) -> tuple[int, int, int, int]:
-    """Some white, premultiplied."""
+    """White with an alpha, premultiplied."""
     return (round(255 * next(numbers)),) * 4
 
 
@@ -110,7 +110,7 @@ def _strata(sheet: pygame.Surface, numbers: Numbers, slant: float = 0.1, wave: f
 
 
 def _stones(sheet: pygame.Surface, numbers: Numbers) -> None:
-    """Round ones, large and small."""
+    """Round stones, large and small."""
     for _ in range(260):
         place = _WIDE * next(numbers), _HIGH * next(numbers)
         pygame.draw.circle(sheet, _white(numbers), place, 7 + 20 * next(numbers) ** 2)
@@ -138,7 +138,7 @@ GRAINS: dict[str, Callable[[pygame.Surface, Numbers], None]] = {
     "hills": _strata, "clouds": _stones, "dunes": lambda sheet, numbers: _strata(sheet, numbers, 0.45, 3.0),
     "towers": _bricks, "crystals": _facets,
 }  # fmt: skip
-"""How rock is marked, by the kinds of scenery in which it is: each leaves white what is plain."""
+"""Marks on rock, by the kinds of scenery: each function leaves plain rock white."""
 
 
 def _numbers(name: str) -> Numbers:
@@ -163,7 +163,7 @@ def _hills(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Nu
 
 
 def _dunes(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Numbers) -> None:
-    """Each rises slowly and falls fast behind its crest."""
+    """Dunes: each rises slowly and falls steeply behind its crest."""
     wide, high = 150 + 120 * next(numbers), 34 + 26 * next(numbers)
     start, crest = next(numbers), 0.62 + 0.2 * next(numbers)
 
@@ -176,7 +176,7 @@ def _dunes(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Nu
 
 
 def _clouds(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Numbers) -> None:
-    """A bank of them: towers of discs that swell and sink."""
+    """A bank of clouds: towers of discs of changing size."""
     start = 2 * pi * next(numbers)
 
     def height(x: float) -> float:
@@ -199,7 +199,7 @@ def _towers(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: N
 
 
 def _crystals(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Numbers) -> None:
-    """Spikes that lean to either side, out of the ground."""
+    """Spikes from the ground that lean to either side."""
     _ridge(sheet, colour, lambda x: base + 44 - 10 * sin(x / 31 + base))
     x = 10 * next(numbers)
     while x < _WIDE + 20:
@@ -218,4 +218,4 @@ SCENERIES: dict[str, Callable[[pygame.Surface, pygame.Color, float, Numbers], No
     "hills": _hills, "clouds": _clouds, "dunes": _dunes, "towers": _towers, "crystals": _crystals,
     "paper": lambda *_: None,
 }  # fmt: skip
-"""What a layer's shapes are, by kind: each draws one, of a colour, about a height (px of the sheet)."""
+"""The shapes of layers, by kind: each function draws one in a colour, at about a height (px of the sheet)."""

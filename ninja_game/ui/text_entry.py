@@ -1,4 +1,4 @@
-"""Text that the player types, in a line or several."""
+"""Text fields, of one line or several."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from ninja_game.ui.input.keys import chord
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import PAD, TEXT, Widget
 
-MAX_ENTRY = 40  # how many characters can be typed unless a field says otherwise
+MAX_ENTRY = 40  # most characters, unless a field says otherwise
 _NO_TEXT = {"tab", "escape", "return", "kp_enter", "up", "down", "pageup", "pagedown", "insert"}
 _FUNCTION_KEY = re.compile("f[0-9]+")
-TEXT_LINE = TEXT + 4.0  # height of a line where there are several, px
-DOUBLE_MS = 400  # a second click within so many ms selects a word, a third one everything
+TEXT_LINE = TEXT + 4.0  # height of a line of several, px
+DOUBLE_MS = 400  # ms in which a second click selects a word, a third one everything
 
 
 class TextEntry(Widget):
-    """A text field, edited as everywhere: arrows, Home and End, with Shift to select, with Ctrl by words.
+    """A text field with the usual keys: arrows, Home and End, with Shift to select, with Ctrl by words.
 
-    So are Backspace and Delete; Ctrl+A, C, X, V and Z; the mouse, dragged or clicked twice. ``prompt``: shown while it
-    is empty. ``put`` is called at every change. ``longest``: how many characters fit in. ``proposed``: the text is
-    selected at first, so that what is typed replaces it.
+    Also Backspace and Delete; Ctrl+A, C, X, V and Z; dragging and double clicks. ``prompt``: shown while it is empty.
+    ``put`` is called at every change. ``longest``: most characters. ``proposed``: the text is selected at first, so
+    that typing replaces it.
     """
 
     def __init__(
@@ -88,7 +88,7 @@ class TextEntry(Widget):
         return True
 
     def _command(self, letter: str) -> bool:
-        """Ctrl and a letter; whether it means anything in a text."""
+        """Handle Ctrl and a letter; whether a text uses it."""
         edited = self.edited
         with suppress(pygame.error):
             if letter == "a":
@@ -129,7 +129,7 @@ class TextEntry(Widget):
         self._first, self._stops = self._rows[min(max(0, row), len(self._rows) - 1)]
 
     def _place_at(self, x: float) -> int:
-        """The place between two characters that is nearest to a point; beyond the edges the next one out of sight."""
+        """The place between two characters that is nearest to a point; beyond the edges the next hidden one."""
         stops = self._stops
         if x < stops[0] - 1:
             return self._first - 1
@@ -158,7 +158,7 @@ class TextEntry(Widget):
                 fill(surface, palette.accent, place - 1, top + 1, 1.5, high - 2)
 
     def _lay_out(self, theme: Theme, left: float, room: float) -> tuple[float, int]:
-        """Measure the lines; how high each is, px, and how many have room."""
+        """Measure the lines; the height of each, px, and how many have room."""
         self._scroll(theme, room)
         self._measure(theme, left, room)
         self._rows = [(self._first, self._stops)]
@@ -177,7 +177,7 @@ class TextEntry(Widget):
             self._first -= 1
 
     def _measure(self, theme: Theme, left: float, room: float) -> str:
-        """What is shown; ``_stops`` gets the places between its characters."""
+        """The visible part; ``_stops`` gets the places between its characters."""
         self._stops = [left]
         for last in range(self._first + 1, len(self.text) + 1):
             width = theme.width(self.text[self._first : last], TEXT)
@@ -188,7 +188,7 @@ class TextEntry(Widget):
 
 
 class TextArea(TextEntry):
-    """A text in as many lines as have room, wrapped at words; up and down lead from line to line, and then on."""
+    """A text in as many lines as have room, wrapped at words; up and down move by lines, and at the ends the focus."""
 
     def nudge(self, action: str) -> bool:
         row = self._cursor_row
@@ -200,7 +200,7 @@ class TextArea(TextEntry):
         return True
 
     def _last(self, first: int, stops: list[float]) -> int:
-        """The last place of a line: what is behind its space is the beginning of the next one."""
+        """The last place of a line: the place behind its space begins the next line."""
         return max(0, len(stops) - 1 - (first + len(stops) <= len(self.text)))
 
     def _place_at(self, x: float) -> int:
@@ -223,7 +223,7 @@ class TextArea(TextEntry):
 class EditedText:
     """A line of text under edit. ``cursor``: before which character it is; up to ``anchor`` it is selected.
 
-    ``longest``: how many characters fit in; ``was_full``: whether what was typed last did not.
+    ``longest``: most characters; ``was_full``: whether the last typed text did not fit.
     """
 
     def __init__(self, text: str, longest: int) -> None:
@@ -243,7 +243,7 @@ class EditedText:
         return self.text[slice(*self.span)]
 
     def go(self, place: int, *, select: bool = False) -> None:
-        """Put the cursor before a character; ``select``: what lies between is selected too."""
+        """Put the cursor before a character; ``select``: select up to it."""
         self.cursor = min(max(0, place), len(self.text))
         if not select:
             self.anchor = self.cursor
@@ -271,7 +271,7 @@ class EditedText:
         self.anchor, self.cursor = first, last
 
     def put(self, typed: str) -> None:
-        """Replace the selection by a text, as much of it as fits; line ends become blanks."""
+        """Replace the selection by a text, as much of it as fits; line ends become spaces."""
         first, last = self.span
         line = re.sub(r"[\r\n\t]+", " ", typed.strip("\r\n"))
         line = "".join(char for char in line if char.isprintable())
@@ -287,13 +287,13 @@ class EditedText:
             self.text, self.cursor, self.anchor = self._past.pop()
 
     def erase(self, direction: int, *, word: bool = False) -> None:
-        """Delete what is selected; else the character, or the word, at the right (1) or left (-1)."""
+        """Delete the selection; else the character, or the word, at the right (1) or left (-1)."""
         if self.cursor == self.anchor:
             self.step(direction, word=word, select=True)
         self.put("")
 
     def _beyond(self, direction: int) -> int:
-        """The end of the next word at the right (1), or the begin of the one at the left (-1)."""
+        """The end of the next word at the right (1), or the start of the one at the left (-1)."""
         place, behind = self.cursor, 0 if direction > 0 else 1
         end = len(self.text) if direction > 0 else 0
         while place != end and not self.text[place - behind].isalnum():

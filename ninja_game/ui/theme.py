@@ -25,10 +25,10 @@ def inside(area: Area, x: float, y: float) -> bool:
     return left <= x < left + w and top <= y < top + h
 
 
-EDGE = 2  # px that stay free between a text and the window's edge
+EDGE = 2  # px left free between a text and the window's edge
 
 NARROWEST = 0.2
-"""Width of the narrowest letter with its space, as a share of the size: longer texts need not be measured."""
+"""Width of the narrowest letter with its space, as a share of the size: longer texts are shortened before measuring."""
 
 
 TEXT_SIZES = {"normal": 100, "large": 125, "largest": 150}  # sizes of text, percent
@@ -37,8 +37,8 @@ TEXT_SIZES = {"normal": 100, "large": 125, "largest": 150}  # sizes of text, per
 class Theme:
     """Palette and lettering for a canvas; made again when either changes.
 
-    ``text_size``: percent. Every text is as large as that where it fits, else in the next smaller of the sizes; its
-    middle stays where it is. What does not fit in the normal size is shortened by dots.
+    ``text_size``: percent. A text has that size if it fits, else the next smaller of the sizes; its middle stays. A
+    text that does not fit in the normal size is shortened by dots.
     """
 
     def __init__(self, palette: Palette, canvas: Canvas, text_size: int = 100) -> None:
@@ -56,8 +56,8 @@ class Theme:
     ) -> pygame.Rect:  # fmt: skip
         """Draw a text (or, without a surface, only measure it); its px rectangle. ``y``: its top in the normal size.
 
-        ``width``, ``height``: the room that it has, logical px; without a width it ends at the window's edge, without
-        a height it is as high as it likes.
+        ``width``, ``height``: the room for it, logical px; without a width up to the window's edge, without a height
+        unlimited.
         """
         room = self._room(x, align) if width is None else min(width, self._room(x, align))
         scale = self.largest(text, size, room, bold=bold, height=height)
@@ -68,7 +68,7 @@ class Theme:
         )
 
     def _room(self, x: float, align: str) -> float:
-        """From a text's place to the window's edges."""
+        """The room from a text's place to the window's edges."""
         left, right = self.canvas.logical((0, 0))[0], self.canvas.logical(self.canvas.window)[0]
         rooms = {"left": right - x, "right": x - left}
         return rooms.get(align, 2 * min(right - x, x - left)) - EDGE
@@ -76,7 +76,7 @@ class Theme:
     def largest(
         self, text: str, size: float, width: float, *, bold: bool = False, height: float | None = None
     ) -> float:
-        """The largest scale in which a text has room; the smallest where it has none. ``size``: in the normal one."""
+        """The largest scale in which a text fits; the smallest if none does. ``size``: in the normal one."""
         for scale in self.scales[:-1]:
             high = height is None or size * scale * HEIGHT <= height
             if high and self.lettering.width(text, size * scale, bold=bold) <= width:
@@ -84,11 +84,11 @@ class Theme:
         return self.scales[-1]
 
     def common_height(self, texts: Iterable[str], size: float, width: float) -> float:
-        """The height with which bold texts of a list that is so wide all get the same scale."""
+        """The height at which all bold texts of a list of that width get the same scale."""
         return size * HEIGHT * min(self.largest(text, size, width, bold=True) for text in texts)
 
     def width(self, text: str, size: float = 8, *, bold: bool = False) -> float:
-        """Width of a text that has room, logical px."""
+        """Width of a text that fits, logical px."""
         return self.lettering.width(text, size * self.scales[0], bold=bold)
 
     def paragraph(
@@ -102,7 +102,7 @@ class Theme:
         colour: Colour | None = None,
         align: str = "left",
     ) -> None:
-        """Texts in lines as wide as an area, from its top on, as large as it has room for them; more is left out."""
+        """Texts in lines as wide as an area, from its top on, as large as fits; surplus lines are left out."""
         x, y, w, h = area
         scale, lines = self.scales[-1], [""]
         for scale in self.scales:
@@ -150,7 +150,7 @@ class Theme:
         radius: float = 4,
         filled: bool = True,
     ) -> None:
-        """The frame of a widget or of a row: accented if it is chosen, thick where it has the focus too."""
+        """The frame of a widget or a row: highlighted if it is selected, thick with the focus."""
         if filled:
             self.canvas.fill_rect(surface, self.palette.panel, *area, radius)
         if filled or chosen:
@@ -162,8 +162,8 @@ class Theme:
 class Palette:
     """Colours by role. ``danger_by_shape``: danger is marked by spikes and bars too, not only by colour.
 
-    ``scenery``: what lies behind levels, one of ``scenery.SCENERIES``; "": nothing but the background. ``mood``: the
-    palette of which this is a tone, or None.
+    ``scenery``: behind levels, one of ``scenery.SCENERIES``; "": only the background. ``mood``: the palette of which
+    this one is a tone, or None.
     """
 
     name: str
@@ -187,7 +187,7 @@ class Palette:
     band: pygame.Color
     ghost: pygame.Color
     blood: pygame.Color
-    # Things: outline, fills from dark to light, and one colour each for what must be told apart.
+    # Objects: outline, fills from dark to light, and a colour for each that must be told apart.
     outline: pygame.Color
     dark: pygame.Color
     middle: pygame.Color
@@ -215,7 +215,7 @@ class Palette:
     ember: pygame.Color
     smoke: pygame.Color
     dust: pygame.Color
-    # Behind everything, with the background at the horizon; only where there is a scenery.
+    # The scenery, with the background at the horizon; only where there is a scenery.
     sky: pygame.Color
     far: pygame.Color
     near: pygame.Color
@@ -257,8 +257,9 @@ TONES = (
     ((0, 1.0, 0), (-62, 1.7, -42), (34, 1.5, 52), (-150, 1.3, -96), (62, 1.2, 100)),
     *(tuple((turn * tone, 1.0, turn * tone) for tone in range(5)) for turn in (-16, 9, 15, -16)),
 )
-"""By mood and tone: degrees in YIQ by which the scenery turns, how much more colourful it is, and degrees by which rock
-turns. The levels of an episode go through them, each episode from another one on."""
+"""By mood and tone: degrees in YIQ by which the scenery turns, factor of its saturation, degrees by which rock turns.
+Consecutive levels of an episode have consecutive tones; each episode begins with another one.
+"""
 
 
 def palette_named(name: str, column: int = 0, level: int = 0) -> Palette:
@@ -268,7 +269,7 @@ def palette_named(name: str, column: int = 0, level: int = 0) -> Palette:
 
 @lru_cache(maxsize=512)
 def _tone(column: int, level: int) -> Palette:
-    """The mood of a column as it is in its ``level``th level: other hues, as light; its name is the seed of shapes."""
+    """The mood of a column in its ``level``th level: other hues, the same lightness; its name is the seed of shapes."""
     mood = MOODS[column]
     colours: dict[str, Any] = {}
     tones = TONES[column]
@@ -285,7 +286,7 @@ NINJA_COLOURS = ("", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7
 """The ninja's colours: the palette's own, then one per completed column (game.md §8)."""
 
 RUN_COLOURS = tuple(map(pygame.Color, ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")))
-"""Colours of several runs in turn; people who see few colours can tell them apart."""
+"""Colours of several runs in turn, distinct for colour-blind people too."""
 
 
 def mixed(a: pygame.Color, b: pygame.Color, share: float) -> pygame.Color:
@@ -298,11 +299,11 @@ def mixed(a: pygame.Color, b: pygame.Color, share: float) -> pygame.Color:
 
 
 NARROWER = (0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 0.65, 0.6, 0.55)
-"""Shares of the width that are tried to make lines equally long."""
+"""Shares of the width that are tried for lines of equal length."""
 
 
 def wrapped(theme: Theme, text: str, width: float, size: float) -> list[str]:
-    """The text in as few lines as fit a width, about equally long, so that no word is left alone."""
+    """The text in as few lines as fit a width, about equally long, so that no word stands alone."""
     lines = _filled(theme, text, width, size)
     for share in NARROWER:
         narrower = _filled(theme, text, width * share, size)

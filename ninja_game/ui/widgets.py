@@ -1,6 +1,6 @@
-"""Widgets: a rectangle of a menu that can have the focus, be clicked, and show itself.
+"""Widgets: a rectangle of a menu that can have the focus, be clicked and drawn.
 
-Positions and sizes are logical px of the 792 x 600 stage. A widget answers ``True`` where it has used an input.
+Positions and sizes are logical px of the 792 x 600 stage. A widget's method gives ``True`` if it used an input.
 """
 
 from __future__ import annotations
@@ -19,16 +19,15 @@ T = TypeVar("T")
 
 
 def following(options: Sequence[T], present: T, by: int = 1) -> T:
-    """The option after the present one, around the end.
+    """The next option, after the last one the first.
 
-    >>> following("abc", "c"), following("abc", "a", -1)
-    ('a', 'c')
+    >>> following("abc", "c"), following("abc", "a", -1) ('a', 'c')
     """
     return options[(options.index(present) + by) % len(options)]
 
 
 class Widget:
-    """What all widgets share. ``hint``: shown at the foot of the screen while it has the focus."""
+    """The base of all widgets. ``hint``: shown at the foot of the screen while it has the focus."""
 
     focusable = True
 
@@ -46,7 +45,7 @@ class Widget:
         return inside(self.area, x, y)
 
     def confirm(self) -> bool:
-        """The confirm key, or a click that it does not treat otherwise."""
+        """The confirm key, or a click without another meaning."""
         return False
 
     def nudge(self, action: str) -> bool:
@@ -57,7 +56,7 @@ class Widget:
         return self.confirm()
 
     def drag(self, x: float, y: float) -> bool:
-        """The mouse moves with its button down since a click in it."""
+        """The mouse moves with its button down, after a press in the widget."""
         return False
 
     def wheel(self, steps: int) -> bool:
@@ -71,9 +70,9 @@ class Widget:
         raise NotImplementedError
 
     def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """A panel; with the focus it has a thick edge and a mark at its left, so that not only colour tells.
+        """A panel; with the focus it has a thick edge and a mark at its left, so that colour is not the only sign.
 
-        What is off has no panel, and its edge shows only with the focus.
+        A disabled widget has no panel, and its edge shows only with the focus.
         """
         theme.row(surface, self.area, chosen=focused, focused=focused, filled=self.enabled)
         if focused:
@@ -83,7 +82,7 @@ class Widget:
 
 
 class Label(Widget):
-    """A text that does nothing."""
+    """A text without an action."""
 
     focusable = False
 
@@ -100,7 +99,7 @@ class Label(Widget):
 
 
 class Button(Widget):
-    """A text that does something; without an action it is off. ``detail``: a smaller line below it."""
+    """A text with an action; without one it is disabled. ``detail``: a smaller line below it."""
 
     def __init__(
         self,
@@ -151,7 +150,7 @@ class Button(Widget):
 class Choice(Widget, Generic[T]):
     """One of several values: left and right change it, confirm takes the next. A switch has the values on and off.
 
-    ``more``: what to confirm and a click between the arrows do instead.
+    ``more``: the action of confirm, and of a click between the arrows, instead.
     """
 
     def __init__(
@@ -173,7 +172,7 @@ class Choice(Widget, Generic[T]):
 
     @property
     def index(self) -> int:
-        """Number of the present value; the first one's where it is none of them."""
+        """Number of the present value; that of the first if it is none of them."""
         values = [value for _, value in self.options]
         return values.index(self.get()) if self.get() in values else 0
 
@@ -196,7 +195,7 @@ class Choice(Widget, Generic[T]):
         return self._step(-1 if left <= x < left + 24 else 1)
 
     def _values(self) -> tuple[float, float]:
-        """Left edge and width of the part that shows the value: the right half, or all of it without a text."""
+        """Left edge and width of the value's part: the right half, or everything without a text."""
         x, _, w, _ = self.area
         return (x + w * 0.5, w * 0.5) if self.text else (x, w)
 
@@ -240,7 +239,7 @@ class Slider(Widget):
         return True
 
     def nudge(self, action: str) -> bool:
-        """One step down or up; left at the lowest number leads out of it."""
+        """One step down or up; left at the lowest number moves the focus on."""
         if action not in ("left", "right") or (action == "left" and self.get() <= self.low):
             return False
         return self._take(self.get() + (self.step if action == "right" else -self.step))

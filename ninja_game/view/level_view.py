@@ -1,4 +1,4 @@
-"""The picture of a running world: only reads it, draws between its ticks, and tells which px changed."""
+"""The picture of a running world: reads it, draws between its ticks, and reports the px that changed."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ if TYPE_CHECKING:
     from ninja_game.view.overlays import Overlays
 
 
-SHAKE = 9.0  # how far an explosion at the ninja shakes, px
-SHAKE_KEPT = 0.78  # share of it that is left a tick later
-SHAKE_REACH = 200.0  # px from which on it is not felt
+SHAKE = 9.0  # greatest shake by an explosion at the ninja, px
+SHAKE_KEPT = 0.78  # share of the shake that is left a tick later
+SHAKE_REACH = 200.0  # px from an explosion to where it does not shake
 
 DANCE_TICKS = 36  # for which the ninja dances before its exit
-ENTER_TICKS = 10  # in which it steps to it and through it
-DOOR_STEP = 2.0  # px that it stands below the exit's middle
+ENTER_TICKS = 10  # in which it steps through the exit
+DOOR_STEP = 2.0  # px from the exit's middle down to where it stands
 
-CUE_ABOVE = 24.0  # how far over its source a mark stands, px
+CUE_ABOVE = 24.0  # height of a mark over its source, px
 _CUE_BORDER = 14.0
 
 _CUE_SHAPES: dict[str, list[Point]] = {
@@ -67,7 +67,7 @@ def cue(s: Sketch, p: Palette, warning: str) -> None:
 
 
 def draw_sound_cues(target: DrawTarget, world: World) -> None:
-    """The marks of a world, above their sources and never out of the stage."""
+    """The marks of a world, above their sources and always within the stage."""
     for o in world.objects[1 : world.id_count + 1]:
         warning = warning_of(o)
         if warning:
@@ -77,7 +77,7 @@ def draw_sound_cues(target: DrawTarget, world: World) -> None:
 
 
 class DrawnGhost(Protocol):
-    """Another run's ninja that is shown too."""
+    """The ninja of another run in the same picture."""
 
     ninja_animation: NinjaAnimation
 
@@ -85,10 +85,10 @@ class DrawnGhost(Protocol):
         """One more tick."""
 
     def on_seek(self, tick: int) -> None:
-        """Be where the run is after that many ticks."""
+        """Show the moment of the run after that many ticks."""
 
     def place(self, fraction: float) -> Point:
-        """Where to draw it, px."""
+        """Its place, px."""
 
     def colour(self, palette: Palette) -> pygame.Color:
         """Its colour."""
@@ -98,7 +98,7 @@ class LevelView:
     """Draws a world in the whole window.
 
     Call ``on_tick`` after every tick of the simulation, ``on_seek`` after any other change of it (restart, restore).
-    ``seed``: of what is drawn at random. ``audible``: whether its events are played as sounds.
+    ``seed``: for the random numbers. ``audible``: whether its events are played as sounds.
     """
 
     def __init__(self, context: RenderContext, simulation: Simulation, *, seed: int = 0, audible: bool = True) -> None:
@@ -119,10 +119,10 @@ class LevelView:
         self._look: tuple[object, ...] = ()
         self._layout()
 
-    # --- the world goes on ---
+    # # --- ticks ---
 
     def on_tick(self) -> None:
-        """Take note of a tick: its events become particles, animations, a corpse, sound."""
+        """Update after a tick: its events become particles, animations, a corpse, sound."""
         world = self.simulation.world
         self._follow_options()
         self.object_animation.on_tick(world)
@@ -133,7 +133,7 @@ class LevelView:
             ghost.on_tick()
 
     def follow_ninja(self) -> None:
-        """Take note of what happened to the ninja, in a tick, or between two: out of time, by the player's own hand."""
+        """Update the ninja after a tick, or between two ticks: when time is out, or after the suicide key."""
         world = self.simulation.world
         self.ninja_animation.on_tick(world)
         self.effects.on_tick(self.simulation.tiles, world)
@@ -142,7 +142,7 @@ class LevelView:
             self.context.audio_output.play_events(world)
 
     def on_seek(self) -> None:
-        """Forget what was seen: the world was restarted or put back to another moment."""
+        """Forget earlier ticks: the world was restarted or set to another moment."""
         world = self.simulation.world
         self.object_animation.reset(world)
         self.ninja_animation.reset(world)
@@ -172,7 +172,7 @@ class LevelView:
                 self._shake = max(self._shake, SHAKE * options.shake / 100 * max(0.0, 1 - far / SHAKE_REACH))
 
     def _follow_win(self, world: World) -> None:
-        """The ninja dances before its exit, steps into it, and the exit closes: in the picture alone."""
+        """The ninja dances before its exit, steps into it, and the exit closes: only in the picture."""
         won = world.ninja.state == CELEBRATING and not self.context.settings.reduced_motion
         self._won = self._won + 1 if won else 0
         if self._won == 1:
@@ -182,7 +182,7 @@ class LevelView:
             self.object_animation.close(self._door)
 
     def _follow_death(self, world: World) -> None:
-        """Become a corpse, or go on as one; a revived ninja (objects.md §3) gets up."""
+        """Start or continue the corpse; a revived ninja (objects.md §3) gets up."""
         if world.ninja.state != DEAD:
             self.ragdoll = None
             return
@@ -214,7 +214,7 @@ class LevelView:
     # --- the picture ---
 
     def _layout(self) -> None:
-        """Make what depends on the window's size and the palette."""
+        """Build all that depends on the window's size and the palette."""
         self.canvas = self.context.canvas
         palette = self.context.theme.palette
         book = shared_book(self.canvas.scale, palette.base)
@@ -244,7 +244,7 @@ class LevelView:
             fraction = 1.0
         shaken = self._shake > 0.25
         whole = whole or self._whole or shaken
-        # A shaken picture is offset: everything is elsewhere in the next one.
+        # A shaken picture is offset: every px changes in the next one.
         self._whole = shaken
         self._shift(shaken=shaken)
         mended = self._restore(surface, whole, fraction)
@@ -261,7 +261,7 @@ class LevelView:
         return None if whole else changed
 
     def _shift(self, *, shaken: bool) -> None:
-        """Shift all that is drawn on the stage while the picture shakes."""
+        """Offset all drawing on the stage while the picture shakes."""
         turn, reach = 2.4 * self.effects.now, self._shake * self.canvas.scale * shaken
         dx, dy = round(reach * cos(turn)), round(reach * sin(turn))
         self._origin = self.canvas.stage.move(dx, dy).topleft
@@ -271,7 +271,7 @@ class LevelView:
             self.target.canvas.origin = self.canvas.origin[0] + dx, self.canvas.origin[1] + dy
 
     def _restore(self, surface: pygame.Surface, whole: bool, fraction: float) -> list[pygame.Rect]:
-        """Put the backdrop where something was drawn last time, and where it changed."""
+        """Restore the backdrop under the last moving objects, and where it changed."""
         origin, stage, picture = self._origin, self.canvas.stage, self._backdrop.picture
         self._mended += self._backdrop.update(self.simulation.world, self.object_animation, fraction)
         mended = [rect.move(origin) for rect in self._mended]
@@ -281,7 +281,7 @@ class LevelView:
                 surface.fill(self._backdrop.palette.tile)
             surface.set_clip(stage)
             surface.blit(picture, origin)
-            # Shaken, it leaves two edges free, which stay where they are.
+            # A shaken picture leaves two edges free, which stay as they are.
             dx, dy = origin[0] - stage.x, origin[1] - stage.y
             left, top = 0 if dx > 0 else stage.width + dx, 0 if dy > 0 else stage.height + dy
             for edge in ((left, 0, abs(dx), stage.height), (0, top, stage.width, abs(dy))):
@@ -292,7 +292,7 @@ class LevelView:
         return mended
 
     def _draw_moving(self, surface: pygame.Surface, fraction: float) -> None:
-        """From back to front, as presentation.md §1 has it."""
+        """From back to front, in the order of presentation.md §1."""
         target, now = self.target, self.effects.now + fraction - 1
         target.begin(surface)
         Particles.draw(self.particles.rear, target, now)
@@ -320,23 +320,23 @@ class LevelView:
                 draw_ninja(self.target, self.ninja_animation, (x, y), fraction, self.colour, alpha)
 
     def draw_ninja_over(self, surface: pygame.Surface, fraction: float) -> None:
-        """Draw the ninja once more, on a copy of the picture over which something else was drawn."""
+        """Draw the ninja once more, over a copy of the picture with something drawn on it."""
         self.target.begin(surface)
         self._draw_ninja(fraction)
 
     def _cover_by_tiles(self, surface: pygame.Surface) -> None:
-        """Tiles are in front of everything that moves."""
+        """Tiles are in front of all moving objects."""
         (x, y), backdrop = self._origin, self._backdrop
         for area in backdrop.on_tiles([rect.move(-x, -y) for rect in self.target.covered]):
             backdrop.cover(surface, area, (x, y))
 
     def also_covered(self, rect: pygame.Rect) -> None:
-        """Something else was drawn over the level there; it is taken away before the next picture."""
+        """Another drawing over the level covers this area; the next picture removes it."""
         self._covered.append(rect)
 
 
 class RenderContext(Protocol):
-    """Where a level is shown."""
+    """The interface of the screen or program that shows a level."""
 
     theme: Theme
     canvas: Canvas

@@ -32,9 +32,9 @@ _SIDES: tuple[tuple[float, float, float, float], ...] = (
 )  # fmt: skip
 """A line just inside each side of a cell: each cell has its own edge states."""
 
-_THINKER = 9.0  # radius of the ring round an object that thinks, px
+_THINKER = 9.0  # radius of the ring around a thinker, px
 
-_SMALLEST = 1.0  # half size, px, at which a point is drawn: the tip of a rocket
+_SMALLEST = 1.0  # half size, px, of a shape that is a point: the tip of a rocket
 
 
 @dataclass(frozen=True)
@@ -60,14 +60,14 @@ class Overlays:
         self._sheet_of: tuple[object, ...] = ()
 
     def toggle(self, action: str) -> bool:
-        """Switch the overlay that an action means; False if it means none."""
+        """Switch the overlay of an action on or off; False for an action without one."""
         if action not in OVERLAY_ACTIONS:
             return False
         self.on ^= {action}
         return True
 
     def draw(self, target: DrawTarget, simulation: Simulation) -> None:
-        """Draw what is switched on over the level."""
+        """Draw the overlays over the level."""
         if not self.on:
             return
         world = simulation.world
@@ -83,11 +83,11 @@ class Overlays:
             for shape in hit_shapes(world):
                 _draw_shape(target, shape)
         if self.on & {GRID, EDGES}:
-            # The sheet lies over everything: one rectangle to be mended, not hundreds.
+            # The sheet covers everything: one rectangle to restore, not hundreds.
             target.covered[:] = [target.canvas.stage]
 
     def _draw_sheet(self, target: DrawTarget, world: World) -> None:
-        """Grid and edges change seldom: they are drawn once and laid over."""
+        """Grid and edges seldom change: they are drawn once and copied."""
         state = (target.canvas, target.palette.name, GRID in self.on, EDGES in self.on, bytes(world.edges))
         if self._sheet is None or state != self._sheet_of:
             self._sheet_of = state
@@ -108,7 +108,7 @@ def _paint_grid(sheet: pygame.Surface, canvas: Canvas, palette: Palette) -> None
 
 
 def _paint_edges(sheet: pygame.Surface, canvas: Canvas, palette: Palette, world: World) -> None:
-    """Solid edges full, interesting ones thin and dotted at the ends; what is off is not drawn."""
+    """Solid edges full, interesting ones thin with dots at the ends; off is not drawn."""
     for cell in range(len(EXISTS)):
         if not EXISTS[cell]:
             continue
@@ -130,7 +130,7 @@ def _tint(target: DrawTarget, colour: pygame.Color, alpha: int, cell: int, inset
 
 
 def _draw_cells(target: DrawTarget, world: World) -> None:
-    """The nine cells that are searched for objects; stronger, those whose tiles are touched; the cells of objects."""
+    """The nine cells whose objects are asked; stronger, those whose tiles are touched; the cells of objects."""
     n = world.ninja
     if EXISTS[n.cell]:
         for offset in NINE_CELLS:
@@ -156,7 +156,7 @@ def touched_cells(x: float, y: float, cell: int) -> list[int]:
 
 
 def _draw_rays(target: DrawTarget, simulation: Simulation) -> None:
-    """A line from each object that looks for the ninja: to the ninja if it is in sight, else to the tile between."""
+    """A line from each object that looks for the ninja: to the ninja in sight, else to the tile between."""
     world, level = simulation.world, simulation.tiles
     n = world.ninja
     for slot in range(1, world.id_count + 1):
@@ -176,7 +176,7 @@ def _draw_rays(target: DrawTarget, simulation: Simulation) -> None:
 
 
 def _draw_thinkers(target: DrawTarget, world: World) -> None:
-    """A ring round each object that thinks, and a strong one with a dot for the next; a line leads to who follows."""
+    """A ring around each thinker, a strong one with a dot for the next; lines in the order of turns."""
     row = list(thinkers(world))
     for number, o in enumerate(row):
         if is_near(o.x, o.y):
@@ -188,7 +188,7 @@ def _draw_thinkers(target: DrawTarget, world: World) -> None:
 
 
 def thinkers(world: World) -> Iterator[Object]:
-    """The objects that think in turn, one every fourth tick; the next one first (objects.md §2.4)."""
+    """The thinkers, one every fourth tick; the next one first (objects.md §2.4)."""
     slot = world.think_cursor
     for _ in range(world.slots_used if slot else 0):
         yield world.objects[slot]
@@ -217,7 +217,7 @@ def _draw_shape(target: DrawTarget, shape: HitShape) -> None:
 
 
 def hit_shapes(world: World) -> Iterator[HitShape]:
-    """The shapes of every object in the grid, which is what can be touched; the ninja's last."""
+    """The shapes of all objects in the grid, which can be touched; the ninja's last."""
     for slot in range(1, world.slots_used):
         o = world.objects[slot]
         if o.in_grid or (o.kind == SWITCH and not world.objects[o.partner].is_open):

@@ -1,1 +1,1 @@
-"""The game in a browser: its site, and what runs in the page."""
+"""The game in a browser: its site, and the code of the page."""

@@ -1,4 +1,4 @@
-"""A figure of the lab in the text of a page, as figures.js asks for it: no screen, no player, no records."""
+"""A figure of the lab in the text of a page, for figures.js: no screen, no player, no records."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ninja_game.ui.widgets import Choice, Slider
 
 
 class PageFigure:
-    """A figure ``width`` px wide. ``page``: the host that paints, as host.js; ``area``: where the figure is painted."""
+    """A figure ``width`` px wide. ``page``: the host that paints, as host.js; ``area``: of the figure."""
 
     def __init__(self, page: Any, name: str, width: int, palette: str) -> None:
         LINK.page = page
@@ -43,7 +43,7 @@ class PageFigure:
         return json.dumps({"title": self.figure.title, "controls": controls})
 
     def turn(self, real_ms: float) -> str:
-        """Let time pass and paint; the numbers, and what the controls show and stand at, as JSON."""
+        """Let time pass and paint; the numbers, and the texts and values of the controls, as JSON."""
         for _ in range(min(4, self._clock.ticks_due(round(real_ms)))):
             if self._tick >= 0:
                 self.figure.demonstrate(self._tick)
@@ -74,6 +74,6 @@ class PageFigure:
         act(left + x * FIGURE[2] / zoom, top + y * FIGURE[3] / zoom)
 
     def reset(self, *, demonstrate: bool) -> None:
-        """The figure as it was at first; it shows itself if that is wanted."""
+        """Reset the figure; its demonstration runs if that is wanted."""
         self.figure.reset()
         self._tick = 0 if demonstrate else -1

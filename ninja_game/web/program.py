@@ -1,4 +1,4 @@
-"""Run a program that a reader wrote in a page, by the page's own Python: its output, or its error."""
+"""Run a reader's program in a page, by the page's own Python: its output, or its error."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from types import FrameType
 from typing import Any
 
 NAME = "<your program>"
-MOST_LINES = 300_000  # that a program may run
-MOST_SHOWN = 5_000  # characters of its output
+MOST_LINES = 300_000  # most lines that a program may run
+MOST_SHOWN = 5_000  # most characters of its output
 
 
 def run_program(text: str) -> str:

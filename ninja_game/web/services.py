@@ -1,6 +1,6 @@
-"""What the page asks of the game: which screen is on, keys for touch, verdicts on a file, the player's data.
+"""The page's interface to the game: the present screen, keys for touch, verdicts on a file, the player's data.
 
-What the first picture does not need is imported when it is asked for.
+Modules that the first picture does not need are imported when they are needed.
 """
 
 from __future__ import annotations
@@ -24,32 +24,32 @@ from ninja_game.player.settings import RULES
 from ninja_game.ui.input.keys import scancode_named
 
 PHONE_TEXT = 150
-"""Size of texts on a phone, percent: of those of 9 px in a picture that is half as wide as it is drawn for."""
+"""Size of texts on a phone, percent: 9 px letters in a picture at half its usual width."""
 
 
 class PageServices:
-    """What the page asks of a running game. ``address``: the page's own, for links; ``small``: it is a phone's."""
+    """The page's interface to a running game. ``address``: the page's own, for links; ``small``: it is a phone's."""
 
     def __init__(self, app: App, address: str, small: bool = False) -> None:
         self.app = app
         if app.settings.site != address and RULES["site"].fits(address):
-            # Texts are as large as they can be on a first visit with a phone; the player's own choice stays.
+            # Texts are large on a first visit with a phone; the player's own choice stays.
             text_size = PHONE_TEXT if small and not app.settings.site else app.settings.text_size
             app.change_settings(site=address, text_size=text_size)
 
     def state(self) -> str:
-        """What is on the screen: the phase of a level ("ready", "play", "dead", "passed"), "replay", else "menu"."""
+        """The present screen: the phase of a level ("ready", "play", "dead", "passed"), "replay", else "menu"."""
         top = self.app.top if self.app.stack else None
         if isinstance(top, LevelScreen) and top.phase is not Phase.PAUSED:
             return str(top.phase.value)
         return "replay" if isinstance(top, ReplayScreen) else "menu"
 
     def scancodes(self, action: str) -> list[int]:
-        """The keys that mean an action, as the player has bound them."""
+        """The keys of an action, as the player has bound them."""
         return [code for code in map(scancode_named, self.app.controls.keys.get(action, ())) if code]
 
     def use_touch(self, wanted: bool) -> None:
-        """Name keys, or the page's buttons on the screen, in what the game says."""
+        """Whether the game's texts name keys, or the page's buttons on the screen."""
         self.app.controls.touched = wanted
         self.app.stack.redraw_all()
 
@@ -64,7 +64,7 @@ class PageServices:
         return watched(fragment)
 
     def open_link(self, fragment: str, texts: Iterable[str]) -> str:
-        """Show what the address leads to after its #, over the main menu; "" or why not.
+        """Open the part of the address after its #, over the main menu; "" or the error.
 
         ``texts``: those of the files that ``watched`` gave.
         """
@@ -95,7 +95,7 @@ class PageServices:
             return path.read_bytes()
 
     def take_in(self, data: bytes) -> str:
-        """Take such a zip in; the result, in lines. The page is to be loaded again then. Raises NinjaGameError."""
+        """Import such a zip; the result, in lines. The page must then be loaded again. Raises NinjaGameError."""
         from ninja_game.player.backup import read_backup
 
         try:
@@ -106,7 +106,7 @@ class PageServices:
     def verdicts(self, name: str, data: bytes) -> Iterator[str | None]:
         """A verdict on every recording in a file, one by one: JSON as of ``ninja-game verify --json``; None: a pause.
 
-        ``{"unreadable": message}`` for what cannot be read, or is more work than a page does.
+        ``{"unreadable": message}`` for one that cannot be read, or takes more work than a page does.
         """
         from tempfile import TemporaryDirectory
 

@@ -279,9 +279,9 @@ def test_one_compiles_at_a_time_and_a_dead_one_keeps_nobody(tmp_path: Path) -> N
 SMALL = """
 import sys
 from ninja_game.backend import kernel_cache, memories
-from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.declare import kernel
 import numpy as np
-@entry_point
+@kernel
 def doubled(numbers: object) -> int:
     return numbers[0] * 2
 kernel_cache.before_compiling.append(lambda: print("missing", flush=True))

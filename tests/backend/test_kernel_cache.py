@@ -28,14 +28,14 @@ PROGRAM = """
 {first}
 from ninja_game.backend import kernel_cache, memories
 from ninja_game.backend.compiled import load_worlds
-from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.declare import kernel, fast
 from ninja_game.sim.memory.schema import World
 import numpy as np
 FACTOR = {factor}
 @fast
 def product(one: int, other: int) -> int:
     return one * other
-@entry_point
+@kernel
 def scaled(numbers: World, count: int) -> int:
     return product(numbers[count - 1], FACTOR) + count
 kernel_cache.before_compiling.append(lambda: print("compiles"))
@@ -144,7 +144,7 @@ print(*(type(made.library).__name__ for made in twin.overloads.values()))
 @pytest.mark.parametrize(
     "change, library", [("", "InnerLibrary"), ("del typed_passes.NativeLowering", "JITCodeLibrary")]
 )
-def test_only_entry_points_become_machine_code_where_numba_has_the_private_parts(
+def test_only_kernels_become_machine_code_where_numba_has_the_private_parts(
     change: str, library: str, tmp_path: Path
 ) -> None:
     first = (

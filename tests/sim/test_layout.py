@@ -12,7 +12,7 @@ from ninja_game.backend.layout import OBJECT, STATE_START, TILE_MAP, WORLD, byte
 from ninja_game.backend.memories import compiled_available
 from ninja_game.backend.numba_import import import_numba, make_pipeline
 from ninja_game.sim.events import emit
-from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED, entry_point, f8, fields_of, struct_base
+from ninja_game.sim.memory.declare import KERNELS, REGISTERED, f8, fields_of, kernel, struct_base
 from ninja_game.sim.memory.object_fields import Header, Object
 from ninja_game.sim.memory.schema import CAPACITY
 from tests.support.crowded import crowded_inputs, crowded_level
@@ -91,14 +91,14 @@ def test_checked_kernels_refuse_an_index_out_of_range() -> None:
         memory.observe(CAPACITY)
 
 
-def test_entry_points_are_registered_rules_with_names_of_their_own() -> None:
-    assert set(ENTRY_POINTS) <= REGISTERED
+def test_kernels_are_registered_rules_with_names_of_their_own() -> None:
+    assert set(KERNELS) <= REGISTERED
 
     def step_world() -> None:
         """Another function of a known name."""
 
-    with pytest.raises(TypeError, match="another entry point of the name step_world"):
-        entry_point(step_world)
+    with pytest.raises(TypeError, match="another kernel of the name step_world"):
+        kernel(step_world)
 
 
 @pytest.mark.slow

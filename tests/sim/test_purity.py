@@ -25,7 +25,7 @@ def rules_of(path: Path) -> Iterator[ast.AST]:
     for function in tree.body:
         if isinstance(function, ast.FunctionDef):
             marks = {mark.id for mark in function.decorator_list if isinstance(mark, ast.Name)}
-            if marks & {"fast", "entry_point"}:
+            if marks & {"fast", "kernel"}:
                 yield from ast.walk(function)
 
 

@@ -62,7 +62,7 @@ def own_fields_only() -> Iterator[None]:
 
 
 class Interpreted(dict[Any, Any]):
-    """In place of compiled twins: the entry points themselves, on views of what they are called with."""
+    """In place of compiled twins: the kernels themselves, on views of what they are called with."""
 
     def get(self, key: tuple[Callable[..., Any], bool], default: Any = None) -> Any:  # noqa: ARG002
         return lambda *words: key[0](*map(seen, words))

@@ -44,9 +44,9 @@ def test_dev_runs_nothing_from_the_current_folder(
 ) -> None:
     assert dev.main(["run", "info", LEVEL]) == 0
     assert dev.main(["tool", "doors", "--help"]) != 0  # tools are found, in their folders
-    assert dev.main(["tool", "soak.doors", "--help"]) == 0
+    assert dev.main(["tool", "soak.inputs", "--help"]) == 0
     assert dev.main(["benchmark", "board_size", "--help"]) == 0
-    assert re.findall("usage: (.*?) ", capfd.readouterr().out) == ["doors.py", "board_size.py"]
+    assert re.findall("usage: (.*?) ", capfd.readouterr().out) == ["inputs.py", "board_size.py"]
     assert dev.main(["tool", "golden", "--help"]) == 0  # has no options, and would write files
     assert capfd.readouterr().out.startswith("Write golden digests")
     assert not (poisoned / "ran").exists()

@@ -18,8 +18,8 @@ from pathlib import Path
 from statistics import quantiles
 from typing import Any, NamedTuple
 
-from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, TILE_CHARS
-from ninja_game.formats.ascii.object_lines import DOORS, MOVEMENTS, WEAPONS
+from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, TILE_CHARS, WEAPONS
+from ninja_game.formats.ascii.object_lines import DOORS, MOVEMENTS
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.runs.level_design import design

@@ -39,6 +39,9 @@ RIGHT, DOWN, LEFT, UP = 0.0, 1.0, 2.0, 3.0
 DIRECTION_WORDS = {"right": RIGHT, "down": DOWN, "left": LEFT, "up": UP}
 """Direction numbers of the N records (objects.md §1)."""
 
+WEAPONS = {"zap drone": 0.0, "laser drone": 1.0, "chaingun drone": 2.0}
+"""Weapon numbers of drones (objects.md §5)."""
+
 DIAGONAL = 0.7071067811865468  # what a diagonal pad's 0.707106781186547 loads as (game.md §5.2)
 
 PAD_NORMALS = {
@@ -114,7 +117,7 @@ SYMBOL_OF_NAME = {symbol.name: symbol for symbol in SYMBOLS}
 
 _KINDS_OF_ONE = {kind for kind, count in Counter(symbol.kind for symbol in SYMBOLS).items() if count == 1}
 _SINGLE = {symbol.kind: symbol.char for symbol in SYMBOLS if symbol.kind in _KINDS_OF_ONE}
-_DRONES = {0.0: "Z", 1.0: "L", 2.0: "C"}
+_DRONES = {weapon: SYMBOL_OF_NAME[name].char for name, weapon in WEAPONS.items()}
 _FACING = {
     kind: {symbol.values[0]: symbol.char for symbol in SYMBOLS if symbol.kind == kind and symbol.values}
     for kind in (kinds.ONE_WAY, kinds.THWUMP)

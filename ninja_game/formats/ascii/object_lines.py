@@ -13,7 +13,7 @@ from itertools import takewhile
 from typing import NamedTuple, TypeVar
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, SYMBOL_OF_NAME
+from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, SYMBOL_OF_NAME, WEAPONS
 from ninja_game.formats.ascii.places import read_cell, read_number, read_place, shown
 from ninja_game.formats.lines import read_quoted
 from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KINDS, LAUNCH_PAD, ONE_WAY, THWUMP
@@ -35,7 +35,6 @@ MOVEMENTS = {
 SIDES = {"right": (0.0, 0.0, 0.0), "bottom": (1.0, 0.0, 0.0), "left": (0.0, -1.0, 0.0), "top": (1.0, 0.0, -1.0)}
 """Side of a door's cell: vertical flag, column offset, row offset (objects.md §8.6)."""
 
-WEAPONS = {"zap drone": 0.0, "laser drone": 1.0, "chaingun drone": 2.0}
 DOORS = {"automatic door": (0.0, 0.0), "locked door": (0.0, 1.0), "trap door": (1.0, 0.0)}
 """Trap flag and locked flag of the three sorts of door."""
 
@@ -86,7 +85,7 @@ FORMS: dict[str, Form] = {
 
 
 def natural_offset(keyword: str, direction: str = "") -> tuple[float, float]:
-    """Where an object given by cell sits from the cell's middle, px: as the picture would place it."""
+    """Offset of an object given by cell from the cell's middle, px: as in the picture."""
     symbol = SYMBOL_OF_NAME.get(f"{keyword} {direction}" if direction else keyword)
     return (symbol.dx, symbol.dy) if symbol is not None else (0.0, 0.0)
 
@@ -139,7 +138,7 @@ def _read_pair(text: str) -> tuple[float, float]:
 
 
 def at_token(token: Token, read: Callable[..., T], *offset: float) -> T:
-    """What ``read`` makes of a word; an error of its gets the word's column."""
+    """The value that ``read`` makes of a word; its error gets the word's column."""
     try:
         return read(token.text, *offset)
     except LevelError as error:
@@ -159,7 +158,7 @@ _SYNONYMS = {
 
 
 class ListedObject(NamedTuple):
-    """An object that a line of the list creates, and where its place stands: the column, and the line if known."""
+    """An object of a line of the list, with its place there: the column, and the line if known."""
 
     spec: ObjectSpec
     column: int
@@ -167,7 +166,7 @@ class ListedObject(NamedTuple):
 
 
 class OddTile(NamedTuple):
-    """A cell whose tile id no character draws, and where its place stands, as of ``ListedObject``."""
+    """A cell with a tile id without a character, with its place there, as of ``ListedObject``."""
 
     cell: tuple[int, int]
     id: int
@@ -176,7 +175,7 @@ class OddTile(NamedTuple):
 
 
 def tokens_of(text: str) -> list[Token]:
-    """The words of a line, without the comment that a semicolon begins."""
+    """The words of a line, without its comment after a semicolon."""
     tokens = (Token(match.group(), match.start() + 1) for match in _TOKEN.finditer(text))
     return [token for token in tokens if not token.text.startswith(";")]
 
@@ -229,7 +228,7 @@ def _split_keyword(tokens: Sequence[Token]) -> tuple[str, Sequence[Token]]:
 
 
 def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list[Token], dict[str, Token]]:
-    """Which words are places, and which word tells which property."""
+    """The words that are places, and the property of each other word."""
     places: list[Token] = []
     by_name: dict[str, Token] = {}
     words = iter(tokens)

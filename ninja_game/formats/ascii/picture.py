@@ -1,7 +1,7 @@
-"""The picture of an ASCII level: 23 framed rows of 31 characters, and where in the file each cell is drawn.
+"""The picture of an ASCII level: 23 framed rows of 31 characters, and the place of each cell in the file.
 
-Then picture and list are brought together: which line speaks of which drawn object, and in what order. Mistakes are
-collected (``Problems``) and reported together: a level maker mends them in one go.
+Then picture and list are merged: which line is about which drawn object, and in what order. Mistakes are collected
+(``Problems``) and reported together: a level maker fixes them at once.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Problems:
 
     @property
     def full(self) -> bool:
-        """Whether there are so many mistakes that looking for more is not worth the time."""
+        """Whether there are so many mistakes that further checks are not worth the time."""
         return len(self.found) >= _ENOUGH
 
     def raise_if_any(self) -> None:
@@ -113,7 +113,7 @@ class Picture(NamedTuple):
 def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems) -> Picture | None:
     """The picture of numbered lines that begin like rows; None, with the mistakes noted, if it is not in order.
 
-    ``end``: the line where a missing row would be reported.
+    ``end``: the line to report a missing row at.
     """
     before = len(problems.found)
     rows: list[tuple[str, int, int]] = []
@@ -135,7 +135,7 @@ def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems)
 
 
 def _check_number(line: int, text: str, number: int, problems: Problems) -> bool:
-    """Whether a row has no other number than its own; a wrong one is noted."""
+    """Whether a row has its own number or none; a wrong one is noted."""
     match = _ROW.fullmatch(text)
     for label in match.group(1, 3) if match else ():
         if label and (len(label) > 2 or int(label) != number):
@@ -189,7 +189,7 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
 
 
 def _similar(char: str) -> str:
-    """A hint which character an unknown one in the picture may stand for."""
+    """A hint at the character that an unknown one in the picture may stand for."""
     if char in _LOOKS_LIKE:
         return _LOOKS_LIKE[char]
     other = char.swapcase()
@@ -204,7 +204,7 @@ _NEEDED_LINES = {
     "&": "locked door 20,14 left switch {cell}",
     "!": "trap door 20,14 left switch {cell}",
 }
-"""A line to copy for each drawn object that needs one."""
+"""An example line for each drawn object that needs one."""
 
 
 def merge_picture_and_list(
@@ -244,7 +244,7 @@ def merge_picture_and_list(
 def _mentioned(
     picture: Picture, objects: Iterable[ListedObject], problems: Problems
 ) -> tuple[set[Cell], dict[Cell, tuple[ListedObject, Symbol]]]:
-    """Cells whose drawn object a line speaks of; cells where a line has another form of the same kind."""
+    """Cells whose drawn object a line is about; cells where a line has another form of the same kind."""
     mentioned: set[Cell] = set()
     conflicts: dict[Cell, tuple[ListedObject, Symbol]] = {}
     for placed in objects:

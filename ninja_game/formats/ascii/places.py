@@ -20,7 +20,7 @@ _LONGEST_SHOWN = 40
 
 
 def shown(text: str) -> str:
-    """A word of the file in quotes, cut where it is long."""
+    """A word of the file in quotes, truncated if it is long."""
     return repr(text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}...")
 
 
@@ -30,7 +30,7 @@ def same_bits(a: float, b: float) -> bool:
 
 
 def is_inside(cell: Cell) -> bool:
-    """Whether a cell has a tile of the level's own: the border has not."""
+    """Whether a cell has a tile of the level's own; the border has none."""
     return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS
 
 
@@ -77,9 +77,9 @@ def _cell_number(value: float, count: int) -> str:
 
 
 def place_text(x: float, y: float, dx: float = 0.0, dy: float = 0.0) -> str:
-    """The shortest exact notation of a px point; ``dx``, ``dy``: where its kind sits from the middle of a cell."""
+    """The shortest exact notation of a px point; ``dx``, ``dy``: offset of its kind from the middle of a cell."""
     column, row = _cell_number(x - dx, COLUMNS), _cell_number(y - dy, ROWS)
-    # The subtraction rounds for odd values: only what reads back exactly may be written in cells.
+    # The subtraction rounds for odd values: only exactly reversible ones may be written in cells.
     if column and row and all(map(same_bits, read_place(f"{column},{row}", dx, dy), (x, y))):
         return f"{column},{row}"
     return f"{number_text(x)},{number_text(y)}px"

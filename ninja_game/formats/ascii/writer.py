@@ -14,6 +14,7 @@ from ninja_game.formats.ascii.legend import (
     PAD_NORMALS,
     SYMBOL_OF_CHAR,
     TILE_CHARS,
+    WEAPONS,
     Glyph,
     legend_text,
     visible_glyphs,
@@ -23,7 +24,6 @@ from ninja_game.formats.ascii.object_lines import (
     FORMS,
     MOVEMENTS,
     SIDES,
-    WEAPONS,
     ListedObject,
     door_middle,
     natural_offset,
@@ -111,7 +111,7 @@ def tile_lines(level: Level) -> list[str]:
 
 
 def drawn_only(level: Level, parts: Sequence[Sequence[Glyph]]) -> int:
-    """How many of the first records the picture alone creates, in this very order."""
+    """How many of the first records the picture alone creates, in this order."""
     claims = Counter((column, row, SYMBOL_OF_CHAR[char].kind) for group in parts for char, column, row in group)
     taken: set[Cell] = set()
     last = (-1, 0, 0)
@@ -135,7 +135,7 @@ def drawn_only(level: Level, parts: Sequence[Sequence[Glyph]]) -> int:
 
 
 def _as_drawn(kind: int, group: Sequence[Glyph]) -> ObjectSpec:
-    """What the picture makes of an object's characters if no line mentions it; no valid record if it needs a line."""
+    """The object that the picture's characters make without a line; no valid record if it needs a line."""
     values: tuple[float, ...] = ()
     for char, column, row in group:
         symbol = SYMBOL_OF_CHAR[char]
@@ -188,7 +188,7 @@ def _word(vocabulary: Mapping[str, float], value: float) -> str:
 
 
 def best_form(spec: ObjectSpec) -> tuple[str, str, str]:
-    """The form that fits a record's kind; keyword '' if none does. Not yet sure to give it back exactly."""
+    """The form that fits a record's kind; keyword '' if none does. It may still not reproduce the record exactly."""
     kind, values = spec.kind, spec.values
     if not well_formed(spec) or spec.text:
         return "", "", ""

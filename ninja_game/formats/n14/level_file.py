@@ -16,22 +16,22 @@ from ninja_game.formats.n14.level_string import tidy_level_string
 from ninja_game.sim.level import TILES
 
 MARKER = "&userdata="
-"""What the data of the game's own level file follows; from here on it is URL-encoded and ends at the next ``&``."""
+"""Precedes the data of the game's own level file; from here on it is URL-encoded and ends at the next ``&``."""
 
 SHAPE = "$name#author#comment#level string#"
-"""What a record looks like, for messages."""
+"""The form of a record, for messages."""
 
 _SEPARATOR, _ENCODED_SEPARATOR = re.compile(r"\$"), re.compile(r"\$|%24")
 _ENCODING = str.maketrans({"%": "%25", "&": "%26", "+": "%2B"})
 _LINE_BREAK = re.compile(r"[\r\n]+")
 
-# What stands behind a level and is a demo, not free text: numbers and separators with a colon, or a legacy demo.
+# A demo behind a level, not free text: numbers and separators with a colon, or a legacy demo.
 _DEMO = re.compile(r"(?=[.+\-eE]*[0-9])[0-9.+\-eE]*:[0-9.+\-eE|:]*")
 _LEGACY_DEMO = re.compile(r'A["%-\[\]-b\x67-\x96]{2,}')
-# A demo in place of the level: its numbers must be short, for digits and colons may also be tiles.
+# A demo instead of the level: its numbers must be short, since digits and colons may also be tiles.
 _SHORT_DEMO = re.compile(r"[0-9.]{1,12}:[0-9\-]{0,14}(?:\|[0-9\-]{0,14})*")
 
-# What behind a white space still is the wrapped rest of data that has no closing '#'.
+# Behind white space, still the wrapped rest of data without a closing '#'.
 _DEMO_PIECE = re.compile(r"[0-9|\-]+")
 _OBJECTS_PIECE = re.compile(r"[0-9.,^!\-Na]+")
 
@@ -179,9 +179,10 @@ def _level_text(text: str, *, closed: bool) -> str:
 
 
 def write_level_file(records: Iterable[LevelRecord], *, userdata: bool = False) -> str:
-    """The records as text, one a line; with ``userdata`` in the form that the game itself reads (marker, URL-encoded).
+    """The records as text, one per line; ``userdata``: in the form that the game itself reads (marker, URL-encoded).
 
-    Raises LevelError for what such a text cannot hold: ``#``, ``$`` or a line break in a field, white space in a level.
+    Raises LevelError for data that such a text cannot hold: ``#``, ``$`` or a line break in a field, white space in a
+    level.
     """
     lines = []
     for number, record in enumerate(records):

@@ -45,7 +45,7 @@ def parse_level_string(text: str, *, file: str = "", line: int = 0) -> Level:
 
 
 def tidy_level_string(text: str) -> str:
-    """The text without what wrapped lines have put into it, as a tolerant importer makes it (game.md §5.6).
+    """The text without the white space of wrapped lines, as a tolerant importer makes it (game.md §5.6).
 
     All white space among the tiles goes, and line breaks with the blanks around them among the objects. Other blanks
     stay there: before a number they are harmless, behind one the game reads NaN, and so do we.

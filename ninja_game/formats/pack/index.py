@@ -1,4 +1,4 @@
-"""The index of a pack: what it is called, its columns, and its episodes."""
+"""The index of a pack: its name and other texts, its columns, and its episodes."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class EpisodeIndex:
 
 @dataclass(frozen=True)
 class Accepted:
-    """A finding about a file of the pack that its maker accepts, and why. ``line``: where it stands in the index."""
+    """A finding about a file of the pack that its maker accepts, and why. ``line``: in the index."""
 
     file: str
     code: str
@@ -55,7 +55,7 @@ class Accepted:
 
 @dataclass(frozen=True)
 class PackIndex:
-    """What ``pack.toml`` says; ``episodes`` by their numbers."""
+    """The content of ``pack.toml``; ``episodes`` by their numbers."""
 
     name: str
     author: str
@@ -67,22 +67,22 @@ class PackIndex:
 
     @property
     def is_signed(self) -> bool:
-        """Whether it says who made it."""
+        """Whether it names its author."""
         return self.author.strip().casefold() not in ("", "unknown")
 
     @property
     def title(self) -> str:
-        """Its name with author and version, by which packs of one name are told apart.
+        """Its name with author and version, which distinguish packs of one name.
 
-        >>> PackIndex("Walls", "Ann", "", (), (), "2").title, PackIndex("Walls", "", "", (), ()).title
-        ('Walls by Ann, 2', 'Walls')
+        >>> PackIndex("Walls", "Ann", "", (), (), "2").title, PackIndex("Walls", "", "", (), ()).title ('Walls by Ann,
+        2', 'Walls')
         """
         by = f" by {self.author}" if self.author else ""
         return f"{self.name}{by}{', ' if self.version else ''}{self.version}"
 
 
 def parse_index(text: str, *, file: str = "") -> PackIndex:
-    """The index in a TOML text. Raises PackError with the line of what is wrong."""
+    """The index in a TOML text. Raises PackError with the line of the error."""
     try:
         table = parse_toml(text)
     except ValueError as error:
@@ -157,7 +157,7 @@ class _Table:
         return 0
 
     def check(self, keys: tuple[str, ...]) -> None:
-        """Raise PackError for an entry that is none of these."""
+        """Raise PackError for an entry outside of these."""
         if unknown := sorted(self.table.keys() - set(keys)):
             near = get_close_matches(unknown[0], keys, 1)
             hint = f"did you mean '{near[0]}'?" if near else ""

@@ -1,6 +1,6 @@
-"""A pack: its files in a folder, a zip or a link, and what they make: index, levels, episodes, certificates.
+"""A pack: its files in a folder, a zip or a link, and their content: index, levels, episodes, certificates.
 
-A zip or link stays in memory; nothing of it goes to the disk.
+A zip or link stays in memory, never on the disk.
 """
 
 from __future__ import annotations
@@ -46,12 +46,11 @@ def certificate_name(file: str, kind: str) -> str:
 
 
 class PackFiles:
-    """What lies in a pack: ``names``, as "pack.toml" or "certificates/a.exit.replay.txt", sorted.
+    """The files of a pack: ``names``, as "pack.toml" or "certificates/a.exit.replay.txt", sorted.
 
     ``problems``: of a zip in which files hide others.
 
-    Raises FileError for what is not a zip, or a zip beyond the limits, LinkError for a broken link; OSError as it
-    comes.
+    Raises FileError for an invalid zip, or one beyond the limits, LinkError for a broken link; OSError.
     """
 
     def __init__(self, path: Path) -> None:
@@ -80,7 +79,7 @@ class PackFiles:
             what, found = "neither a folder nor a zip that can be a pack", str(error)
             raise FileError(what, str(self.path), found=found, expected=f"a pack, with {INDEX}") from None
         entries = [entry for entry in self._zip.infolist() if not entry.filename.endswith("/")]
-        # Zips are often made of the folder, not of what is in it.
+        # Zips are often made of the folder instead of its files.
         indexes = [name for entry in entries if PurePosixPath(name := entry.filename).name == INDEX]
         top = min(indexes, key=lambda name: name.count("/"), default=INDEX).removesuffix(INDEX)
         if others := [name for name in sorted(set(indexes)) if name != top + INDEX]:
@@ -101,7 +100,7 @@ class PackFiles:
 
     @property
     def own_names(self) -> list[str]:
-        """The names of what makes a pack: index, par times, levels, certificates."""
+        """The names of a pack's own files: index, par times, levels, certificates."""
         replays = [name for name in self.names if name.startswith(f"{CERTIFICATES}/") and name.endswith(REPLAY_SUFFIX)]
         return [name for name in (INDEX, PARS) if name in self.names] + self.levels + replays
 
@@ -143,7 +142,7 @@ class PackFiles:
 
 
 def is_pack(path: Path) -> bool:
-    """Whether a path looks like a pack: a folder with an index, a file that is called a zip, a link of a pack."""
+    """Whether a path looks like a pack: a folder with an index, a file named as a zip, a link of a pack."""
     if kind := link_kind(path):
         return kind == "pack"
     try:
@@ -153,9 +152,9 @@ def is_pack(path: Path) -> bool:
 
 
 class Pack:
-    """A folder or zip with ``pack.toml``. Level files that cannot be read become ``problems``; the others are there.
+    """A folder or zip with ``pack.toml``. Unreadable level files become ``problems``; the others are there.
 
-    Raises PackError where there is no index or a wrong one, FileError for what is not a pack; OSError as it comes.
+    Raises PackError for a missing or invalid index, FileError for anything but a pack; OSError.
     """
 
     def __init__(self, path: Path) -> None:
@@ -204,7 +203,7 @@ class Pack:
 
     @cached_property
     def pars(self) -> dict[str, Pars]:
-        """The pars of levels, by level file; those of a level that was changed since count no more."""
+        """The pars of levels, by level file; those of levels changed since do not count."""
         try:
             all_pars = self.read_pars()
         except (NinjaGameError, OSError) as error:

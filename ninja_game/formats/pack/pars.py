@@ -11,16 +11,16 @@ from ninja_game.errors import PackError
 from ninja_game.files.untrusted import parse_toml
 
 MARGINS = {"author": 0.05, "gold": 0.225, "silver": 0.6}
-"""How much longer than the certificate a run may take, by medal, the best first, where nothing can go wrong.
+"""How much longer than the certificate a run may take, by medal, the best first, in a level without risks.
 
 From the reference: people's best runs take 5 % longer than tool-assisted ones (median of 218 levels), and on 19 of 20
-levels at most 22.5 %. Silver's is chosen, not measured: for who has just understood the level.
+levels at most 22.5 %. Silver's is chosen, not measured: for a player who has just understood the level.
 """
 
 MEDALS = (*MARGINS, "bronze")  # the best first; bronze is for every pass
 
 CARE = 0.25
-"""What each point of difficulty adds to a margin, as a share of it: who plays safe takes longer. Chosen, not tuned."""
+"""Growth of a margin by each point of difficulty, as a share of it: careful play takes longer. Chosen, not tuned."""
 
 GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extreme"}
 """Words for a difficulty below a number: what a player reads."""
@@ -34,11 +34,11 @@ _HEAD = "# Made by `ninja-game levels pars` from the levels and their certificat
 
 @dataclass(frozen=True)
 class Pars:
-    """What the certificates of a level say.
+    """The measurements of a level's certificates.
 
     ``level``, ``run``: digests of the level and of its run to the exit, from which the rest was made. ``exit``: the
-    tick of the exit contact in that run; ``gold``: the same in the run with all gold, None without one.
-    ``difficulty``: see ``ninja_game.batch.difficulty``.
+    tick of the exit contact in that run; ``gold``: the same in the run with all gold, None without one. ``difficulty``:
+    see ``ninja_game.batch.difficulty``.
     """
 
     level: str
@@ -72,7 +72,7 @@ class Pars:
         return next((medal for medal in MARGINS if tick <= self.par(medal)), MEDALS[-1])
 
     def next_medal(self, tick: int) -> str:
-        """The medal after the one that an exit contact in a tick brings, "" after the best."""
+        """The medal above that of an exit contact in a tick, "" after the best."""
         return next((medal for medal in reversed(MARGINS) if tick > self.par(medal)), "")
 
 

@@ -17,7 +17,7 @@ from ninja_game.sim.collision.tiles import COLUMN as GRID_COLUMN, ROW as GRID_RO
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import EXIT, INERT, KINDS, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, TILES
-from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.declare import fast, kernel
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CHASE_PACE, GRID_COLUMNS, GRID_ROWS, GUARD_SPEED, WORLD_HEIGHT, WORLD_WIDTH
@@ -151,7 +151,7 @@ class NearObjects(Part):
         )
 
 
-@entry_point
+@kernel
 def observe_objects(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     count: int, factors: Any, lows: Any, highs: Any, bounds: Any, slots: Any, columns: Any,
@@ -240,7 +240,7 @@ class LevelPlanes(Part):
         )
 
 
-@entry_point
+@kernel
 def observe_planes(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     solid: Any, bounds: Any, slots: Any, planes: Any, highest: Any, closed: Any,

@@ -119,7 +119,7 @@ class Part(ABC):
 
     @abstractmethod
     def tables(self, context: PartContext) -> tuple[Any, ...]:
-        """The entry point that writes it, then the last of its arguments: what never changes during an episode.
+        """The kernel that writes it, then the last of its arguments: what never changes during an episode.
 
         ``kernel(maps, level_of, worlds, indices, first, last, out, offset, *tables)`` writes the values of the worlds
         ``indices[first:last]`` into their rows of ``out``, from column ``offset`` on. Arrays and numbers, no named

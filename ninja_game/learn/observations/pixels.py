@@ -16,7 +16,7 @@ from ninja_game.learn.observations.part import Part, PartContext, clamp, copy_va
 from ninja_game.learn.observations.surroundings import cached_by_tiles, solidity
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, UNIT_X, UNIT_Y
-from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.declare import fast, kernel
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, HALF, RADIUS, WORLD_HEIGHT, WORLD_WIDTH
@@ -280,7 +280,7 @@ def tile_picture(
     return np.asarray(points.reshape(down, SAMPLES, across, SAMPLES).sum((1, 3)), np.uint8)
 
 
-@entry_point
+@kernel
 def observe_pixels(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     tiles: Any, view: PixelView, layers: Layers, things: ObjectTables,

@@ -19,7 +19,7 @@ from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, FULL, SHAPE
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import DOOR
-from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.declare import fast, kernel
 from ninja_game.sim.memory.schema import EDGE_STATES
 from ninja_game.sim.rules import (
     CELL,
@@ -53,7 +53,7 @@ def solidity(
     return points
 
 
-@entry_point
+@kernel
 def mark_solid(maps: Any, number: int, wide: float, high: float, points: Any) -> None:
     """Mark the points that are solid, ``wide`` and ``high`` px apart."""
     for row in range(len(points)):
@@ -156,7 +156,7 @@ class LocalTiles(Part):
         return kernel, context.values(picture, kind), width, height, self.size
 
 
-@entry_point
+@kernel
 def observe_distances(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     pictures: Any, width: int, height: int, size: int,
@@ -170,7 +170,7 @@ def observe_distances(
             copy_values(out[index, at : at + size], pictures[start + row * width : start + row * width + size], size)
 
 
-@entry_point
+@kernel
 def observe_tiles(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     pictures: Any, width: int, height: int, size: int,
@@ -246,7 +246,7 @@ OUTSIDE = 3  # of a cell outside the level
 DOORWAY = 4  # where a door may be: the world knows its state
 
 
-@entry_point
+@kernel
 def mark_edges(fresh: Any, number: int, states: Any) -> None:
     """Write the states of a level's edges: all but those of doors never change."""
     w = fresh[number]
@@ -259,7 +259,7 @@ def mark_edges(fresh: Any, number: int, states: Any) -> None:
     states[0] = OUTSIDE
 
 
-@entry_point
+@kernel
 def observe_rays(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     dx: Any, dy: Any, pace_x: Any, pace_y: Any, reach: float, factor: float, edges: Any,

@@ -14,7 +14,7 @@ from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import EXIT, GOLD
-from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.declare import fast, kernel
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, HALF, LONGEST_JUMP, ROOT2, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import JUMPING, STATE_NAMES
@@ -102,7 +102,7 @@ class StateVector(Part):
         )
 
 
-@entry_point
+@kernel
 def observe_state(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     factors: Any, lows: Any, highs: Any,
@@ -249,7 +249,7 @@ class TimeLeft(Part):
         return observe_time, context.time_limit, factor, float(self.box.high[0])
 
 
-@entry_point
+@kernel
 def observe_time(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     time_limit: int, factor: float, highest: float,
@@ -291,7 +291,7 @@ class Guide(Part):
         return observe_guide, *columns, context.goal.fields, context.goal.rows, factor, highest
 
 
-@entry_point
+@kernel
 def observe_guide(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     dx: Any, dy: Any, share: Any, fields: Any, rows: Any, factor: float, highest: float,

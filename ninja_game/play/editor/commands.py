@@ -1,4 +1,4 @@
-"""The editor's commands: what they are called, which keys mean them, and what each does. The help page is the table."""
+"""The editor's commands: their names, their keys, and what they do. The help page shows the same table."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.widgets import following
 
 TABLE = CommandTable(bundled_commands("level-editor.txt"))
-"""Everything that a key does by itself. Other keys choose tiles and objects."""
+"""All commands with a key. Other keys choose tiles and objects."""
 
 
 HELP = """\
@@ -54,7 +54,7 @@ W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift 
 
 
 NAMELESS = "My level"
-"""What a level is called if its maker gives it no name."""
+"""The name of a level to which its maker gave none."""
 
 IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
 
@@ -117,7 +117,7 @@ class EditorCommands(DocumentCommands):
         }  # fmt: skip
 
     def choose(self, name: str) -> None:
-        """Do a command; of one that steps on, all steps are listed."""
+        """Do a command; one with several steps shows a list of them."""
         tools, view = self.session.tools, self.view
         steps: dict[str, dict[str, Action]] = {
             "symmetry": {symmetry: partial(self.mirror, symmetry) for symmetry in SYMMETRIES},
@@ -147,14 +147,14 @@ class EditorCommands(DocumentCommands):
         self.view.hint = f"{what} are {'shown' if getattr(self.view, name) else 'hidden'}"
 
     def switch_tests(self) -> None:
-        """Show where all tests of this session came and died, or no more."""
+        """Show or hide the paths and deaths of all tests of this session."""
         view, count = self.view, len(self.session.tries)
         view.tests = not view.tests
         what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"
         view.hint = (what if count else "No tests yet: F5 plays the level") if view.tests else ""
 
     def next_reach(self) -> None:
-        """Show what can be reached from the pointer with another speed, or no more."""
+        """Show what can be reached from the pointer with the next of the speeds, or hide it after the last."""
         self.session.next_start()
         self.view.hint = ""
 
@@ -182,7 +182,7 @@ class EditorCommands(DocumentCommands):
     # --- trying and certifying ---
 
     def test(self, at: Point | None = None, says: str | None = None) -> None:
-        """Play the level. ``at``: where the ninja begins, if not at its place; ``says``: its messages, if others."""
+        """Play the level. ``at``: where the ninja begins, by default at its place; ``says``: other messages."""
         session = self.session
         try:
             level = session.level_to_test(at)
@@ -213,7 +213,7 @@ class EditorCommands(DocumentCommands):
     # --- files ---
 
     def menu(self) -> None:
-        """Give up what is half done, the selection, a tool that draws: one each time. Then say that the next opens."""
+        """Cancel one thing: a drawing, the selection, a tool. Show that the next press opens the menu."""
         view, tools = self.view, self.session.tools
         if view.take(None) or tools.cancel():
             return
@@ -226,7 +226,7 @@ class EditorCommands(DocumentCommands):
             view.hint = _AGAIN
 
     def more(self) -> None:
-        """Everything about tests and what is shown, for the mouse."""
+        """A menu of all commands about tests and about what is shown, for the mouse."""
 
         def test_at(cell: Cell | None) -> None:
             if cell:
@@ -241,7 +241,7 @@ class EditorCommands(DocumentCommands):
         self.app.push(Menu(self.app, "More", [at, *rows, CANCEL]))
 
     def file_menu(self) -> None:
-        """The button opens it whatever is half done, which is given up."""
+        """The menu behind the button; a drawing is cancelled first."""
         session = self.session
         self.view.take(None)
         session.tools.cancel()
@@ -263,7 +263,7 @@ class EditorCommands(DocumentCommands):
         return self.app.player.folder / LEVELS
 
     def own_path(self) -> Path | None:
-        """The level's file, or a new one among the player's levels; None for a level without file and name."""
+        """The level's file, or a new path among the player's levels; None for a level without file and name."""
         if self.session.source.path is None and not self.session.draft.name:
             return None
         return self.session.source.path or free_path(self._levels, file_stem(self.session.draft.name, "level"), SUFFIX)
@@ -274,7 +274,7 @@ class EditorCommands(DocumentCommands):
         return [("Load it again", lambda: self._load(lambda: self.session.take(open_source(path))), _UNDO)]
 
     def follow_file(self) -> None:
-        """Show what another program has written into the level's file; ask first where something is not saved."""
+        """Load a level's file that another program has changed; ask first if there are unsaved changes."""
         session = self.session
         saved, path = session.is_saved, session.source.path
 
@@ -298,7 +298,7 @@ class EditorCommands(DocumentCommands):
         return f"Saved{', and in the menu Levels' * path.is_relative_to(self._levels)}: {path.name}"
 
     def save_as(self, then: Action = nothing) -> None:
-        """Ask for the level's name, write it into a file of that name, and do ``then``."""
+        """Ask for the level's name, write it into a file of that name, and call ``then``."""
         session = self.session
 
         def on_accept(text: str) -> None:
@@ -313,7 +313,7 @@ class EditorCommands(DocumentCommands):
     def about(self) -> None:
         prompts = {"teaches": "What it teaches"}
         about = headers_of(self.session.draft)
-        del about["says"]  # which has a screen of its own
+        del about["says"]  # messages have a screen of their own
         fields = [(prompts.get(key, key.capitalize()), text, 200) for key, text in about.items()]
 
         def on_accept(texts: list[str]) -> None:
@@ -325,9 +325,9 @@ class EditorCommands(DocumentCommands):
         self.app.push(FormPanel(self.app, "About the level", fields, "OK", on_accept))
 
     def messages(self, at: Cell | None = None) -> None:
-        """What the level says to its player, and when; near a place: that of what is selected, or of the pointer.
+        """Edit the level's messages, beginning with the one at the selection or the pointer.
 
-        ``at``: the cell of the message that is looked for.
+        ``at``: the cell of the message to begin with.
         """
         tools = self.session.tools
         tools.finish()
@@ -343,7 +343,7 @@ class EditorCommands(DocumentCommands):
         self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.test, mood, self.session.way, at))
 
     def _entry(self) -> Entry | None:
-        """The level's file as it is played: in its place in a pack, or alone; None without a file."""
+        """The level's file as a level to play: in its pack, or alone; None without a file."""
         alone = self.session.entry
         packs = self.app.player.catalogue.packs() if alone else ()
         levels = (level for pack in packs for level in pack.levels)
@@ -353,11 +353,11 @@ class EditorCommands(DocumentCommands):
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
 
     def good_levels(self) -> None:
-        """Show what makes levels of the game good; each can be opened here."""
+        """Show the screen of good levels; each can be opened here."""
         self.app.push(GoodLevelsScreen(self.app, lambda entry: self.unless_unsaved(lambda: self.edit_entry(entry))))
 
     def edit_entry(self, entry: Entry) -> None:
-        """Edit a level of the browser: the player's in its file, in a pack too; the game's or a zip's as a new one."""
+        """Edit a level of the browser: the player's in its file; a copy of the game's or of a zip's."""
         path = Path(entry.named.file)
         if entry.source != GAME and entry.named.ascii and path.is_file():
             self.open_file(path)
@@ -368,14 +368,14 @@ class EditorCommands(DocumentCommands):
         self._load(lambda: self.session.begin(open_source(path)))
 
     def _load(self, action: Action) -> None:
-        """Do something with a file that perhaps cannot be read."""
+        """Load something, and show a notice if its file cannot be read."""
         try:
             action()
         except (NinjaGameError, OSError) as error:
             self.app.notify(reason(error))
 
     def offer_recovered(self) -> None:
-        """Ask what to do with a level that was being edited when the program died."""
+        """Ask what to do with a level that was open when the program crashed."""
         draft = next(recovered(self.app.player.folder), None)
         if draft is not None:
             name = draft.draft.name or (draft.source.path.name if draft.source.path else "a new level")
@@ -393,7 +393,7 @@ class EditorCommands(DocumentCommands):
 
 
 class TryContext(LevelContext):
-    """A level that is only tried out: with practice tools and without a clock; nothing counts."""
+    """A level that is only tested: with practice tools, without a clock; nothing counts."""
 
     next_label = "back to the editor"
 
@@ -405,16 +405,16 @@ class TryContext(LevelContext):
         self._session.tried(self.level, bytes(attempt.inputs), over=over)
 
     def beginning(self) -> tuple[Level, bytes]:
-        """Of the level under edit, wherever the test begins: its texts lie where they will in play."""
+        """The start of the level under edit, wherever the test begins: its texts lie where they will lie in play."""
         level = self._session.draft.level
         return (level if any(spec.kind == NINJA for spec in level.objects) else self.level), self._session.way
 
     def ghosts(self) -> list[PacedRun]:
-        """None: nobody has a best on a level that is being made."""
+        """None: a level under edit has no best run."""
         return []
 
-    def sayings(self) -> tuple[LevelMessage, ...]:
-        """All of them, however often the level was passed."""
+    def messages(self) -> tuple[LevelMessage, ...]:
+        """All messages, however often the level was passed."""
         return parse_messages(self.entry.named.says)
 
     def passed(self, attempt: Attempt) -> list[str]:
@@ -428,7 +428,7 @@ class TryContext(LevelContext):
         self.left(attempt, over=True)
 
     def left(self, attempt: Attempt, *, over: bool = False) -> None:
-        """Tell of a try that has not ended by itself."""
+        """Report to the editor a test that was left before its end."""
         if attempt.outcome == "running":
             self._tried(attempt, over=over)
 
@@ -437,7 +437,7 @@ class TryContext(LevelContext):
 
 
 class TryScreen(LevelScreen):
-    """Plays a level; the back key leaves at once, whatever is going on. Raises LevelError for one without a ninja."""
+    """Plays a level; the back key leaves at once in every phase. Raises LevelError for one without a ninja."""
 
     music = SILENCE
 

@@ -1,4 +1,4 @@
-"""What a level tells its player: a row for each message, with the moment at which it is said."""
+"""The screen of a level's messages: a row for each message and its moment."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ from ninja_game.formats.messages import (
 from ninja_game.levels.episodes import Mood
 from ninja_game.levels.warnings import Ground, unseen_messages
 from ninja_game.play.app import App
-from ninja_game.play.level.hud import Hud, HudView, Said
+from ninja_game.play.level.hud import Hud, HudView, PlacedMessage
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
+from ninja_game.play.level.messages import shown_ticks
 from ninja_game.play.level.places import Things
-from ninja_game.play.level.sayings import shown_ticks
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow, MenuScreen
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.schema import World
@@ -48,7 +48,7 @@ from ninja_game.view.sprites.thumbnail import open_exit, thumbnail
 
 ROW, TOP, WIDE = 112, 60, 294
 PICTURE: Area = (342, TOP, 422, 422 * HEIGHT / WIDTH)
-"""Rows of the messages; where the level is shown with the selected one."""
+"""Where the level is shown with the selected message."""
 
 _WHEN = {
     "start": ("At the start", "At each start and 12 s on, until the exit is open"),
@@ -59,12 +59,12 @@ _WHEN = {
     "trap": ("A trap closes", "Once, when a trap door closes"),
     "at": ("Near a place", "Beside it, when the ninja first comes into its frame"),
 }
-"""What each moment is called, and when that is."""
+"""The name of each moment, and when it is."""
 
 _SAID_AT = {
     "switch": ("exit", SWITCH), "gold": ("gold", BODY), "lock": ("locked door", SWITCH), "trap": ("trap door", SWITCH),
 }  # fmt: skip
-"""The objects, with their parts, at which the ninja is when something is said."""
+"""The objects, with their parts, that the ninja has just touched at some moments."""
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
@@ -77,7 +77,7 @@ _WORDS = ", ".join(f"{{{name}}}" for name in KEYS + TARGETS)
 
 @dataclass
 class Message:
-    """``when``: as of a LevelMessage; ``detail``: of how many deaths, or at which cell, as it is typed."""
+    """``when``: as of a LevelMessage; ``detail``: the number of deaths or the cell, as typed."""
 
     when: str = "start"
     detail: str = ""
@@ -93,7 +93,7 @@ class Message:
 
     @property
     def problem(self) -> tuple[bool, str]:
-        """Whether it is its detail that is wrong, and in words what; '' for none."""
+        """Whether the detail is wrong, and the problem in words; '' for none."""
         moment = self.moment
         if self.when in ("death", "at") and (":" in moment or not _fits(f"{moment}: a text")):
             place = "column,row: 1,1 to 31,23, as in 12,5"
@@ -106,7 +106,7 @@ class Message:
 
     @property
     def unknown(self) -> str:
-        """The first unknown word in braces, with them; '' for none."""
+        """The first unknown word in braces, with the braces; '' for none."""
         return next((f"{{{name}}}" for name in unknown_words(self.text)), "")
 
 
@@ -123,7 +123,7 @@ def messages_of(says: str) -> list[Message]:
 
 
 class _Stage:
-    """The level's picture, and its world; ``opened``: with an open exit."""
+    """The level's picture and its world; ``opened``: with an open exit."""
 
     def __init__(self, level: Level, palette: Palette, width: int, text_size: int, *, opened: bool) -> None:
         self.picture = thumbnail(level, palette, width, opened=opened)
@@ -136,7 +136,7 @@ class _Stage:
 
 
 def _cells_before(draft: Draft, place: Point) -> Point:
-    """Where a test of a message begins, px: just too far from its place, where a floor or at least air leads there."""
+    """Where the test of a message begins, px: just outside its range, where the ninja stands or at least has air."""
     column, row = cell_of(*place)
     best, at = 0, place
     for step in (-1, 1):
@@ -148,10 +148,10 @@ def _cells_before(draft: Draft, place: Point) -> Point:
 
 
 class MessagesScreen(MenuScreen):
-    """``here``: the cell that a message near a place begins with. ``put``: takes the header's value.
+    """``here``: the default cell of a new message near a place. ``put``: gets the new value of the header.
 
-    ``test``: plays the level from a point, or from its start, with such a value. ``at``: the message of this cell gets
-    the focus. ``mood``: in which the level is played. ``way``: the inputs of its author's run, if there is one.
+    ``test``: plays the level from a point, or from its start, with such a value. ``at``: the cell of the message that
+    gets the focus. ``mood``: in which the level is played. ``way``: the inputs of its author's run, if there is one.
     """
 
     title = "Messages to the player"
@@ -240,7 +240,7 @@ class MessagesScreen(MenuScreen):
         return self.messages[self._selected] if self._selected < len(self.messages) else None
 
     def _handle_mouse(self, event: pygame.Event) -> None:
-        """A click in the picture selects the message there, or puts the selected one there, and a drag goes on."""
+        """A click in the picture selects the message there, or moves the selected one there; a drag moves it on."""
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
         drags = event.type == pygame.MOUSEMOTION and event.buttons[0] and self._dragged is None
         x, y = self.theme.canvas.logical(event.pos) if pressed or drags else (0.0, 0.0)
@@ -270,7 +270,7 @@ class MessagesScreen(MenuScreen):
         self.enter()
 
     def _is_sound(self) -> bool:
-        """Else the focus goes to what is not, and its row says why."""
+        """Whether all messages are valid; else the first that is not gets the focus and shows the problem."""
         for number, message in enumerate(self.messages):
             about_detail, problem = message.problem
             if problem:
@@ -290,7 +290,7 @@ class MessagesScreen(MenuScreen):
             self._test(eye and _cells_before(self._draft, eye), self.source)
 
     def close(self) -> None:
-        """Ask what is to become of changes."""
+        """Leave; ask first whether changes are kept."""
         rows: list[MenuRow] = [("Keep the changes", self._accept, ""), ("Discard changes", self.app.pop, ""), CANCEL]
         if self.source == self._before:
             super().close()
@@ -298,7 +298,7 @@ class MessagesScreen(MenuScreen):
             self.app.push(Menu(self.app, "The messages are changed", rows))
 
     def capture(self, event: InputEvent) -> bool:
-        """What is typed goes to the text of the row that has the focus."""
+        """Typed letters go to the text of the row with the focus."""
         raw = event.raw
         names = {pygame.TEXTINPUT: "text", pygame.KEYDOWN: "unicode"}
         typed = getattr(raw, names.get(raw.type, ""), "")
@@ -345,14 +345,14 @@ class MessagesScreen(MenuScreen):
         theme.paragraph(surface, (*about, *_HELP), below, 11, 15, colour=theme.palette.faint)
 
     def _turn_of(self, message: Message) -> str:
-        """How long it is shown, and as which of those of its moment."""
+        """How many ticks a message is shown, and its number among those of its moment."""
         together = [other for other in self.messages if other.moment == message.moment]
         place = next(k for k, other in enumerate(together, 1) if other is message)
         which = f"No. {place} of {len(together)}, " if len(together) > 1 else ""
         return f"{which}{shown_ticks(message.when, len(together)) / TICKS_PER_SECOND:.0f} s"
 
     def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
-        """The level with a message as in play. The level is drawn once, the message each time."""
+        """The level with a message as in play. The level is drawn once, the message in each picture."""
         theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*PICTURE)
         size, opened = (place.width, self.app.settings.text_size), bool(message and message.when == "switch")
         palette = self.app.palette_in(self._look)
@@ -366,7 +366,7 @@ class MessagesScreen(MenuScreen):
             controls, when = self.app.controls, message.when
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
             where = draft.level.tiles, self._things(stage, texts), self._eye(message), when == "start", when == "at"
-            message_said = Said(text, *where) if text else None
+            message_said = PlacedMessage(text, *where) if text else None
             if when == "at" and (eye := self._eye(message)):
                 frame = eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR
                 stage.hud.theme.canvas.frame_rect(picture, palette.accent, *frame, 2)
@@ -387,7 +387,7 @@ class MessagesScreen(MenuScreen):
         return self._kept.get(tagged, ())
 
     def _eye(self, message: Message) -> Point | None:
-        """Where the ninja is when a message is said, px; None at the start, or where that is not known."""
+        """Where the ninja is when a message appears, px; None at the start, or where that is unknown."""
         if message.when == "at" and not message.problem[0]:
             return parse_messages(f"{message.moment}: a text")[0].place
         name, part = _SAID_AT.get(message.when, ("", BODY))

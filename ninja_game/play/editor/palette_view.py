@@ -1,4 +1,4 @@
-"""The palette: all tiles and all types of objects as they look; a click takes one in hand. How objects look at rest."""
+"""The palette: pictures of all tiles and all types of objects; a click chooses one to draw with."""
 
 from __future__ import annotations
 
@@ -35,11 +35,11 @@ from ninja_game.view.sprites.tile_sheet import tile_picture
 
 _NINJA = ObjectSpec(kinds.NINJA, (36.0, 36.0))
 _TOGETHER = 1000
-"""Objects that are asked for at once: a world holds a few thousand."""
+"""Objects that one world is built with: its memory holds a few thousand."""
 _KEPT = 4000
 
 _HIDDEN = 4
-"""Eighths as solid as others are the doors that a player cannot see yet."""
+"""Opacity in eighths of a door that a player cannot see yet."""
 
 
 @drawing(REACH)
@@ -48,7 +48,7 @@ def _standing(s: Sketch, p: Palette) -> None:
 
 
 class ObjectSprites(NamedTuple):
-    """The sprites of an object, the px that they cover (an empty rectangle for what is not drawn), and its cells."""
+    """The sprites of an object, the px that they cover (an empty rectangle if there are none), and its cells."""
 
     sprites: list[PlacedSprite]
     rect: pygame.Rect
@@ -60,7 +60,7 @@ class ObjectSprites(NamedTuple):
 
 
 def _model(spec: ObjectSpec) -> ObjectSpec:
-    """The object that looks the same, in the place in which it is asked for; a switch is far from its door."""
+    """An object with the same sprites at a fixed place; a switch is far from its door."""
     kind, values = spec.kind, spec.values
     if not well_formed(spec):
         return spec
@@ -85,9 +85,9 @@ class _Noted(DrawTarget):
 
 
 class ObjectPictures:
-    """The sprites of objects, for drawing at the scale and in the palette of ``target``.
+    """The sprites of objects, to be drawn at the scale and in the palette of ``target``.
 
-    What is kept of each model: to which of its parts a sprite belongs, the sprite, and its place from there.
+    Cached for each model: the part to which a sprite belongs, the sprite, and its offset.
     """
 
     def __init__(self, target: DrawTarget) -> None:
@@ -95,7 +95,7 @@ class ObjectPictures:
         self._kept: dict[ObjectSpec, list[tuple[int, SpriteKey, float, float]]] = {}
 
     def sprites_of(self, specs: Iterable[ObjectSpec]) -> dict[ObjectSpec, ObjectSprites]:
-        """The sprites of each. What looks alike everywhere is asked for once, in one place."""
+        """The sprites of each object. Objects with the same sprites at every place are simulated once."""
         models = {spec: _model(spec) for spec in specs}
         if len(self._kept) > _KEPT:
             self._kept.clear()
@@ -147,11 +147,11 @@ class ObjectPictures:
 
 
 TILE, OBJECT, KEY = 16.0, 28.0, 8.0
-"""Sides of the squares, and the height of the key below an object, px."""
+"""Sides of the squares of tiles and objects, and the height of the key below an object, px."""
 BLOCK, BLOCK_ROW = 42.5, 35.0
-"""From one family of tiles to the next, px."""
+"""Distance between two families of tiles, across and down, px."""
 _OBJECTS = 104.0
-"""From the top to the objects, px."""
+"""Distance from the top to the objects, px."""
 OBJECTS_PER_ROW = 6
 
 TILE_ORDER = (brush.EMPTY, brush.FULL, *(tile for family in brush.FAMILIES for tile in family.tiles))
@@ -162,7 +162,7 @@ CHANGES: dict[str, dict[str, str | int]] = {
     "movement": {"q": -1, "e": 1},
     "seeker": {"n": 1},
 }
-"""The letters that change each property of what is in hand or selected: to which word, or so many words on."""
+"""The letters that change each property of the drawn or selected objects: to a word, or by a number of words."""
 
 Entry = int | brush.ObjectType
 """A tile or a type of objects."""
@@ -172,15 +172,15 @@ _OBJECT_TYPE_OF_KEY = {object_type.key: object_type for object_type in brush.OBJ
 
 
 def live_changes(tools: EditorTools) -> dict[str, dict[str, str | int]]:
-    """Those of CHANGES that letters make now."""
+    """The members of CHANGES whose letters act now."""
     names = [name for spec in tools.subjects for name in properties(spec)] if tools.about_objects else []
     return {name: CHANGES[name] for name in dict.fromkeys(names) if name in CHANGES}
 
 
 def entry_of_key(tools: EditorTools, key: str, taken: Collection[str]) -> Entry | None:
-    """What a key takes in hand now: with tiles a digit a family, a letter a quarter of it, else all are objects'.
+    """What a key chooses: with tiles a digit chooses a family, a letter a quarter of it; all other keys choose objects.
 
-    E and D are tiles wherever they change nothing. ``taken``: the letters that make changes (``live_changes``).
+    E and D choose tiles if they change nothing. ``taken``: the letters that make changes (``live_changes``).
     """
     if key in taken:
         return None
@@ -196,7 +196,7 @@ def entry_of_key(tools: EditorTools, key: str, taken: Collection[str]) -> Entry 
 
 
 class PaletteView(Widget):
-    """Tiles above, objects below. ``hovered``: what the mouse is over."""
+    """The tiles, and the objects below them. ``hovered``: the entry under the mouse."""
 
     def __init__(self, area: Area, tools: EditorTools) -> None:
         super().__init__(area)
@@ -204,7 +204,7 @@ class PaletteView(Widget):
         self.hovered: Entry | None = None
 
     def places(self) -> list[tuple[Entry, Area]]:
-        """Every entry with its square; the four tiles of a family stand as their keys Q W A S do."""
+        """Every entry with its square; the four tiles of a family lie like their keys Q W A S."""
         x, y, _, _ = self.area
         areas: list[tuple[Entry, Area]] = []
         for number, tile in enumerate((brush.EMPTY, brush.FULL)):
@@ -231,14 +231,14 @@ class PaletteView(Widget):
 
     @property
     def said(self) -> str:
-        """What is under the mouse, or else in hand, and its keys."""
+        """The name and the keys of the entry under the mouse, or else of the chosen one."""
         return _said(self._in_hand if self.hovered is None else self.hovered)
 
     def _at(self, x: float, y: float) -> Entry | None:
         return next((what for what, area in self.places() if inside(area, x, y)), None)
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether an entry is there: what lies between them is others'."""
+        """Whether there is an entry at a point; the mouse between two entries means nothing here."""
         return self._at(x, y) is not None
 
     def click(self, x: float, y: float) -> bool:
@@ -248,11 +248,10 @@ class PaletteView(Widget):
         return True
 
     def hover(self, x: float, y: float) -> None:
-        """The mouse is there."""
         self.hovered = self._at(x, y)
 
     def step(self, by: int) -> None:
-        """The entry before or after the one in hand; while something is drawn only a line bends."""
+        """The entry before or after the chosen one; while something is drawn only the bend of a line changes."""
         tools = self.tools
         if tools.bend(by):
             return
@@ -292,7 +291,7 @@ class PaletteView(Widget):
                 canvas.frame_rect(surface, palette.accent, *area, 2)
 
     def _draw_key(self, surface: pygame.Surface, theme: Theme, key: str, at: Point, *, live: bool) -> None:
-        """A key beside what it chooses, faint where it means something else now."""
+        """The key of an entry, faint while the key means something else."""
         colour = theme.palette.text if live else mixed(theme.palette.faint, theme.palette.panel, 0.5)
         theme.text(surface, key_label_of(key), *at, size=8, height=KEY, colour=colour)
 
@@ -300,7 +299,7 @@ class PaletteView(Widget):
         size = theme.canvas.rect(*area).size
         if not isinstance(what, brush.ObjectType):
             return tile_icon(what, size, theme.palette.base.name)
-        # The one in hand as it is drawn now.
+        # The chosen entry with its present properties.
         in_hand = self.tools.objects and brush.object_type_of(self.tools.spec) == what.name
         return object_icon(self.tools.spec if in_hand else what.spec, size, theme.canvas.scale, theme.palette.base.name)
 
@@ -314,7 +313,7 @@ def _said(what: Entry) -> str:
 
 @lru_cache(maxsize=200)
 def tile_icon(tile: int, size: tuple[int, int], palette: str, alpha: int = 255) -> pygame.Surface:
-    """A tile as large as ``size``; nothing for what has no shape. ``palette``: its name."""
+    """A tile as large as ``size``; empty for a tile without shape. ``palette``: its name."""
     picture = tile_picture(tile, size, tuple(PALETTES[palette].tile)).copy() if tile in TILE_IDS else None
     picture = picture or pygame.Surface(size, pygame.SRCALPHA)
     picture.fill((alpha,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
@@ -323,7 +322,7 @@ def tile_icon(tile: int, size: tuple[int, int], palette: str, alpha: int = 255) 
 
 @lru_cache(maxsize=200)
 def object_icon(spec: ObjectSpec, size: tuple[int, int], scale: float, palette: str) -> pygame.Surface:
-    """An object in the middle of a small picture; of a door or an exit without its switch."""
+    """An object in the middle of a small picture; a door or an exit without its switch."""
     canvas = Canvas((round(792 * scale), round(600 * scale)))
     far = brush.with_switch(spec, 700.0, 500.0, "half")
     x, y = points(far)[BODY]

@@ -49,11 +49,11 @@ FIRST_STEPS = (
     "(9) on it, and the exit (]) with",
     "its switch. F5 plays the level",
 )
-"""What the panel says of an empty level."""
+"""The panel's text for an empty level."""
 
 
 def panel_key(tools: EditorTools) -> tuple[object, ...]:
-    """What the panel is about: when it changes, the panel is rebuilt."""
+    """The subject of the panel: when it changes, the panel is rebuilt."""
     if tools.ghost:
         return len(tools.ghost.tiles), len(tools.ghost.objects), "pasted"
     if tools.selection:
@@ -71,7 +71,7 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
 
 
 def _taking(tools: EditorTools) -> str:
-    """What a press does with what the panel is about."""
+    """What a press does to the panel's subject."""
     return "In hand" if tools.tool in ("select", "pick") else "Draw"
 
 
@@ -139,7 +139,7 @@ _ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
     "": {"Top": (1, 0.0), "Middle": (1, 0.5), "Bottom": (1, 1.0)},
     "Spread": {"Across": (0, None), "Down": (1, None)},
 }
-"""Rows of buttons that put objects in line, with axis and share of ``stamp.arranged``."""
+"""Rows of buttons that align objects, with axis and share of ``stamp.arranged``."""
 
 
 def _arranging(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widget]]:
@@ -151,7 +151,7 @@ def _arranging(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widge
 
 
 def _row(buttons: Sequence[MenuRow], head: str = "", room: int = 0) -> Callable[[Area], Sequence[Widget]]:
-    """Buttons side by side, behind a word with so much room."""
+    """Buttons side by side, behind a word of that width."""
 
     def make(area: Area) -> Sequence[Widget]:
         x, y, w, h = area
@@ -164,7 +164,7 @@ def _row(buttons: Sequence[MenuRow], head: str = "", room: int = 0) -> Callable[
 
 
 def _ask_move(view: EditorView) -> None:
-    """Ask by how much what is selected moves: columns and rows, or px."""
+    """Ask how far to move the selection: columns and rows, or px."""
 
     def on_accept(text: str) -> None:
         match = re.fullmatch(r"([+-]?\d+(?:\.\d+)?),([+-]?\d+(?:\.\d+)?)(px)?", text.replace(" ", ""))
@@ -178,14 +178,14 @@ def _ask_move(view: EditorView) -> None:
 
 
 def _ask_kind(view: EditorView) -> None:
-    """Ask what the selected objects become."""
+    """Ask for another kind for the selected objects."""
     change = view.session.tools.change_each
     rows: list[MenuRow] = [(kind.capitalize(), partial(change, partial(remade, name=kind)), "") for kind in OTHER_KINDS]
     view.app.push(Menu(view.app, "Selected objects become", [*rows, CANCEL]))
 
 
 def _common(specs: Sequence[ObjectSpec]) -> list[str]:
-    """The properties that all of these have, with the same words."""
+    """The properties that all subjects have, with the same words."""
     first = properties(specs[0]) if specs else {}
     return [name for name, what in first.items() if all(properties(spec).get(name) == what for spec in specs)]
 
@@ -199,7 +199,7 @@ def _present(tools: EditorTools, name: str) -> str:
 
 
 def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
-    """A property of the subjects by its words; "(other)" for values that no word means, "(several)" for several."""
+    """A choice of the words of a property; "(other)" for values without a word, "(several)" where subjects differ."""
 
     def put(text: str) -> None:
         if text:
@@ -215,7 +215,7 @@ def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
 
 
 def _place(tools: EditorTools, part: int) -> Callable[[Area], Sequence[Widget]]:
-    """Where a part is, as text behind its name: cells as ``5,7`` or px as ``60,564px``."""
+    """The place of a part, as a text behind its name: cells as ``5,7`` or px as ``60,564px``."""
 
     def put(text: str) -> None:
         spec = tools.subjects[0]
@@ -251,7 +251,7 @@ _BUTTONS = (
 
 
 class ToolButton(Button):
-    """A button of a command, accented while the command is in force."""
+    """A button of a command, highlighted while the command is active."""
 
     def __init__(self, area: Area, name: str, text: str, run: Callable[[str], object], view: EditorView) -> None:
         super().__init__(area, text, lambda: run(name), hint=TABLE.hint(name), size=9)
@@ -279,7 +279,7 @@ class EditorPart(Pane):
         theme.canvas.fill_rect(surface, theme.palette.tile, *self.area)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """What the mouse is over is said in the status line; all else is up to the widgets."""
+        """Show the hint of the button under the mouse in the status line; the widgets do the rest."""
         if event.type != pygame.MOUSEMOTION or any(event.buttons):
             return False
         widget = next((part for part in self.widgets if part.focusable and part.contains(x, y)), None)
@@ -366,7 +366,7 @@ class Properties(EditorPart):
 
 
 class Findings(EditorPart):
-    """What is odd about the level. ``go_to``: called with the number of a finding."""
+    """The findings about the level. ``go_to``: called with the number of a finding."""
 
     area = LAYOUT.findings
 
@@ -509,7 +509,7 @@ _MOVES = (
     ("Up", -1, "What is selected goes up in the list, and moves earlier in play; with Shift to its top"),
     ("Down", 1, "What is selected goes down in the list, and moves later in play; with Shift to its end"),
 )
-"""Texts and hints of the buttons that move what is selected so many places."""
+"""Texts and hints of the buttons that move the selection by a number of places."""
 
 
 def _shift() -> bool:
@@ -517,7 +517,7 @@ def _shift() -> bool:
 
 
 class _Find(TextEntry):
-    """What is typed after a click is looked for instead of the words that were there."""
+    """The search field; typing after a click replaces its words."""
 
     def click(self, x: float, y: float) -> bool:
         super().click(x, y)
@@ -526,7 +526,7 @@ class _Find(TextEntry):
 
 
 class ObjectList(EditorPart):
-    """``shown``: the numbers of the objects whose texts have all the words that are looked for."""
+    """``shown``: the numbers of the objects whose texts contain all the words of the search."""
 
     area = LAYOUT.palette
 

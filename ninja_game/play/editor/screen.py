@@ -1,4 +1,4 @@
-"""The editor in the window: where its parts are, and what mouse, keys and pads do to them."""
+"""The editor in the window: where its parts are, and what mouse, keys and pads do."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from ninja_game.ui.widgets import following
 
 
 class EditorScreen(WorkspaceScreen):
-    """A level is made here. ``session``: what is edited; ``view``: the level in the middle."""
+    """The level editor. ``session``: the edited level; ``view``: the level in the middle."""
 
     table = TABLE
 
@@ -60,13 +60,13 @@ class EditorScreen(WorkspaceScreen):
         self.view.hint = text
 
     def follow_parts(self) -> None:
-        """The properties are those of another object, unless one of them is being typed."""
+        """Show the properties of another object, unless one is being typed."""
         if not isinstance(self.focus, TextEntry):
             self.properties.refresh()
         super().follow_parts()
 
     def enter(self) -> None:
-        """The first time, ask about what was not saved, unless a level was just chosen."""
+        """The first time, ask about an unsaved level, unless a level was just chosen."""
         super().enter()
         self.follow_parts()
         if not self._entered:
@@ -89,7 +89,7 @@ class EditorScreen(WorkspaceScreen):
         return super().capture(event)
 
     def handle(self, event: InputEvent) -> None:
-        """A mouse tells of many places in a picture: what is dragged goes to the last one."""
+        """The mouse reports many places per picture: a drag goes to the last one."""
         if event.raw.type == pygame.MOUSEMOTION and self.session.tools.dragging:
             self._dragged_to = event
             return
@@ -102,7 +102,7 @@ class EditorScreen(WorkspaceScreen):
             super().handle(event)
 
     def edit_by_key(self, event: InputEvent) -> bool:
-        """Keys choose what is drawn; confirm is the left button once the pointer was moved by keys or a pad."""
+        """Keys choose what is drawn; confirm is the left button after keys or a pad have moved the pointer."""
         if event.source and event.source[0] == "keys" and self._choose_by_key(chord(event.raw)):
             return True
         if event.menu == "confirm":
@@ -144,7 +144,7 @@ class EditorScreen(WorkspaceScreen):
         return True
 
     def _change_by_key(self, key: str) -> bool:
-        """Change the object in hand, or those that are selected; whether they have what the key is for."""
+        """Change a property of the drawn or selected objects; whether they have it."""
         tools = self.session.tools
         changes = {name: letters[key] for name, letters in live_changes(tools).items() if key in letters}
         for name, to in changes.items():

@@ -1,4 +1,4 @@
-"""What one editor works on: the tools, its file, what is kept safe, what is odd, certificate and tests."""
+"""The state of the level editor: tools, file, recovery copy, findings, certificate and tests."""
 
 from __future__ import annotations
 
@@ -54,40 +54,40 @@ from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 LOOK_SPACING = 0.5
-"""Seconds from one look at the level's file to the next."""
+"""Seconds between two checks of the level's file."""
 
 UNREACHABLE = "unreachable", "unreachable-switch"
-"""Codes of the findings about what the ninja cannot reach."""
+"""Codes of the findings about places that the ninja cannot reach."""
 
 CHECK_SPACING = 0.1
-"""Seconds from one examination of the level to the next, at least."""
+"""Least seconds between two examinations of the level."""
 
 PICTURE_WIDTH = 1584
 
 _HISTORIES: dict[Path, tuple[str, History[Draft]]] = {}
-"""Of each level that was left: the digest of its file then, and what undo takes back."""
+"""The undo history of each level that was left, with the digest of its file at that time."""
 
 Question = tuple[Level, tuple[Finding, ...], str]
-"""A level to examine, what the solver has found of it, and what it says."""
+"""A level to examine, what the solver has found about it, and its messages."""
 Examined = tuple[Level, list[Finding]]
 
 
 def _examine(question: Question) -> Examined:
     level, searched, says = question
     odd = level_findings(level, says)
-    # What the ninja cannot reach at all need not be told of the solver too.
+    # An unreachable exit needs no finding of the solver too.
     out_of_reach = {number for finding in odd if finding.code in UNREACHABLE for number in finding.records}
-    # Of an exit that is shut in, one line is enough: its switch is told of once the exit can be reached.
+    # One finding is enough for an enclosed exit: its switch gets one once the exit can be reached.
     shut = {number for finding in odd if finding.code == "unreachable" for number in finding.records}
     odd = [finding for finding in odd if finding.code != "unreachable-switch" or not shut.issuperset(finding.records)]
     return level, [*(finding for finding in searched if not out_of_reach.intersection(finding.records)), *odd]
 
 
 class EditorSession:
-    """``tools``: where the level is changed; ``source``: its file. ``tries``: all tests since it was opened.
+    """``tools``: change the level; ``source``: its file. ``tries``: all tests since the level was opened.
 
-    ``last_try``: the route of the last test. ``start``: of STARTS, how the ninja is at the pointer when what it can
-    reach is looked for.
+    ``last_try``: the route of the last test. ``start``: of STARTS, the ninja's state at the pointer for the search of
+    what it can reach.
     """
 
     def __init__(self, app: App, source: Source | None = None) -> None:
@@ -103,11 +103,11 @@ class EditorSession:
         self.autosave = Autosave(self.app.player.folder, draft.file if draft else None)
         self.source = draft.source if draft else source
         digest, history = _HISTORIES.get(source.path, ("", None)) if source.path and not draft else ("", None)
-        # Changes that were discarded are a step of it, too.
+        # Discarded changes can be undone too.
         self.tools.load(draft.draft if draft else source.draft, history if digest == source.digest else None)
         self.certifier.edit(self.draft.level)
         self._objects = self.draft.objects
-        # What is still being found out is of another level.
+        # Running searches are about another level.
         self._checks: NewestJob[Question, Examined] = NewestJob(_examine)
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
@@ -122,9 +122,9 @@ class EditorSession:
         self._asked_at = 0.0
 
     def begin(self, source: Source, draft: RecoveredDraft | None = None) -> None:
-        """Edit another level, or one that was found again; what was not saved of the present one is given up.
+        """Edit another level, or a recovered one; unsaved changes of the present one are discarded.
 
-        Raises FileError for what another window continues with.
+        Raises FileError for a level that another window has recovered.
         """
         before = self.autosave
         self._leave_search()
@@ -133,7 +133,7 @@ class EditorSession:
         self._recognise()
 
     def _recognise(self) -> None:
-        """Take up this level's certificate, once it was played: beside its file, or of the same level elsewhere."""
+        """Use this level's certificate if there is one: beside its file, or of the same level elsewhere."""
         catalogue, level, path = self.app.player.catalogue, self.draft.level, self.source.path
         same = [alone] if (alone := self.entry) else []
         same += [item for item in catalogue.single_levels() if item.named.level == level]
@@ -146,18 +146,18 @@ class EditorSession:
 
     @property
     def entry(self) -> Entry | None:
-        """The level as one in the player's folder; None without a file."""
+        """The level as an entry of the player's folder; None without a file."""
         path = self.source.path
         return Entry(NamedLevel(self.name, "", "", self.draft.level, str(path)), YOURS) if path else None
 
     def set_slopes(self, slopes: bool) -> None:
-        """Whether slopes set themselves, in this editor and all later ones."""
+        """Switch automatic slopes on or off, in this editor and all later ones."""
         self.tools.slopes = slopes
         self.app.change_settings(slopes=slopes)
 
     @property
     def way(self) -> bytes:
-        """The inputs of the run that certifies the level as it is; none without one."""
+        """The inputs of the run that certifies the level in its present state; none without such a run."""
         run = self.certifier.search.run
         return run.inputs if run and not self.certifier.is_stale(self.draft.level) else b""
 
@@ -175,7 +175,7 @@ class EditorSession:
 
     @property
     def findings(self) -> list[Finding]:
-        """What is odd about the level, as of the last examination."""
+        """The findings of the last examination."""
         return self._checks.result[1] if self._checks.result else []
 
     @property
@@ -184,7 +184,7 @@ class EditorSession:
 
     @property
     def reach(self) -> Reach | None:
-        """What the ninja can reach from the pointer, or from where it just was."""
+        """What the ninja can reach from the pointer, or from its last place."""
         return self._reaches.result if self.start != "off" else None
 
     def next_start(self) -> None:
@@ -192,7 +192,7 @@ class EditorSession:
         self._start_asked = None
 
     def _follow_pointer(self) -> None:
-        """Look for what can be reached now; what was found before stays until then."""
+        """Search what can be reached from the pointer; the earlier result stays until then."""
         speed = STARTS[self.start]
         if self._reaches.problem:
             self.app.notify(self._reaches.problem)
@@ -231,7 +231,7 @@ class EditorSession:
             self._tell_of_exits()
 
     def _tell_of_exits(self) -> None:
-        """Who puts another exit may have meant to move the one that is there."""
+        """Say how to move the exit to a player who placed a second one."""
         before, now = ([spec.kind for spec in objects].count(EXIT) for objects in (self._objects, self.draft.objects))
         self._objects = self.draft.objects
         if now > max(1, before):
@@ -240,7 +240,7 @@ class EditorSession:
             )
 
     def examine(self) -> list[Finding]:
-        """The findings of the level as it is now."""
+        """The findings of the present level."""
         self._asked_at = 0.0
         self.update()
         self._checks.finish()
@@ -258,7 +258,7 @@ class EditorSession:
         return self._maps.result if self.tries else None
 
     def changed_source(self) -> Source | None:
-        """The level's file if another program has just written it. Raises NinjaGameError, OSError."""
+        """The level's file if another program has changed it. Raises NinjaGameError, OSError."""
         path, now = self.source.path, monotonic()
         if path is None or now - self._looked_at < LOOK_SPACING or self.tools.history.in_stroke:
             return None
@@ -271,25 +271,25 @@ class EditorSession:
         return source if source.digest != self.source.digest else None
 
     def take(self, source: Source) -> None:
-        """Go on with the level as its file has it now; undo brings back what was here."""
+        """Load the level from its changed file; this can be undone."""
         self.tools.finish()
         self.source = source
         self.tools.history.change(source.draft)
 
     @property
     def keeping(self) -> str:
-        """What becomes of the run that the solver has found, a sentence."""
+        """What happens to the run that the solver has found, a sentence."""
         path = self.source.path
         if path and not self._keeps_runs(path):
             return "To keep it: File, Save the run that was found"
         return "Kept with the level" if path and self.is_saved else "Kept when the level is saved"
 
     def _keeps_runs(self, path: Path) -> bool:
-        """Whether certificates lie beside a file: in the player's folder of levels, and in packs."""
+        """Whether certificates are kept beside a file: in the player's folder of levels, and in packs."""
         return path.parent == self.app.player.folder / LEVELS or is_pack(path.parent)
 
     def certify_file(self) -> None:
-        """Put the runs that are known beside the level's file if that holds its level: packs need no other then."""
+        """Write the known runs beside the level's file if that holds this level: packs then need no other."""
         search, path = self.certifier.search, self.source.path
         known = search.run, search.full, path
         if path and search.run and known != self._certified and self.is_saved:
@@ -297,7 +297,7 @@ class EditorSession:
             self._keep(path, search)
 
     def _keep(self, path: Path, search: Certification, *, name: str = "") -> None:
-        """Put the runs of a search beside a file that holds its level. ``name``: what is left by now, to be told of."""
+        """Write the runs of a search beside a file with its level. ``name``: of a level left by now, for a notice."""
         from ninja_game.search.certificate import update_certificates
 
         which = f"{name}: " if name else ""
@@ -317,16 +317,16 @@ class EditorSession:
                 self.app.notify(f"{name}: {time or f'no run in {search.seconds:.0f} s'}")
 
     def _file_now(self, path: Path, search: Certification) -> NamedLevel | None:
-        """The level of a search in its file, or in another of the player's, such as one in a pack; None: it is gone."""
+        """The level of a search in its file, or in another of the player's files, as in a pack; None if it is gone."""
         with suppress(NinjaGameError, OSError):
             if (named := load_levels(path)[0]).level == search.level:
                 return named
-        # The window's own catalogue is not for this thread.
+        # The window's catalogue is not thread-safe.
         own = (item.named for item in Catalogue(self.app.player.folder / LEVELS).single_levels() if item.source != GAME)
         return next((entry for entry in own if entry.level == search.level and Path(entry.file).is_file()), None)
 
     def _leave_search(self) -> None:
-        """The level is left: a search of what its file holds goes on without the editor, any other one ends."""
+        """The level is closed: a search of the level in its file continues in the background, any other one ends."""
         path, level = self.source.path, self.source.draft.level
         if path:
             _HISTORIES[path] = self.source.digest, self.tools.history
@@ -346,12 +346,12 @@ class EditorSession:
     def save(self, path: Path, *, replacing: bool = False, name: str | None = None) -> None:
         """Write the level; it gets another ``name`` only if that succeeds.
 
-        Raises OccupiedError where that would replace what somebody else wrote, OSError.
+        Raises OccupiedError where that would replace a file that another program wrote, OSError.
         """
         self.tools.finish()
         named = self.draft if name is None else replace(self.draft, name=name)
         self.source = save(self.source, named, path, replacing=replacing)
-        # The file has the name, whatever is undone.
+        # The file has the new name, so undo keeps it.
         self.tools.history.amend(lambda draft: replace(draft, name=named.name))
 
     def export_picture(self) -> None:
@@ -359,7 +359,7 @@ class EditorSession:
         self.app.write_export(self.name, ".png", lambda path: save_picture(surface, path))
 
     def copy_string(self) -> None:
-        """The level as an in-game string of N, in the clipboard; in a file where there is none."""
+        """Copy the level as an in-game string of N into the clipboard, or into a file where there is none."""
         try:
             text = write_level_string(self.draft.level, exact=True)
         except NinjaGameError as error:
@@ -368,11 +368,11 @@ class EditorSession:
         copy_text(self.app, text, title=self.name, suffix=".nlevel")
 
     def copy_link(self) -> None:
-        """The level as a link, in the clipboard; in a file where there is none."""
+        """Copy the level as a link into the clipboard, or into a file where there is none."""
         copy_level_link(self.app, self.draft, self.name)
 
     def paste_string(self) -> None:
-        """The level of a text in the clipboard, in any format, in the place of this one; it can be undone."""
+        """Replace the level by the one in the clipboard, in any format; this can be undone."""
         try:
             self.tools.finish()
             self.tools.history.change(draft_of_text(pasted_text(), self.draft))
@@ -381,12 +381,12 @@ class EditorSession:
             self.app.notify("There is no level in the clipboard: copy its text first")
 
     def level_to_test(self, at: Point | None = None) -> Level:
-        """The level, with the ninja at a point if there is one."""
+        """The level, with the ninja at a point if one is given."""
         self.tools.finish()
         return with_ninja_at(self.draft, at) if at else self.draft.level
 
     def tried(self, level: Level, inputs: bytes, *, over: bool = False) -> None:
-        """A test was left, or is ``over``: its route is shown. One that was left and goes on is the same."""
+        """Show the route of a test that was left or is ``over``. A test that continues after that is the same one."""
         if not inputs:
             return
         last = self.tries[-1] if self.tries else None
@@ -396,7 +396,7 @@ class EditorSession:
         self._maps.ask(self.tries)
 
     def passed(self, level: Level, attempt: Attempt) -> bool:
-        """A test came to the exit; whether that certifies the level as it is: played from its start, in its time."""
+        """A test reached the exit; True if it certifies the present level: played from its start, in its time."""
         helped = attempt.assists - {"practice"} or attempt.lifetime <= attempt.ended_tick
         if helped or level != self.draft.level:
             return False

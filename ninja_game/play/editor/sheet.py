@@ -1,6 +1,6 @@
-"""The level under edit as a picture that is repaired where it has changed, and what lies over it.
+"""The picture of the level under edit, of which only changed parts are drawn again, and the marks over it.
 
-That is grids, lines to switches, routes, signs of findings.
+Marks are grids, lines to switches, routes, signs of findings.
 """
 
 from __future__ import annotations
@@ -30,20 +30,20 @@ from ninja_game.view.sprites.drawing import DrawTarget, is_near, shared_book
 from ninja_game.view.sprites.tile_sheet import TileSheet, around, scrolled
 
 _FRONT = {kinds.GOLD: 1, kinds.MINE: 1, kinds.NINJA: 3} | {kind.number: 2 for kind in kinds.KINDS if kind.moves}
-"""What is drawn later lies in front."""
+"""Order of drawing: higher numbers lie in front."""
 
 _MANY = 60
-"""More rectangles than this are drawn again as one."""
+"""More rectangles than this are merged into one."""
 
 COVERED_ALPHA = 4
-"""Eighths as solid: an object that a tile hides is seen through it."""
+"""Opacity in eighths of an object behind a tile."""
 
 
 class LevelSheet:
-    """``surface``: the picture, without what follows the mouse. ``canvas``: from px of the level to px of the sheet.
+    """``surface``: the picture, without the pointer. ``canvas``: from px of the level to px of the sheet.
 
-    ``flat``: to px from the level's own corner, which stay where another part is seen; those of marks are such.
-    What is shown is drawn by the next ``paint``.
+    ``flat``: to px from the level's own corner, which do not change when another part is shown; used for marks. The
+    next ``paint`` draws what ``show`` and the other methods have set.
     """
 
     def __init__(self, canvas: Canvas, palette: Palette) -> None:
@@ -62,7 +62,7 @@ class LevelSheet:
         self.look(canvas)
 
     def look(self, canvas: Canvas) -> None:
-        """Show another part of the level; at another scale, grid lines and marks are to be shown again."""
+        """Show another part of the level; after a change of scale, grid lines and marks must be set again."""
         book = shared_book(canvas.scale, self.palette.base)
         left, top = self.canvas.origin
         self.canvas, self.target = canvas, DrawTarget(canvas, self.palette, book)
@@ -97,7 +97,7 @@ class LevelSheet:
         for column, row in changed:
             self._tiles.draw(column, row, grid[(row + 1) * STRIDE + column + 1])
             self._dirty.append(self.flat.rect(CELL * column, CELL * row, CELL, CELL))
-        # A tile hides all of an object in its cell, which may reach beyond that.
+        # A tile hides the whole object in its cell, even what lies outside of the cell.
         covered = set(changed)
         self._dirty += [each.rect for each in self._order if covered and not covered.isdisjoint(each.cells)]
 
@@ -110,14 +110,14 @@ class LevelSheet:
         self._dirty += [sprites[spec].rect for spec in before.keys() ^ self._looks.keys()]
 
     def show_marks(self, marks: dict[Hashable, LevelMark]) -> None:
-        """Show these marks. A mark with the key of an earlier one is the same."""
+        """Show these marks. Marks with equal keys are the same mark."""
         changed = [self.marks[key] for key in self.marks.keys() - marks.keys()]
         changed += [marks[key] for key in marks.keys() - self.marks.keys()]
         self.marks = marks
         self._dirty += [rect for mark in changed for rect in mark.rects]
 
     def show_grid(self, lines: Iterable[tuple[bool, float, bool]]) -> None:
-        """Show grid lines: whether upright, where (px of the level), whether one of the middle lines."""
+        """Show grid lines: whether vertical, position (px of the level), whether a middle line."""
         self._grid = []
         for upright, at, middle in lines:
             colour = (*self.palette.accent[:3], 150) if middle else (*self.palette.text[:3], 60)
@@ -127,7 +127,7 @@ class LevelSheet:
         self._dirty.append(self._seen)
 
     def paint(self) -> list[pygame.Rect]:
-        """Draw what is shown now and was not before; the px of the sheet that changed."""
+        """Draw all changes; the px of the sheet that changed."""
         dirty, self._dirty = joined(area.clip(self._seen) for area in self._dirty), []
         for area in dirty:
             self._repaint_area(area)
@@ -149,7 +149,7 @@ class LevelSheet:
             if any(self.draft.tile(cell) == 1 for cell in self._order[number].cells):
                 self._order[number].draw(target, alpha=COVERED_ALPHA)
         if self._grid:
-            # A layer of its own, for lines that cross do not add up.
+            # A layer of its own, so that crossing lines do not add up.
             grid = pygame.Surface(area.size, pygame.SRCALPHA)
             for colour, line in self._grid:
                 grid.fill(colour, line.move(-flat.x, -flat.y))
@@ -161,7 +161,7 @@ class LevelSheet:
 
 
 def joined(rects: Iterable[pygame.Rect]) -> list[pygame.Rect]:
-    """Few rectangles that cover the same px: those that overlap become one, and so do very many."""
+    """Fewer rectangles that cover the same px: overlapping ones are merged, and so are more than _MANY."""
     waiting = [rect.copy() for rect in rects if rect]
     if len(waiting) > _MANY:
         return [waiting[0].unionall(waiting[1:])]
@@ -191,7 +191,7 @@ class Grid(NamedTuple):
     shift: float = 0.0
 
     def lines(self) -> Iterator[tuple[bool, float, bool]]:
-        """Each line: whether upright, where (px), whether one of the two middle lines, which every grid has."""
+        """Each line: whether vertical, position (px), whether one of the two middle lines, which every grid has."""
         if not self.step:
             return
         for upright, middle in ((True, MIDDLE[0]), (False, MIDDLE[1])):
@@ -212,7 +212,7 @@ GRIDS = (
 
 
 class LevelMark(NamedTuple):
-    """Something drawn over the level: a line, a sign. ``rects``: the flat px that it may cover."""
+    """A line or a sign over the level. ``rects``: the flat px that it may cover."""
 
     draw: Callable[[DrawTarget], object]
     rects: tuple[pygame.Rect, ...]
@@ -232,7 +232,7 @@ def line_mark(canvas: Canvas, colour: Colour, a: Point, b: Point, width: float =
 
 
 def route_mark(canvas: Canvas, colour: Colour, route: PathPoints) -> LevelMark:
-    """The route of a run, as far as it is near the level, with a dot at its end."""
+    """The route of a run, as far as it is in the shown part, with a dot at its end."""
     shown = [point for point in route if is_near(*point)]
     if len(shown) < 2:
         return LevelMark(lambda _: None, ())
@@ -248,7 +248,7 @@ def route_mark(canvas: Canvas, colour: Colour, route: PathPoints) -> LevelMark:
 
 
 def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
-    """The sign that something is odd here: a triangle with a stroke and a dot."""
+    """The sign of a finding: a triangle with an exclamation mark."""
     x, y = at[0], at[1] - 4.0
     corners = [(x, y - SIGN), (x + SIGN, y + SIGN - 1), (x - SIGN, y + SIGN - 1)]
 
@@ -263,7 +263,7 @@ def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 
 def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
-    """Where a message is said: a bubble with three dots."""
+    """The sign of a message: a bubble with three dots."""
     x, y = at
 
     def draw(target: DrawTarget) -> None:
@@ -277,7 +277,7 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 
 def said_places(says: str) -> list[Point]:
-    """The middles of the cells near which a level says something, px."""
+    """The centres of the cells with messages, px."""
     return [message.place for message in parse_messages(says) if message.place]
 
 
@@ -312,7 +312,7 @@ def level_marks(
     routes: Sequence[tuple[PathPoints, Colour]], tests: TestMap, signs: Sequence[Point], said: Sequence[Point],
     axes: Sequence[tuple[Point, Point]],
 ) -> dict[Hashable, LevelMark]:  # fmt: skip
-    """All marks by what they show: equal keys, equal marks. Those of ``before`` are used again."""
+    """All marks by their contents: equal keys, equal marks. Those of ``before`` are used again."""
     marks: dict[Hashable, LevelMark] = {}
 
     def add(key: Hashable, make: Callable[[], LevelMark]) -> None:

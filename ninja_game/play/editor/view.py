@@ -1,4 +1,4 @@
-"""The level under edit in its window: drawn, pointed at, and where the other parts are around it."""
+"""The level under edit: its picture, the pointer, and the area that the other parts leave."""
 
 from __future__ import annotations
 
@@ -39,21 +39,21 @@ from ninja_game.view.sprites.drawing import DrawTarget, drawing, is_near
 from ninja_game.view.sprites.sketch import Sketch
 
 GHOST = 5
-"""Eighths as solid as what is there is what would be drawn."""
+"""Opacity in eighths of what a press would draw."""
 NEAR_SWITCH_PX = 1.0
-"""A switch so near, px, would not be seen under the next exit: nothing is drawn over one that was just placed."""
+"""A switch closer than this to the next exit, px, would be hidden by it: nothing is drawn over a fresh one."""
 EDGE_SPEED = 0.3
-"""What is dragged beyond an edge of the level moves the picture by so many logical px a ms."""
+"""Scrolling while something is dragged beyond an edge of the view, logical px per ms."""
 
 
 @drawing(13)
 def _ring(s: Sketch, p: Palette, colour: str) -> None:
-    """Round what is selected, or would be. ``colour``: its name in the palette."""
+    """A ring around the selection, or what a click would select. ``colour``: its name in the palette."""
     s.ring(getattr(p, colour), 0, 0, 11, 1.6)
 
 
 class Overlay:
-    """Draws over a sheet that is shown with its upper left corner at ``corner``, px of the window.
+    """Draws over a sheet whose upper left corner is shown at ``corner``, px of the window.
 
     ``area``: of the sheet; ``canvas``: from px of the level, both px of the window.
     """
@@ -68,7 +68,7 @@ class Overlay:
         self._reached, self._seen = pygame.Surface((1, 1)), pygame.Rect(0, 0, 0, 0)
 
     def restore(self, surface: pygame.Surface, rects: list[pygame.Rect]) -> list[pygame.Rect]:
-        """Show the sheet where these px of it have changed, and where the overlay was; the px of the window."""
+        """Copy the changed px of the sheet, and those under the last overlay, to the window; the px of the window."""
         x, y = self.area.topleft
         changed = joined(rect.clip(self.area) for rect in [area.move(x, y) for area in rects] + self.target.covered)
         for rect in changed:
@@ -99,9 +99,9 @@ class Overlay:
         return self.target.covered
 
     def _draw_reach(self, reach: Reach) -> None:
-        """The squares that are reached, some jumps, the last places to jump from, where dangers go: dots each 10 ticks.
+        """The reachable squares, some jumps, the last places to jump from; paths of dangers as dots every 10 ticks.
 
-        The squares are drawn once, as a picture that is laid over the level.
+        The squares are drawn once, onto a picture that is then copied.
         """
         palette, target, canvas = self.sheet.palette, self.target, self.canvas
         if self._reach is not reach:
@@ -134,7 +134,7 @@ class Overlay:
         self._note(rect)
 
     def _ghost(self, stamp: Stamp) -> None:
-        """What would be pasted."""
+        """What a paste would draw."""
         for cell, tile in stamp.tiles.items():
             self._ghost_tile(cell, tile)
         for sprites in self.sheet.pictures.sprites_of(stamp.objects).values():
@@ -143,7 +143,7 @@ class Overlay:
             self._frame(area_between(min(stamp.tiles), max(stamp.tiles)), self.sheet.palette.accent)
 
     def _hover(self, tools: EditorTools) -> None:
-        """What a press would do here, and in the images of the symmetry."""
+        """What a press would do here, and at the mirrored places of a symmetry."""
         if tools.placing_switch:
             return
         if ghost := tools.pasted:
@@ -154,7 +154,7 @@ class Overlay:
         if not draws:
             target = tools.near(PICK_REACH)
             if tools.draft.says and tools.cell in said_cells(tools.draft.says):
-                # As far as NEAR: the message is said to who comes in there.
+                # The range of a message, NEAR: it appears when the ninja comes in.
                 column, row = tools.cell
                 self._frame((column - 2, row - 2, 5, 5), self.sheet.palette.accent)
             if target:
@@ -199,14 +199,12 @@ LAYOUT = EditorLayout()
 
 
 class EditorView(Pane):
-    """The level under edit, and what lies over it. ``hovering``: the pointer is shown; ``hint``: for the line below.
+    """The level under edit with its overlay. ``hovering``: the pointer is shown; ``hint``: for the line below.
 
-    ``by_keys``: it was last moved by keys or a pad.
-
-    ``taker``: gets the cell of the next press in the level, which draws nothing then; None where it is given up.
-    ``open_message``: called with the cell of a message that is clicked twice.
-    ``listing``: the list of objects is shown in the place of the palette; ``tests``: the map of the tests is shown.
-    ``camera``: the part of the level that is seen.
+    ``by_keys``: keys or a pad have moved it last. ``taker``: gets the cell of the next press in the level, which draws
+    nothing then; called with None if that is cancelled. ``open_message``: gets the cell of a double-clicked message.
+    ``listing``: the list of objects is shown instead of the palette; ``tests``: the map of the tests is shown.
+    ``camera``: the shown part of the level.
     """
 
     area = LAYOUT.level
@@ -238,7 +236,7 @@ class EditorView(Pane):
         return self.app.canvas.rect(*self.area)
 
     def _lay_out(self) -> None:
-        """Have the window's size, the palette, and what the camera shows."""
+        """Fit to the window's size, the palette, and what the camera shows."""
         before, self._laid_out = self._laid_out, self._layout_key()
         seen = self.camera.canvas(self._rect.size)
         if before[:2] == self._laid_out[:2]:
@@ -252,13 +250,13 @@ class EditorView(Pane):
             self._marked = ()
 
     def _point(self) -> None:
-        """Have the pointer where the mouse is in the level."""
+        """Move the pointer to the mouse's place in the level."""
         (left, top), size = self._rect.topleft, self._rect.size
         seen = self.camera.canvas(size)
         self.session.tools.move(*seen.logical((self._mouse[0] - left, self._mouse[1] - top)))
 
     def zoom(self, steps: int) -> None:
-        """Show the level larger or smaller about the pointer; 0: all of it, or twice as large where all is seen."""
+        """Zoom about the pointer; 0: show all of the level, or double its scale if all is shown."""
         camera, size = self.camera, self._rect.size
         if not steps and camera.zoom > 1:
             camera.show_all()
@@ -268,12 +266,12 @@ class EditorView(Pane):
             self._point()
 
     def follow(self, x: float, y: float) -> None:
-        """Have a place of the level in the picture."""
+        """Scroll until a place of the level is in view."""
         if is_near(x, y):
             self.camera.follow(self._rect.size, x, y)
 
     def update(self, real_ms: int) -> None:
-        """What is dragged beyond an edge takes the picture along."""
+        """A drag beyond an edge scrolls the picture."""
         rect, (x, y) = self._rect, self._mouse
         if self.session.tools.busy and not (self.by_keys or self.camera.zoom == 1 or rect.collidepoint(x, y)):
             way = real_ms * EDGE_SPEED * self.app.canvas.scale
@@ -295,7 +293,7 @@ class EditorView(Pane):
         self._pressed = cell, now, self.session.draft
         twice = before and before[0] == cell and now - before[1] < DOUBLE_MS
         if before and twice and cell in said_cells(before[2].says):
-            # The first click has drawn what nobody meant.
+            # Undo what the first click of the two has drawn.
             self.session.tools.finish()
             if self.session.draft is not before[2]:
                 self.session.tools.undo()
@@ -310,14 +308,14 @@ class EditorView(Pane):
             self.app.notify("Not turned: a part of it would leave the level. Move it away from the border first")
 
     def take(self, cell: Cell | None) -> bool:
-        """Give a cell to whoever waits for one; whether anybody did."""
+        """Give a cell to a waiting ``taker``; whether there was one."""
         taker, self.taker = self.taker, None
         if taker:
             taker(cell)
         return bool(taker)
 
     def release(self) -> bool:
-        """A button goes up; whether one was down."""
+        """A button is released; whether it was down."""
         held, self._held = self._held, False
         if held:
             self.session.tools.release()
@@ -351,7 +349,7 @@ class EditorView(Pane):
         self.hovering = False
 
     def render_key(self) -> tuple[object, ...]:
-        """All that the overlay depends on; the sheet knows what has changed of the level."""
+        """All that the overlay depends on; changes of the level are known to the sheet."""
         tools = self.session.tools
         return (
             tools.pointer, self.hovering, tools.tool, tools.objects, tools.tile, tools.spec, tools.snap,

@@ -1,1 +1,1 @@
-"""The lab: figures in which one drags, paints and watches what the world's own functions do."""
+"""The lab: figures to drag and paint in, computed by the world's own functions."""

@@ -1,4 +1,4 @@
-"""Figures about cells: how they are numbered, which a body touches, which the ninja asks, which a ray visits."""
+"""Figures about cells: their numbers, the cells that a body touches, that the ninja asks, that a ray visits."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class GridOfCells(Figure):
 
 
 def shade_border(sheet: Sheet) -> None:
-    """The outermost cells, which are always solid."""
+    """Shade the outermost cells, which are always solid."""
     for cell in range(len(EXISTS)):
         if EXISTS[cell] and (COLUMN[cell] in (0, GRID_COLUMNS - 1) or ROW[cell] in (0, GRID_ROWS - 1)):
             sheet.shade(cell, sheet.palette.tile, 150)
@@ -107,7 +107,7 @@ class NineCells(Figure):
         self.tiles, self.world = room_world(self.room, self.objects)
 
     def objects_asked(self) -> tuple[list[int], list[str]]:
-        """The slots of the notified objects, in order, and the events that follow; the world stays as it is."""
+        """The slots of the notified objects, in order, and the events; the world is restored."""
         w = self.world
         before = save_plain(w)
         w.ninja.x, w.ninja.y = self.x, self.y
@@ -184,7 +184,7 @@ class RayCast(Figure):
 
     @property
     def direction(self) -> Point:
-        """Where the ray points: a vector of length 1."""
+        """The direction of the ray: a vector of length 1."""
         length = dist((self.from_x, self.from_y), (self.x, self.y)) or 1.0
         return (self.x - self.from_x) / length, (self.y - self.from_y) / length
 
@@ -195,7 +195,7 @@ class RayCast(Figure):
         return [cell for cell in cells if EXISTS[cell]]
 
     def asked(self) -> tuple[list[int], bool, Point]:
-        """The cells whose shapes were asked, whether something stopped the ray, and where, px."""
+        """The cells whose shapes were tested, whether the ray was stopped, and where, px."""
         ray = self.from_x, self.from_y, self.x, self.y
         (stopped, x, y), calls = watch(ray_tiles, self.tiles, self.world, *ray)
         cells = [cell_at(call.arguments["cx"], call.arguments["cy"]) for call in calls if call.name == "ray_tile"]
@@ -203,7 +203,7 @@ class RayCast(Figure):
         return [cell for cell in cells if tiles[cell]], bool(stopped), (x, y)
 
     def met(self) -> tuple[list[int], list[int]]:
-        """The slots of the gold that the ray really meets before it stops: in cells that it visits, and in others."""
+        """The slots of the gold that the ray hits before it stops: in cells that it visits, and in others."""
         cells, (_, stopped, end) = set(self.visited), self.asked()
         reach = dist((self.from_x, self.from_y), end) if stopped else 1e9
         pairs: tuple[list[int], list[int]] = ([], [])

@@ -1,4 +1,4 @@
-"""The figures about edge states: what every cell says of its four sides, doors, and drones that follow edges."""
+"""The figures about edge states: the four sides of a cell, doors, and drones that follow edges."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ SIDES: Sequence[tuple[str, object]] = (("right", 0), ("down", 1), ("left", 2), (
 
 
 class EdgeStates(Figure):
-    """Paint tiles; every edge shows its state, and the chosen one says why."""
+    """Paint tiles; every edge shows its state, and the chosen edge also the reason."""
 
     name = "edges"
     start = (180.0, 156.0)
@@ -60,7 +60,7 @@ class EdgeStates(Figure):
         ]
 
     def press(self, x: float, y: float) -> None:
-        """Paint the cell; one that has the tile already becomes empty."""
+        """Paint the cell; a cell with the same tile becomes empty."""
         self.drag(x, y)
         row, column = tiles.ROW[self.cell] - 1, tiles.COLUMN[self.cell] - 1
         if 0 <= row < len(self.rows) and 0 <= column < len(self.rows[0]) and self.rows[row][column] != "&":
@@ -72,7 +72,7 @@ class EdgeStates(Figure):
         self.drag(self.x + 24 * dx, self.y + 24 * dy)
 
     def demonstrate(self, tick: int) -> None:
-        """Another side every second, the door now and then."""
+        """Choose another side every second, and sometimes the door."""
         self.side, self.is_open = tick // 40 % 4, tick // 80 % 2 == 1
         self.drag(180.0 + 24 * (tick // 160 % 3), 156.0)
 
@@ -114,7 +114,7 @@ class EdgeStates(Figure):
 
 
 class Doors(EdgeStates):
-    """Drag a body to a door: what the body, a ray and a drone make of the two states that the door writes."""
+    """Drag a body to a door: what the door's two edge states mean for the body, a ray and a drone."""
 
     name = "doors"
     start = (199.0, 108.0)
@@ -143,7 +143,7 @@ class Doors(EdgeStates):
         return bool(seen), (end[0], end[1]) if seen else (wall[0], wall[1])
 
     def drone_goes(self) -> str:
-        """The direction that a drone in the doorway chooses, one that came from the left."""
+        """The direction that a drone chooses in the doorway, coming from the left."""
         drone = next(o for o in self.world.objects if o.kind == DRONE)
         drone.direction = 0
         return DIRECTIONS[first_open(self.world, drone, drone.movement)]
@@ -206,7 +206,7 @@ class WalkingEnemies(Figure):
         )
 
     def drag(self, x: float, y: float) -> None:
-        """Only a press does something."""
+        """Dragging does nothing; only a press does."""
 
     def toggle(self, door: Object) -> None:
         door.switched = 1 - door.switched
@@ -220,7 +220,7 @@ class WalkingEnemies(Figure):
             self.toggle(self._of_kind(DOOR)[tick // 80 % 2])
 
     def tick(self) -> None:
-        """One tick; note what the drones that arrived have tried."""
+        """One tick; record the directions that the deciding drones have tried."""
         before = {o.slot: (o.cell, o.direction) for o in self._of_kind(DRONE)}
         self.stage.step()
         for call in self.stage.calls:

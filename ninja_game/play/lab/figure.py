@@ -1,4 +1,4 @@
-"""What all figures share: a thing to drag or paint, live numbers, controls, a demonstration, a reset."""
+"""The base of all figures: a handle or cells to paint, live numbers, controls, a demonstration, a reset."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ _RULES = str(Path(sim.__file__).parent)
 
 
 class Call(NamedTuple):
-    """A call of a rule. ``depth``: 0 for the function that was watched.
+    """A call of a rule. ``depth``: 0 for the watched function.
 
-    ``arguments``: numbers by name; of an object its slot. ``result``: what it gave, None before it ends.
+    ``arguments``: numbers by name; an object is its slot. ``result``: None before the call ends.
     """
 
     name: str
@@ -47,7 +47,7 @@ class Call(NamedTuple):
 
 
 def watch(function: Callable[..., Any], *args: Any) -> tuple[Any, list[Call]]:
-    """The result of ``function(*args)``, and the calls of the world's rules in it, in their order, itself first."""
+    """The result of ``function(*args)``, and all calls of the world's rules in it, in order, itself first."""
     calls: list[Call] = []
     running: list[Call] = []
 
@@ -76,7 +76,7 @@ def _numbers(values: dict[str, Any]) -> dict[str, float]:
 
 
 def values_of(local: str, function: Callable[..., Any], *args: Any) -> list[Any]:
-    """The values that a local variable of ``function`` takes during ``function(*args)``, each change once."""
+    """The values that a local variable of ``function`` has during ``function(*args)``, one per change."""
     values: list[Any] = []
     code = function.__code__
 
@@ -97,14 +97,14 @@ def values_of(local: str, function: Callable[..., Any], *args: Any) -> list[Any]
 
 
 FIGURE: Area = (212, 62, 540, 324)
-"""Where a figure is seen, logical px."""
+"""The area of a figure on the screen, logical px."""
 
 
 ALL_CELLS = range(len(EXISTS))
 
 
 class View(NamedTuple):
-    """The part of the world that a figure shows: its upper left corner, px, and its magnification."""
+    """The shown part of the world: its upper left corner, px, and its magnification."""
 
     left: float
     top: float
@@ -126,7 +126,7 @@ class _ViewCanvas(Canvas):
 
 
 class Sheet:
-    """Draws on a surface in px of the world; nothing leaves the figure's rectangle."""
+    """Draws on a surface in px of the world, clipped to the figure's rectangle."""
 
     def __init__(self, surface: pygame.Surface, theme: Theme, view: View) -> None:
         self.surface = surface
@@ -146,7 +146,7 @@ class Sheet:
         self.theme.canvas.frame_rect(self.surface, self.palette.panel_edge, *FIGURE, 1)
 
     def text(self, text: str, x: float, y: float, *, size: float = 9, colour: Colour | None = None) -> None:
-        """A text about a point of the world; ``size`` in logical px of the screen, always: it is part of the figure."""
+        """A text centred at a point of the world; ``size`` in logical px of the screen."""
         at = self.theme.canvas.logical(self.canvas.point(x, y))
         self.theme.text(
             self.surface, text, at[0], at[1] - size / 2, size=size, colour=colour, align="centre", height=1.1 * size
@@ -173,7 +173,7 @@ class Sheet:
                 self.canvas.polygon(self.surface, self.palette.tile, corners)
 
     def edges(self, w: World, cells: Iterable[int] = ALL_CELLS) -> None:
-        """Each cell's own edge states, a little inside it: solid thick, interesting thin, off not at all."""
+        """The edge states of each cell, a little inside it: solid thick, interesting thin, off not drawn."""
         for cell, side in product(cells, range(4)):
             state = w.edges[4 * cell + side]
             if state != OFF and EXISTS[cell]:
@@ -198,7 +198,7 @@ class Sheet:
         self.canvas.line(self.surface, colour, a, b, width / self.view.zoom)
 
     def arrow(self, colour: Colour, a: Point, b: Point, width: float = 2) -> None:
-        """A line with a head; nothing for no length."""
+        """A line with a head; nothing for length 0."""
         if a == b:
             return
         self.line(colour, a, b, width)
@@ -252,7 +252,7 @@ def figure_texts() -> dict[str, dict[str, Any]]:
 
 
 class FigureSetting(Generic[Value]):
-    """A value of a figure that a control changes. ``then``: the method that follows a change, by name."""
+    """A value of a figure with a control. ``then``: name of the method to call after a change."""
 
     def __init__(self, value: Value, then: str = "reset") -> None:
         self.value, self.then = value, then
@@ -270,12 +270,10 @@ class FigureSetting(Generic[Value]):
 
 
 class Figure:
-    """One figure. ``name``: as the command line has it. ``text``: two sentences. ``links``: where to read more.
+    """A figure. ``name``: for the command line. ``text``: two sentences. ``links``: where to read more.
 
-    ``legend``: what colours mean, by their roles in the palette.
-
-    ``room``, ``objects``: what is in its world. The handle is a point of the world, px, that the mouse drags and the
-    arrows move.
+    ``legend``: the meaning of colours, by their roles in the palette. ``room``, ``objects``: its world. The handle is a
+    point of the world, px, that the mouse drags and the arrows move.
     """
 
     name = ""
@@ -308,29 +306,29 @@ class Figure:
         return lambda area: Slider(area, text, span, get, put, show=show)
 
     def drag(self, x: float, y: float) -> None:
-        """The mouse is at a point of the world with its button down: the handle goes there, within what is seen."""
+        """Move the handle to a point of the world, clamped to the shown part; the mouse button is down."""
         left, top, zoom = self.view
         self.x = min(max(x, left + 1), left + FIGURE[2] / zoom - 1)
         self.y = min(max(y, top + 1), top + FIGURE[3] / zoom - 1)
 
     def press(self, x: float, y: float) -> None:
-        """The mouse button goes down there."""
+        """The mouse button is pressed at a point of the world."""
         self.drag(x, y)
 
     def nudge(self, dx: int, dy: int) -> None:
         self.drag(self.x + dx, self.y + dy)
 
     def demonstrate(self, tick: int) -> None:
-        """Put the figure where its demonstration is after this many ticks; by default the handle goes round."""
+        """Set the demonstration to its state after this many ticks; by default the handle moves in a circle."""
         angle = 2 * pi * tick / 240
         (x, y), zoom = self.start, self.view.zoom
         self.drag(x + 60 * cos(angle) / zoom, y + 40 * sin(2 * angle) / zoom)
 
     def tick(self) -> None:
-        """Let 25 ms pass."""
+        """Simulate one tick, 25 ms."""
 
     def numbers(self) -> list[tuple[str, str]]:
-        """Names and values, live, at most seven."""
+        """Names and live values, at most seven."""
         return []
 
     def draw(self, sheet: Sheet) -> None:
@@ -338,9 +336,9 @@ class Figure:
 
 
 ELSEWHERE = "ninja 700,500px"
-"""Every world needs a ninja; this one is not seen."""
+"""Every world needs a ninja; this one is outside of the picture."""
 
 
 def room_world(rows: Sequence[str], objects: Sequence[str] = ()) -> tuple[TileMap, World]:
-    """A world of the plain memory: a room in the upper left corner, solid all around, the ninja elsewhere."""
+    """A world of the plain memory: a room in the upper left corner, solid around it, the ninja elsewhere."""
     return load_plain(room_level(rows, [*objects, ELSEWHERE]), box=False)

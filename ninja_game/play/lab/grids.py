@@ -1,4 +1,4 @@
-"""The figure about the grid of objects: loose against normal."""
+"""The figures about grids of objects: loose against normal, and bullets."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Work(NamedTuple):
 
 
 class Crowd:
-    """``count`` discs of ``radius`` px that fly about and are filed in the loose grid of a world of their own."""
+    """``count`` discs of ``radius`` px that move, in the loose grid of their own world."""
 
     def __init__(self, count: int, radius: float, *, speed: float = 1.5, seed: int = 1) -> None:
         rng = Random(seed)  # noqa: S311 - presentation
@@ -51,7 +51,7 @@ class Crowd:
         return self.world.objects[1:]
 
     def neighbours(self, cell: int, offsets: tuple[int, ...] | list[int] = NINE_CELLS) -> Iterator[Object]:
-        """The objects in the lists of some cells about one, in the lists' order."""
+        """The objects in the lists of the cells around an object, in the lists' order."""
         for offset in offsets:
             slot = self.world.heads[cell + offset]
             while slot:
@@ -59,17 +59,17 @@ class Crowd:
                 slot = self.world.objects[slot].next
 
     def cells_of(self, o: Object) -> frozenset[int]:
-        """The cells that an object's box touches, as a normal grid files it."""
+        """The cells that an object's box touches: those that list it in a normal grid."""
         r = self.radius
         return frozenset(cell_at(o.x + dx, o.y + dy) for dx in (-r, r) for dy in (-r, r))
 
     def move(self) -> tuple[Work, Work]:
-        """Simulate a tick: the work of the loose grid, and that of a normal one."""
+        """Simulate a tick: the work with the loose grid, and with a normal one."""
         loose = normal = 0
         for o in self.objects:
             before = self.cells_of(o)
             self.step(o)
-            # A removal and an insertion, if the cell is another one.
+            # One removal and one insertion if the cell has changed.
             loose += 2 * grid_move(self.world, o)
             normal += len(before ^ self.cells_of(o))
         filed = Counter(cell for o in self.objects for cell in self.cells_of(o))
@@ -90,7 +90,7 @@ class Crowd:
         return (a.x - b.x) ** 2 + (a.y - b.y) ** 2 < (2 * self.radius) ** 2
 
     def five_cell_pairs(self) -> Iterator[tuple[Object, Object]]:
-        """All pairs that could meet, each once: for every object the rest of its list, then four neighbours' lists."""
+        """All pairs that can touch, each once: for every object the rest of its list, then four neighbours' lists."""
         for cell, head in enumerate(self.world.heads):
             slot = head
             while slot:
@@ -105,15 +105,15 @@ class Crowd:
 
 
 MEASURED = (25, 50, 100, 200, 400)
-"""Numbers of objects at which the plot is measured."""
+"""The numbers of objects in the plot."""
 
 CHART = (LEFT + 460, TOP + 270, 240.0, 140.0)
-"""Where the plot lies, px of the world."""
+"""The plot's area, px of the world."""
 
 
 @cache
 def measured(count: int, radius: float) -> tuple[Work, Work]:
-    """The mean cost of a tick with ``count`` objects, in the loose and the normal grid."""
+    """The mean work per tick with ``count`` objects, in the loose and the normal grid."""
     crowd, ticks = Crowd(count, radius), 8
     works = [crowd.move() for _ in range(ticks)]
     loose, normal = (Work(*(sum(work[grid][part] for work in works) // ticks for part in (0, 1))) for grid in (0, 1))
@@ -121,7 +121,7 @@ def measured(count: int, radius: float) -> tuple[Work, Work]:
 
 
 class LooseGrid(Figure):
-    """Objects fly about; both ways of filing them are counted side by side."""
+    """Moving objects; the work with both grids is counted side by side."""
 
     name = "grids"
     view = FIELD
@@ -156,7 +156,7 @@ class LooseGrid(Figure):
         self.works = self.crowd.move()
 
     def asked(self) -> tuple[set[int], set[int]]:
-        """The cells that a body at the handle asks: in the loose grid, in the normal one."""
+        """The cells that a body at the handle tests: in the loose grid, in the normal one."""
         probe = Object()
         probe.x, probe.y = self.x, self.y
         cell = cell_at(self.x, self.y)
@@ -271,7 +271,7 @@ class FiveCells(Figure):
 
 
 class Bullets(Figure):
-    """Many bullets against a few targets, with and without filing the bullets."""
+    """Many bullets against a few targets, with and without the bullets in the grid."""
 
     name = "bullets"
     view = FIELD
@@ -291,11 +291,11 @@ class Bullets(Figure):
         ]
 
     def demonstrate(self, tick: int) -> None:
-        """Filed for three seconds, then not."""
+        """With the grid for three seconds, then without."""
         self.filed = tick // 120 % 2 == 1
 
     def tick(self) -> None:
-        """All fly on; every bullet asks the nine cells for targets."""
+        """All objects move; every bullet looks for targets in nine cells."""
         targets, bullets = self.targets, self.bullets
         self.hits = self.list_changes = self.tests = 0
         for o in targets.objects:
@@ -306,7 +306,7 @@ class Bullets(Figure):
             cell = cell_at(o.x, o.y)
             if self.filed:
                 self.list_changes += 2 * grid_move(bullets.world, o)
-                # A walk through the lists meets the other bullets too.
+                # The lists contain the other bullets too.
                 self.tests += sum(1 for _ in bullets.neighbours(cell)) - 1
             for target in targets.neighbours(cell):
                 self.tests += 1

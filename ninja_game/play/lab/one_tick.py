@@ -46,7 +46,7 @@ class OneTick(Figure):
         self._next()
 
     def _next(self) -> None:
-        """Run a tick of the world and show its first call."""
+        """Simulate a tick and show its first call."""
         tick = self.stage.simulation.tick
         jump_held = self.stage.world.ninja.jump_held
         self.stage.step(PLAYED[tick % len(PLAYED)] if self.keys < 0 else with_press_bit(self.keys, jump_held))
@@ -60,10 +60,10 @@ class OneTick(Figure):
         self.nudge(1, 0)
 
     def drag(self, x: float, y: float) -> None:
-        """Only a press does something."""
+        """Dragging does nothing; only a press does."""
 
     def nudge(self, dx: int, dy: int) -> None:
-        """Right: the next call; left: the one before, in this tick; down: the next tick. The figure waits then."""
+        """Right: the next call; left: the call before, in this tick; down: the next tick. The figure then waits."""
         self.speed = 0
         self.at = max(0.0, self.at + min(dx, 0))
         self._forward(len(self.calls) if dy > 0 else max(dx, 0))
@@ -81,7 +81,7 @@ class OneTick(Figure):
 
     @property
     def calls(self) -> list[Call]:
-        """The calls of the tick, without the smallest: lookups of cells, and what the memory needs."""
+        """The calls of the tick without the smallest ones: lookups of cells, bookkeeping of the memory."""
         return [call for call in self.stage.calls if call.depth and call.name not in ("cell_at", "pressed", "solid_at")]
 
     @property

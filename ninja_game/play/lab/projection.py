@@ -1,4 +1,4 @@
-"""Figures about bodies: how a tile pushes one out, what speed is left then, and why a circle passes a ledge."""
+"""Figures about bodies: how a tile pushes a body out, the speed after that, and why a circle passes a ledge."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ COLUMN, ROW = 8, 5
 
 PUSH = "push_from_tile"
 STAGES = ("collide_circle", "collide_box", "collide_corner")
-"""Functions that read edges; a push out of one of them has looked at no shape."""
+"""Functions that read edges; a push by one of them has not looked at a shape."""
 
 SHAPE_TESTS = ("collide_own_tile", "collide_vertical", "collide_horizontal", "collide_diagonal", "collide_tile")
 
 
 class Push(NamedTuple):
-    """What happened to a body. ``points``: where it was before, between and after its pushes, px."""
+    """What happened to a body. ``points``: its positions before, between and after its pushes, px."""
 
     points: list[Point]
     calls: list[Call]
 
     @property
     def ran(self) -> list[str]:
-        """The rules that ran for a shape, outermost first; of a death no more than that it came."""
+        """The rules that ran for a shape, outermost first; for a death only the event."""
         calls = (call for call in self.calls if call.depth and call.caller not in ("kill", "emit_death", "emit"))
         return [call.name for call in calls if call.name not in (PUSH, "note_normal", "cell_at")]
 
@@ -54,7 +54,7 @@ class Push(NamedTuple):
 
 
 def pushed(tiles: TileMap, w: World, x: float, y: float, *, box: bool = False) -> Push:
-    """Collide a body at (x, y) with a world, which stays as it is."""
+    """Collide a body at (x, y) with a world; the world is restored."""
     before = save_plain(w)
     n = w.ninja
     n.x = n.prev_x = x
@@ -70,7 +70,7 @@ def pushed(tiles: TileMap, w: World, x: float, y: float, *, box: bool = False) -
 
 
 class Projection(Figure):
-    """Drag the body into a tile: what pushes it, which way, how far."""
+    """Drag the body into a tile: which rule pushes it, in which direction, how far."""
 
     name = "projection"
     view = View(24 * (COLUMN - 2), 24 * (ROW - 1), 4.5)
@@ -95,7 +95,7 @@ class Projection(Figure):
         ]
 
     def demonstrate(self, tick: int) -> None:
-        """Round the tile; another one every six seconds."""
+        """Move around the tile; take another tile every six seconds."""
         if tick % 240 == 0:
             self.tile = 1 + (4 * (tick // 240) + 1) % 33
         super().demonstrate(tick)
@@ -142,7 +142,7 @@ class Projection(Figure):
 
 
 class Response(Projection):
-    """Drag the tip of the speed: a body moves by it into a tile, and what speed and contact are left."""
+    """Drag the tip of the velocity: a body moves by it into a tile; the velocity and the contact after that."""
 
     name = "response"
     view = View(24 * (COLUMN - 2), 24 * (ROW - 1) - 12, 4.5)
@@ -155,7 +155,7 @@ class Response(Projection):
 
     @property
     def contacts(self) -> list[str]:
-        """What each normal means to the rules, in the order of the pushes."""
+        """The meaning of each contact normal for the rules, in the order of the pushes."""
         normals = [call.arguments for call in self.push().calls if call.name == "note_normal"]
         return ["wall" if push["my"] == 0.0 else "floor" if push["my"] < 0.0 else "a push only" for push in normals]
 
@@ -183,7 +183,7 @@ class Response(Projection):
 
 
 class Bodies(Figure):
-    """A circle and a box fly at the same ledge. ``paths``: the middles of both, tick by tick, px."""
+    """A circle and a box fly at the same ledge. ``paths``: the centres of both after each tick, px."""
 
     name = "bodies"
     view = View(72, 72, 3)
@@ -238,7 +238,7 @@ class Bodies(Figure):
 
 
 def candidates(call: Call) -> list[Point]:
-    """The ways out that a test of a shape was given, px: along an axis of the grid."""
+    """The possible directions out, along an axis of the grid, that a test of a shape was given, px."""
     arguments = call.arguments
     if call.name == "collide_vertical":
         return [(0.0, arguments["oy"] * arguments["hy"])]

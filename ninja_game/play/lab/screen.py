@@ -1,4 +1,4 @@
-"""The lab's screen: figures at the left; the chosen one, its text, its numbers and controls at the right."""
+"""The lab's screen: a list of figures at the left; the chosen one with its text, numbers and controls at the right."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ CONTROLS: Area = (552, 452, 200, 26)
 
 
 class LabScreen(MenuScreen):
-    """Figures about how the world works. ``name``: the one to begin with."""
+    """Figures about how the world works. ``name``: the first one to show."""
 
     title = "How it works"
     offers_back = False
@@ -84,7 +84,7 @@ class LabScreen(MenuScreen):
         super().act(action, held=held)
 
     def go_on(self) -> None:
-        """From the figure to its first control, or to the buttons."""
+        """Move the focus from the figure to its first control, or to the buttons."""
         self.focus_on(self.widgets[self.widgets.index(self.list) + 2])
 
     def handle_press(self) -> None:
@@ -124,7 +124,7 @@ class LabScreen(MenuScreen):
 
 
 class FigureArea(Widget):
-    """The figure itself: the mouse drags, the arrows move its handle; Page Down goes on to the controls."""
+    """The figure: the mouse drags and the arrows move its handle; Page Down goes on to the controls."""
 
     def __init__(self, screen: LabScreen) -> None:
         super().__init__(FIGURE)
@@ -169,11 +169,11 @@ class FigureArea(Widget):
 
 FILM_TICKS = 240
 PICTURE_TICK = 60
-"""Where in its demonstration a figure is photographed."""
+"""The tick of the demonstration that pictures show."""
 
 
 class FigurePicture:
-    """A picture of a figure without anything around it. ``scale``: px of the picture per logical px."""
+    """A picture of only the figure. ``scale``: px of the picture per logical px."""
 
     def __init__(self, name: str, scale: float, palette: str = "classic") -> None:
         pygame.font.init()
@@ -203,7 +203,7 @@ def figure_pictures(name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS) -
 
 
 def figure_picture(name: str, *, scale: float = 1.0, palette: str = "classic") -> pygame.Surface:
-    """The figure at one moment of its demonstration."""
+    """The figure at one tick of its demonstration."""
     picture = FigurePicture(name, scale, palette)
     for tick in range(PICTURE_TICK):
         picture.demonstrate(tick)

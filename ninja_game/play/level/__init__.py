@@ -1,1 +1,1 @@
-"""The screen on which a level is played."""
+"""The screen for playing a level."""

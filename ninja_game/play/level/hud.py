@@ -1,4 +1,4 @@
-"""What is written over a level: time bar, name, messages, keys."""
+"""Texts and bars over a level: time bar, name, messages, keys."""
 
 from __future__ import annotations
 
@@ -19,42 +19,42 @@ from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.medals import draw_medal, draw_stamp
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
 
-_BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0  # px
-_BAR_LONGEST = 630.0  # px, with the lifetime that a level begins with, or more
-_WARNING_TICKS = 1800  # with less left the time bar begins to grow red
-_LAST_TICKS = 800  # with less left it says so
+_BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0  # left end and middle, px
+_BAR_LONGEST = 630.0  # px, for the lifetime at a level's start or more
+_WARNING_TICKS = 1800  # below this lifetime the time bar turns red
+_LAST_TICKS = 800  # below this lifetime a text warns
 _MARK_SIZE = 12.0  # of a medal on the time bar, px
 
 _FOOT_SIZE = 11.0  # letters of the lines in the borders
 _FOOT_WIDTH = 744.0  # px
-_RIGHT = CELL * (COLUMNS + 1)  # right edge of what is written in the borders, px
-_NAME_FROM = 90.0  # px beside a text in the border from which on there is room for the level's name
+_RIGHT = CELL * (COLUMNS + 1)  # right edge of texts in the borders, px
+_NAME_FROM = 90.0  # free px beside a text in the border that the level's name needs
 
-_SAID_SIZE = 15.0  # letters of what a level says
+_SAID_SIZE = 15.0  # letters of a level's message
 _SAID_LINE = 22.0  # height of its lines, px
 _SAID_WIDE = 440.0  # where its lines are broken, px
 _SAID_WIDEST = 680.0  # where a single word ends, px
 _KEYS_WIDE = 70.0  # room for keys before a line, px
-IN_BORDER = CELL * (ROWS + 1)  # top of what a level says in the border below, px
+IN_BORDER = CELL * (ROWS + 1)  # top of a message in the border below, px
 _BESIDE_GOLD = 490.0  # its width there, px
-_FAINT = 0.2  # how solid its panel is over the ninja
-_COVERED, CLEAR = 10.0, 34.0  # px between them at which it is as faint as that, and solid
+_FAINT = 0.2  # opacity of its panel over the ninja
+_COVERED, CLEAR = 10.0, 34.0  # distance to the ninja with opacity _FAINT, and with 1, px
 _TAIL = 8.0  # half the width of its pointer, px
 
 _POINTER_SIZE = 9.5  # letters of the names of things
 _TITLE_SIZE = 26.0  # letters of an ended run's time or cause of death
 _MEDAL_SIZE = 15.0  # letters of its medal
-_LINE_SIZE = 12.5  # letters of the rest of its panel
-_LINE_WIDEST = WIDTH - 150.0  # a longer line of it is broken, px
-PRIZE = 54.0  # the medal drawn in it, px
-_UPPER = 36.0  # its top, unless it would hide where the run ended or an exit, px
+_LINE_SIZE = 12.5  # letters of the other lines of its panel
+_LINE_WIDEST = WIDTH - 150.0  # longer lines of the panel are broken, px
+PRIZE = 54.0  # size of the medal in the panel, px
+_UPPER = 36.0  # top of the panel, unless it would hide an exit or the end of the run, px
 
 _KEYS = (
     (0, KEY_LEFT, ((-3, 0), (2, -4), (2, 4))),
     (20, JUMP_HELD, ((0, -4), (4, 2), (-4, 2))),
     (40, KEY_RIGHT, ((3, 0), (-2, -4), (-2, 4))),
 )
-"""Where the keys of left, jump and right are drawn, their bits and their arrows."""
+"""The keys left, jump and right: their x, bits and arrows."""
 
 
 def bar_length(lifetime: float) -> float:
@@ -72,7 +72,7 @@ def trough(palette: Palette) -> pygame.Color:
 
 
 class Box(NamedTuple):
-    """The panel of a text, px. ``high``: of a line; ``size``: of the letters."""
+    """The panel of a text, px. ``high``: height of a line; ``size``: of the letters."""
 
     lines: list[str]
     x: float
@@ -88,11 +88,12 @@ class Box(NamedTuple):
         return self.x, self.y, self.w, self.high * len(self.lines) + 2 * self.margin - 1
 
 
-class Said(NamedTuple):
-    """A text of a level, the tiles and things of which it covers as little as can be, and near which place it lies.
+class PlacedMessage(NamedTuple):
+    """A message of a level, and what it should not cover.
 
-    ``covers``: it may cover open space too; else it may lie in the border below. ``near``: it is about that place,
-    so it lies beside it, if that is known, whatever it covers, and points to it.
+    ``tiles``, ``things``: to cover as little of as possible. ``covers``: it may cover open space too; else it may lie
+    in the border below. ``near``: it belongs to the place ``about``: it lies beside it, whatever it covers, and points
+    to it.
     """
 
     text: str
@@ -104,7 +105,7 @@ class Said(NamedTuple):
 
 
 class EndPanel(NamedTuple):
-    """Title and lines of the panel of an ended run; the tiles and things of which it covers as little as can be."""
+    """Title and lines of the panel of an ended run; tiles and things to cover as little of as possible."""
 
     title: str
     lines: Sequence[str]
@@ -114,15 +115,15 @@ class EndPanel(NamedTuple):
 
 @dataclass(frozen=True)
 class HudView:
-    """What is written over a level now.
+    """The texts over a level now.
 
-    ``lifetime``: ticks, for the time bar; ``label``: a word in its place; ``pars``: medals, and with which lifetime
-    each is lost. ``foot``: texts at the left and the right of the border below, ``name``: what is at the left where a
-    text lies there. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown. ``moves``:
-    the keys of each line of ``said``, ``letters``: what is on the keys of left, jump and right. ``named``: what a text
-    names, and where that is, px. ``medal``: that of the pass, or "", ``stamp``: how far it has grown, 0…1, ``shine``:
-    how far light has swept over it. ``seen``: how solid the panel of the end is, 0…1. ``ninja``: where it is in play,
-    px: what is said over it fades, ``softly`` or at once. ``said_seen``: how solid ``said`` is apart from that.
+    ``lifetime``: ticks, for the time bar; ``label``: a word instead of the bar; ``pars``: medals, and the lifetime at
+    which each is lost. ``foot``: texts at the left and the right of the border below, ``name``: the left text when a
+    message lies there. ``keys``: of the present tick, ``frame_ms``: of the last picture; None: not shown. ``moves``:
+    the keys of each line of ``said``, ``letters``: the letters on the keys left, jump and right. ``named``: names of
+    things and their places, px. ``medal``: of the pass, or "", ``stamp``: its size, 0…1, ``shine``: progress of the
+    light over it. ``seen``: opacity of the end panel, 0…1. ``ninja``: its place in play, px: messages over it fade,
+    ``softly`` or at once. ``said_seen``: opacity of ``said`` apart from that.
     """
 
     lifetime: float
@@ -132,7 +133,7 @@ class HudView:
     pars: Sequence[tuple[str, float]] = ()
     keys: int | None = None
     frame_ms: float | None = None
-    said: Said | None = None
+    said: PlacedMessage | None = None
     moves: Sequence[int] = ()
     letters: Sequence[str] = ()
     named: Sequence[tuple[str, float, float]] = ()
@@ -153,13 +154,13 @@ class Hud:
         self.theme = theme
 
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
-        """All of it; the px rectangles that it covers."""
+        """Draw everything; the covered px rectangles."""
         top = [self.label(surface, view.label)] if view.label else self.time_bar(surface, view.lifetime, view.pars)
         said = self.box(view.said, keys=_KEYS_WIDE if view.moves else 0) if view.said else None
         in_border = said is not None and said.y == IN_BORDER
         written = top + self.foot(surface, "" if in_border else view.foot[0], view.foot[1])
         if said is not None and in_border:
-            # It lies beside the text at the right, and leaves the rest to the level's own name.
+            # Beside a message at the right; the rest of the border is for the level's name.
             left = max(24.0, _RIGHT - self.theme.width(view.foot[1], _FOOT_SIZE) - 14 - said.w)
             said = said._replace(x=left)
             if left > _NAME_FROM:
@@ -184,9 +185,9 @@ class Hud:
     def time_bar(
         self, surface: pygame.Surface, lifetime: float, pars: Sequence[tuple[str, float]] = ()
     ) -> list[pygame.Rect]:
-        """The lifetime (ticks) as a bar, what gold added to the first in gold, and as seconds; medals where they end.
+        """The lifetime (ticks) as a bar and in seconds; time won by gold is golden; medals stand where they are lost.
 
-        It grows thick and red as it runs out.
+        The bar grows thick and red as it runs out.
         """
         palette, canvas = self.theme.palette, self.theme.canvas
         left = max(0.0, lifetime)
@@ -215,18 +216,18 @@ class Hud:
         return [frame.union(canvas.rect(x, 2, 8, 20)) if pars else frame, text.inflate(canvas.px(8), 4)]
 
     def label(self, surface: pygame.Surface, text: str, size: float = 10.0) -> pygame.Rect:
-        """A word in the time bar's place."""
+        """A word instead of the time bar."""
         colour, y = self.theme.palette.on_tile, 12.5 - 0.55 * size
         return self.theme.text(surface, text, 24, y, size=size, colour=colour, bold=True, width=_FOOT_WIDTH)
 
     def foot(self, surface: pygame.Surface, left: str, right: str, size: float = _FOOT_SIZE) -> list[pygame.Rect]:
-        """A line in the border below the level; where both texts do not fit, the left one is shortened."""
+        """A line in the border below the level; if both texts do not fit, the left one is shortened."""
         return self._border_line(surface, left, right, 593 - size, size)
 
     def _border_line(self, surface: pygame.Surface, left: str, right: str, y: float, size: float) -> list[pygame.Rect]:
         theme, colour = self.theme, self.theme.palette.on_tile
         gap = 14 if left and right else 0
-        # The right text grows only where that takes nothing from the left one.
+        # The right text grows only into free room.
         half_width = min(_FOOT_WIDTH / 2, theme.lettering.width(left, size))
         room = max(min(_FOOT_WIDTH, theme.lettering.width(right, size)), _FOOT_WIDTH - half_width - gap)
         rect = theme.text(surface, right, 768, y, size=size, colour=colour, align="right", width=room)
@@ -238,13 +239,13 @@ class Hud:
         return self._border_line(surface, left, right, 7, _FOOT_SIZE)
 
     def frame_time(self, surface: pygame.Surface, ms: float) -> pygame.Rect:
-        """What the last turn of the loop took, in the corner."""
+        """The time of the last turn of the loop, in the corner."""
         colour = self.theme.palette.on_tile
         rect = self.theme.text(surface, f"{ms:.1f} ms", 768, 566, size=8, colour=colour, align="right")
         return rect.inflate(self.theme.canvas.px(12), 2)
 
     def end_panel(self, surface: pygame.Surface, view: HudView, end: EndPanel) -> pygame.Rect:
-        """A panel: a title and lines under it; with a medal at its left, beside it the first line too, in large."""
+        """A panel: a title and lines under it; with a medal at its left, and then the first line large beside it."""
         theme, medal, (title, lines, tiles, things) = self.theme, view.medal, end
         below, beside = (26, PRIZE + 14) if medal else (0, 0)
         named, lines = (lines[0], lines[1:]) if medal else ("", lines)
@@ -265,7 +266,7 @@ class Hud:
         rect = theme.panel(surface, x, y, w, h, 4)
         middle = x + w / 2
         if medal:
-            # It grows a little too large, but never over the words beside it.
+            # It grows beyond its size for a moment, but never over the text beside it.
             at = middle - (head + 14) / 2, y + 9 + PRIZE / 2
             draw_stamp(surface, theme, medal, *at, PRIZE, view.stamp, view.shine)
         across = middle + beside / 2
@@ -278,7 +279,7 @@ class Hud:
         return rect
 
     def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:
-        """A name with an arrow to what it names: above it, or below where that is at the upper edge."""
+        """A name with an arrow to its thing: above the thing, or below it at the upper edge."""
         theme, palette = self.theme, self.theme.palette
         way = -1 if y > TAG_ROOM else 1
         wide = theme.width(name, _POINTER_SIZE, bold=True) + 12
@@ -291,7 +292,7 @@ class Hud:
         return box.inflate(theme.canvas.px(4), theme.canvas.px(18))
 
     def _tail(self, surface: pygame.Surface, box: Box, at: Point) -> pygame.Rect:
-        """From a text's panel to the place that it is about."""
+        """A pointer from a message's panel to its place."""
         x, y, w, h = box.area
         near = min(max(at[0], x + _TAIL), x + w - _TAIL), min(max(at[1], y + _TAIL), y + h - _TAIL)
         upright = not y < at[1] < y + h
@@ -302,19 +303,19 @@ class Hud:
             rects.append(canvas.polygon(surface, colour, [*ends, at]))
         return rects[0].union(canvas.circle(surface, palette.accent, at, 3)).inflate(2, 2)
 
-    def box(self, said: Said, *, keys: float = 0.0) -> Box:
-        """Where a text of the level lies: along the upper border, else the lower one, over what is solid.
+    def box(self, said: PlacedMessage, *, keys: float = 0.0) -> Box:
+        """The place of a message: in the upper border, else in the lower one, over solid tiles.
 
-        Where it would hide something there, or open space that it may not cover, it lies where it hides least; over
-        nothing that it is to keep clear of, nor the ninja, or else in the border below, beside the gold. One that is
-        about its place lies at most two cells from it. ``keys``: room before its lines, px.
+        If it would hide something there, or open space that it may not cover, it lies where it hides least, but never
+        over the ninja or what it must not hide, and else in the border below, beside the gold. A message with a place
+        lies at most two cells from it. ``keys``: room before its lines, px.
         """
         return _box(self.theme, said, keys)
 
     def said(
         self, surface: pygame.Surface, box: Box, moves: Sequence[int] = (), letters: Sequence[str] = ()
     ) -> pygame.Rect:
-        """A text of the level in its panel, its lines behind the keys that they are about."""
+        """A message in its panel, each line behind the keys that it explains."""
         lines, left, y, w, high, margin, size = box
         rect, room = self.theme.panel(surface, *box.area, 4), _SAID_WIDEST - (_KEYS_WIDE if moves else 0)
         for k, line in enumerate(lines):
@@ -328,9 +329,9 @@ class Hud:
     def keys(
         self, surface: pygame.Surface, held: int, x: float = 366, y: float = 580, letters: Sequence[str] = ()
     ) -> pygame.Rect:
-        """The three keys of an input: left, jump, right, with their letters where they have such, else with arrows.
+        """The three keys of an input: left, jump, right, with their letters if they have any, else with arrows.
 
-        That of the present tick lies below the level.
+        The keys of the present tick lie below the level.
         """
         palette, canvas = self.theme.palette, self.theme.canvas
         rect = pygame.Rect(0, 0, 0, 0)
@@ -349,7 +350,7 @@ class Hud:
 
 
 def _clear_of(ninja: Point | None, box: Box, *, softly: bool) -> float:
-    """How solid a text's panel is, _FAINT…1: the less, the nearer the ninja is to being hidden by it."""
+    """Opacity of a message's panel, _FAINT…1: lower, the nearer the ninja is to being hidden."""
     if ninja is None:
         return 1.0
     away = away_from(ninja, *box.area)
@@ -358,7 +359,7 @@ def _clear_of(ninja: Point | None, box: Box, *, softly: bool) -> float:
 
 
 def _behind(surface: pygame.Surface, place: pygame.Rect, seen: float) -> pygame.Surface | None:
-    """What a panel that is not solid is about to cover."""
+    """A copy of the picture under a panel that is not solid."""
     if seen >= 1:
         return None
     behind = pygame.Surface(place.size, pygame.SRCALPHA)
@@ -367,15 +368,15 @@ def _behind(surface: pygame.Surface, place: pygame.Rect, seen: float) -> pygame.
 
 
 def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | None, seen: float) -> None:
-    """Let what it covers be seen through a panel, as far as that is not solid."""
+    """Blend the copy of the picture into the panel, by the panel's opacity."""
     if behind:
         behind.fill((round(255 * (1 - seen)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
         surface.blit(behind, place, special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
 @lru_cache(maxsize=4)
-def _box(theme: Theme, said: Said, keys: float) -> Box:
-    """As ``Hud.box``. Kept, since a text is drawn in each picture and its place takes longer than all the rest."""
+def _box(theme: Theme, said: PlacedMessage, keys: float) -> Box:
+    """As ``Hud.box``. Cached: the search for a place takes longer than all the rest of a picture."""
     text, tiles, things, about, covers, near = said
     high, anchor = _SAID_LINE * theme.scales[0], about if near else None
     if about:

@@ -1,4 +1,4 @@
-"""What to write over a level now: its words, medals and panels; ``hud`` places and draws them."""
+"""The texts, medals and panels over a level now; ``hud`` places and draws them."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from math import hypot
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.messages import named_keys
 from ninja_game.formats.run_time import rounded_text, seconds_text
-from ninja_game.play.level.hud import EndPanel, HudView, Said
+from ninja_game.play.level.hud import EndPanel, HudView, PlacedMessage
 from ninja_game.play.level.level_play import STAMP_TICKS, LevelPlay, Phase
+from ninja_game.play.level.messages import FALL_HELP, WHY
 from ninja_game.play.level.places import MUST, Things
-from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
 from ninja_game.player.playthrough import Navigation
 from ninja_game.player.progress import NO_MEDAL, Mark, next_par
@@ -21,31 +21,31 @@ from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
 
-FADE_TICKS = 8  # in which the panel of an ended run fades in
-SHINE_TICKS = 20  # in which light sweeps over its medal
-_END_ROOM = 36.0  # px to all sides of where the run ended that the panel leaves free
-_POINTER_UP = 24.0  # px from a thing to the middle of its pointer
-_POINTER_REACH = 50.0  # px between them at which the ninja is clear of the pointer
+FADE_TICKS = 8  # until the panel of an ended run is solid
+SHINE_TICKS = 20  # for which light moves over its medal
+_END_ROOM = 36.0  # px around the end of the run that the panel leaves free
+_POINTER_UP = 24.0  # px from a thing up to the middle of its pointer
+_POINTER_REACH = 50.0  # px from the ninja to a pointer that does not hide it
 _MARKED = "silver", "gold"  # medals on the time bar
 _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
-_TOOLS_NAMED = 600  # ticks of a practice run in which their keys are named: where they work, and not for ever
+_TOOLS_NAMED = 600  # for which a practice run shows the keys of the tools that work
 _THINGS = {"switch": SWITCH, "exit": EXIT}
 
-KeyName = Callable[[str], str]  # gives what to press for an action
+KeyName = Callable[[str], str]  # gives the key of an action
 
 
 def hud_view(play: LevelPlay) -> HudView:
-    """What is written over a level now."""
+    """The texts over a level now."""
     app, attempt, context = play.app, play.attempt, play.context
     key, settings = app.controls.name, app.settings
     gold = f"{attempt.gold} / {play.all_gold}"
     end = None
-    text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
-    # The text of the start, and that for a player who is stuck, stay in place and may cover open space.
-    covers = play.sayings.is_start or "\n" in text
-    place = play.sayings.place
+    text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.messages.text
+    # The text of the start, and the one for a player who is stuck, stay in place and may cover open space.
+    covers = play.messages.is_start or "\n" in text
+    place = play.messages.place
     where = context.level.tiles, play.things, place or play.about, covers, place is not None
-    message_said = Said(named_keys(text, key), *where) if text else None
+    message_said = PlacedMessage(named_keys(text, key), *where) if text else None
     if play.phase is Phase.DEAD:
         cause, help_text = cause_of_death(play)
         end = EndPanel(cause, [*filter(None, [help_text]), _after_death(play, key)], *_covering(play))
@@ -75,19 +75,19 @@ def hud_view(play: LevelPlay) -> HudView:
         moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
         letters=[key(name) for name in ("left", "jump", "right")],
         end=end,
-        named=() if end else named_in(attempt.simulation.world, play.sayings.named),
+        named=() if end else named_in(attempt.simulation.world, play.messages.named),
         medal=play.medal,
         stamp=play.stamp,
         shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
         seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
         ninja=play.ninja_place(),
         softly=not settings.reduced_motion,
-        said_seen=1.0 if settings.reduced_motion else play.sayings.seen,
+        said_seen=1.0 if settings.reduced_motion else play.messages.seen,
     )
 
 
 def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
-    """The medals that this try can still bring, in a level that was passed, each with the lifetime at its par."""
+    """The medals that this try can still win, in a passed level, each with the lifetime at its par."""
     pars, attempt = play.context.pars, play.attempt
     if pars is None or not play.next_par or play.phase is Phase.PASSED:
         return []
@@ -97,7 +97,7 @@ def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
 
 
 def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
-    """The tiles and things of which the panel of an ended run covers little; never where it ended, nor an exit."""
+    """Tiles and things that the panel of an ended run should not cover; it never covers the end or an exit."""
     x, y = play.about or (0.0, 0.0)
     end = [(x + dx, y + dy, 9 * MUST) for dx in (-_END_ROOM, 0, _END_ROOM) for dy in (-_END_ROOM, 0, _END_ROOM)]
     exits = [(o.x, o.y, 9 * MUST) for o in play.attempt.simulation.world.objects[1:] if o.kind == EXIT]
@@ -105,7 +105,7 @@ def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
 
 
 def _reached(play: LevelPlay) -> list[str]:
-    """Lines after a pass: the medal, what the next medal needs, the gold, what the pass unlocked."""
+    """Lines after a pass: the medal, the time for the next medal, the gold, unlocked levels."""
     attempt, pars = play.attempt, play.context.pars
     following = (
         [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!"]
@@ -115,7 +115,7 @@ def _reached(play: LevelPlay) -> list[str]:
     gold = f"{attempt.gold} of {play.all_gold} gold" if attempt.gold < play.all_gold else f"All {play.all_gold} gold"
     medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
     clock = [f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"] * play.context.carries_clock
-    # After a first pass everything is new, and the medal and the gold are shown already.
+    # A first pass is a record in everything, and shows the medal and the gold already.
     first = FIRST_PASS in play.notices
     news = [notice for notice in play.notices if notice != NEW_ALL_GOLD and not (first and notice in OF_A_LEVEL)]
     brought = "    ".join([*[gold] * bool(play.all_gold), *news])
@@ -123,7 +123,7 @@ def _reached(play: LevelPlay) -> list[str]:
 
 
 def named_in(world: World, names: Sequence[str]) -> list[tuple[str, float, float]]:
-    """What a level names, and where it is until it is used: never over the ninja."""
+    """The names of things and their places, until each is used; never over the ninja."""
     return [
         (name, o.x, o.y)
         for name in names
@@ -134,9 +134,9 @@ def named_in(world: World, names: Sequence[str]) -> list[tuple[str, float, float
 
 
 def _hint(play: LevelPlay, key: KeyName) -> str:
-    """What to press now; "" in play and after it."""
+    """The key to press now; "" in play and after it."""
     if play.phase is Phase.READY:
-        show_tutorial = play.show_tutorial and not play.sayings.text
+        show_tutorial = play.show_tutorial and not play.messages.text
         return _ready_hint(key, practice_mode=play.context.practice_mode, show_tutorial=show_tutorial)
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
@@ -165,9 +165,9 @@ def cause_of_death(play: LevelPlay) -> tuple[str, str]:
     if play.attempt.self_inflicted:
         return "You gave up", ""
     if play.killer != SELF:
-        return f"Killed by a {play.killer}", WHY[play.killer] * play.sayings.helps
+        return f"Killed by a {play.killer}", WHY[play.killer] * play.messages.helps
     if play.crushed:
         return "You were crushed", ""
     if play.attempt.lifetime <= 0:
         return "Out of time", ""
-    return "You hit the ground too hard", FALL_HELP * play.sayings.helps
+    return "You hit the ground too hard", FALL_HELP * play.messages.helps

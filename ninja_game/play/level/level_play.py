@@ -9,8 +9,8 @@ from random import Random
 
 from ninja_game.formats.messages import arrow_targets
 from ninja_game.play.app import App
+from ninja_game.play.level.messages import MessageQueue
 from ninja_game.play.level.places import MAY, Things, things_in
-from ninja_game.play.level.sayings import Sayings
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, AttemptState
 from ninja_game.player.playthrough import LevelContext
@@ -24,43 +24,43 @@ from ninja_game.simulation import Simulation
 from ninja_game.view.level_view import LevelView
 
 _FILL_SHARE = 0.05
-"""Share of what the bar lacks that fills in per picture, at least."""
+"""Least part of the missing length by which the bar grows per picture."""
 
 DEATH_PAUSE = 8
 """Ticks after a death before the jump key retries."""
 
 FREEZE_MS = 50
-"""How long the picture stands still at the exit."""
+"""ms for which the picture stands still at the exit."""
 
 LATE_JUMP = 8
-"""Ticks after the end in which a key that jumps and goes on is taken for a jump that came too late."""
+"""Ticks after the end in which the key for jump and retry counts as a jump that came too late."""
 
 STAMP_TICKS = 14
-"""Ticks after the exit contact until the medal is stamped."""
+"""Ticks from the exit contact to the stamp of the medal."""
 
-# The failed tries run together after a pass.
+# After a pass the failed tries are shown together.
 TRIES_FROM = 40  # ticks after the exit contact
-TRIES_TICKS = 80  # for so long
-MOST_TRIES = 24  # the newest ones
+TRIES_TICKS = 80  # of the show
+MOST_TRIES = 24  # the newest are shown
 
 SLOW_TICK_MS = 100
 """A tick in slow motion: a quarter of the speed."""
 
 STUCK_AFTER = 4
-"""Failed tries of a level after which help is offered."""
+"""Failed tries of a level before help is offered."""
 
 SHORTEST_TRY = 20
-"""Ticks of a try that is worth being seen again."""
+"""Least ticks of a try that is shown after a pass."""
 
 REWIND_TICKS = 2
-"""Ticks back for each tick's time that the rewind key is held."""
+"""Ticks back per tick for which the rewind key is held."""
 
 _SPACING = 10
 """Ticks between save-states, at first."""
 
 
 def followed(shown: float, true: float) -> float:
-    """The lifetime to show in the next picture: it follows the true one softly, so that gold fills in."""
+    """The lifetime to show in the next picture: it approaches the true one, so that gold fills the bar smoothly."""
     if abs(true - shown) < 1:
         return true
     share = max(_FILL_SHARE, (1 - max(0.0, shown) / LIFETIME) ** 2)
@@ -68,14 +68,14 @@ def followed(shown: float, true: float) -> float:
 
 
 def things_at_start(level: Level, world: World, texts: Iterable[str], inputs: bytes) -> Things:
-    """The things that a level's texts may name at its start, and the author's route."""
+    """The things that a level's texts name at its start, and the author's route."""
     places = list(things_in(world, tagged=bool(arrow_targets(texts))))
     if inputs:
-        way = Simulation(level)
+        run = Simulation(level)
         for keys in inputs:
-            way.step_keys(keys)
-            if way.tick % 4 == 0:
-                places.append((way.world.ninja.x, way.world.ninja.y, MAY))
+            run.step_keys(keys)
+            if run.tick % 4 == 0:
+                places.append((run.world.ninja.x, run.world.ninja.y, MAY))
     return tuple(places)
 
 
@@ -88,18 +88,17 @@ class Phase(Enum):
 
 
 _PHASE_OF_OUTCOME = {"running": Phase.PLAY, "dead": Phase.DEAD, "exit": Phase.PASSED}
-"""The phase in which an attempt with that outcome goes on."""
+"""The phase in which an attempt with that outcome continues."""
 
 
 class LevelPlay:
-    """One level of a context, tried again and again.
+    """One level of a context, played again and again.
 
-    ``view`` shows every tick. ``tries``: the failed ones, inputs. ``after_end``: ticks since the exit contact or death;
-    ``killer``: what killed, one of ``deaths.KILLERS``, ``crushed`` whether by being crushed. ``keys``: those of the
-    last tick. ``things``: what a text of the level is not to cover; ``about``: where the ninja was when the present
-    text came, or the run ended; None for the text of the start. ``notices``: what a pass has brought. ``next_par``: in
-    words, while it waits at the start. ``changed``: more than a tick has happened, so that everything has to be drawn
-    again.
+    ``view`` shows every tick. ``tries``: inputs of the failed ones. ``after_end``: ticks since the exit contact or
+    death; ``killer``: one of ``deaths.KILLERS``, ``crushed``: whether it crushed the ninja. ``keys``: of the last tick.
+    ``things``: what a message should not cover; ``about``: where the ninja was when the present message came, or the
+    run ended; None for the message of the start. ``notices``: what a pass has won. ``next_par``: in words, while the
+    level waits at its start. ``changed``: more than one tick has passed, so all must be drawn again.
     """
 
     def __init__(self, app: App, context: LevelContext) -> None:
@@ -110,14 +109,14 @@ class LevelPlay:
         self.attempt = Attempt(
             context.level, body=context.body, lifetime=context.lifetime, practice_mode=context.practice_mode
         )
-        level, way = context.beginning() if context.sayings() else (context.level, b"")
+        level, inputs = context.beginning() if context.messages() else (context.level, b"")
         world = self.attempt.simulation.world if level == context.level else Simulation(level).world
-        self.things = things_at_start(level, world, [saying.text for saying in context.sayings()], way)
+        self.things = things_at_start(level, world, [message.text for message in context.messages()], inputs)
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
-        self.sayings = Sayings(context.sayings(), helps=context.shows_hints)
+        self.messages = MessageQueue(context.messages(), helps=context.shows_hints)
         self.shown_lifetime = float(self.attempt.lifetime)
         self.ghosts: list[Ghost] = []
         self.tries: deque[bytes] = deque(maxlen=MOST_TRIES)
@@ -133,7 +132,7 @@ class LevelPlay:
         self.about: tuple[float, float] | None = None
         self.after_end = self._frozen_ms = 0
         self.killer, self.crushed = "", False
-        self.sayings.at_start()
+        self.messages.at_start()
         self.notices: list[str] = []
         self.next_par = self.context.next_par()
         runs = self.context.ghosts()
@@ -153,7 +152,7 @@ class LevelPlay:
         self.changed = True
 
     def begin(self, *, ignored: int = 0) -> None:
-        """Play. ``ignored``: keys that are down and count only when they are pressed again."""
+        """Play. ``ignored``: keys that are down, and count only when they are pressed again."""
         self._ignored = ignored
         self._go_to(Phase.PLAY)
 
@@ -168,7 +167,7 @@ class LevelPlay:
         self._go_to(self._phase_before)
 
     def retry(self, *, ignored: int = 0) -> None:
-        """Back to the level's start. What is held is meant for this try, but for the keys ``ignored``."""
+        """Back to the level's start. Held keys count for this try, except the keys ``ignored``."""
         if self.attempt.outcome != "exit" and not self.attempt.assisted and len(self.attempt.inputs) > SHORTEST_TRY:
             self.tries.append(bytes(self.attempt.inputs))
         self.view.ghosts = self.ghosts
@@ -180,7 +179,7 @@ class LevelPlay:
         self._held_before = ignored
 
     def give_up(self) -> None:
-        """The suicide key: an explosion or a shot, thrown at random (game.md §2)."""
+        """The suicide key: an explosion or a shot, by chance (game.md §2)."""
         rng = self.rng
         self.attempt.give_up(rng.random(), rng.uniform(-5, 5), -6 * rng.random())
         self.view.follow_ninja()
@@ -188,18 +187,18 @@ class LevelPlay:
 
     @property
     def may_watch(self) -> bool:
-        """Whether the attempt can be watched: dead, or passed by its keys alone."""
+        """Whether the attempt can be watched: the ninja died, or passed without invincibility."""
         return self.phase is Phase.DEAD or (self.phase is Phase.PASSED and not self.attempt.death_refused)
 
     @property
     def is_stuck(self) -> bool:
-        """Whether so many tries have failed that help is offered."""
+        """Whether there were enough failed tries to offer help."""
         return not self.context.practice_mode and len(self.tries) + (self.phase is Phase.DEAD) >= STUCK_AFTER
 
     # --- practice ---
 
     def quick_load(self) -> bool:
-        """Go back to the quick-save; whether there is one."""
+        """Go back to the quick-save; False if there is none."""
         if not self.tools.quick_load():
             return False
         self.after_end = 0
@@ -208,12 +207,12 @@ class LevelPlay:
         return True
 
     def step(self) -> None:
-        """One tick; then time stands still."""
+        """Simulate one tick; then time stands still."""
         self.tools.stepping = self.changed = True
         self.run_ticks(1)
 
     def hold(self, *, rewinding: bool | None = None, slow: bool | None = None) -> None:
-        """The keys that act while they are down have changed; both end the standstill after single steps."""
+        """Apply a change of the keys for slow motion and rewind; both end the standstill of single steps."""
         tools = self.tools
         tools.rewinding = tools.rewinding if rewinding is None else rewinding
         tools.slow = tools.slow if slow is None else slow
@@ -247,12 +246,12 @@ class LevelPlay:
 
     @property
     def fraction(self) -> float:
-        """How much of the next tick has passed, 0…1."""
+        """The elapsed part of the present tick, 0…1."""
         still = self.phase in {Phase.PAUSED, Phase.READY} or self.tools.stepping or self.tools.rewinding
         return 1.0 if still else self.clock.fraction
 
     def _wait_for_move(self) -> None:
-        """Any move begins; keys that were down before do not count until they are pressed again."""
+        """The first key press starts play; keys that were down before count only when they are pressed again."""
         held = self.app.controls.poll()
         self._held_before &= held
         self._tapped = held & ~self._held_before
@@ -261,24 +260,24 @@ class LevelPlay:
 
     @property
     def invincible(self) -> bool:
-        """Whether deaths are refused; practice, which can go back in time, has no need of it."""
+        """Whether deaths are refused; not in practice, which can go back in time."""
         return self.app.settings.invincible and not self.context.practice_mode
 
     def run_ticks(self, due: int) -> None:
-        """So many ticks, each with the keys of its moment."""
+        """Simulate a number of ticks, each with the keys of its moment."""
         slow = self.app.settings.game_speed < 100 or self.tools.slow or self.tools.stepping
         if due and self.phase is Phase.PLAY and slow:
             self.attempt.assists.add("slow motion")
         for _ in range(due):
-            # Sampled right before the tick: as late as can be.
+            # Read the keys right before the tick, as late as possible.
             held = (self.app.controls.poll() | self._tapped) if self.phase is Phase.PLAY else 0
             self._ignored &= held
             self.keys, self._tapped = held & ~self._ignored, 0
             self.attempt.tick(self.keys, invincible=self.invincible)
             self.view.on_tick()
             self.tools.on_tick()
-            if self.phase is Phase.PLAY and self.sayings.on_tick(self.attempt.simulation.world):
-                self.changed, self.about = True, None if self.sayings.is_start else self.ninja_place()
+            if self.phase is Phase.PLAY and self.messages.on_tick(self.attempt.simulation.world):
+                self.changed, self.about = True, None if self.messages.is_start else self.ninja_place()
             self._note_end()
         if due and self.phase is Phase.PLAY:
             self.attempt.check_time()
@@ -287,7 +286,7 @@ class LevelPlay:
                 self._note_end()
 
     def _note_end(self) -> None:
-        """Phases follow the first exit contact or death."""
+        """Change the phase at the first exit contact or death."""
         if self.phase is Phase.PLAY and self.attempt.outcome != "running":
             self.after_end, self.about = 0, self.ninja_place()
             self.phase = _PHASE_OF_OUTCOME[self.attempt.outcome]
@@ -301,7 +300,7 @@ class LevelPlay:
             else:
                 self.killer = self.attempt.killer
                 self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED
-                self.sayings.on_death()
+                self.messages.on_death()
                 self.context.died(self.attempt)
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
@@ -309,7 +308,7 @@ class LevelPlay:
                 self._celebrate()
 
     def _celebrate(self) -> None:
-        """The medal is stamped; then all failed tries run together, as fast as fits into two seconds."""
+        """Stamp the medal; then show all failed tries together, fast enough for two seconds."""
         quiet = self.app.settings.reduced_motion
         if self.after_end == (1 if quiet else STAMP_TICKS) and self.medal:
             self.app.audio_output.play("medal")
@@ -330,7 +329,7 @@ class LevelPlay:
 
 
 class PracticeTools:
-    """The tools of one level screen. ``attempt``: what they act on."""
+    """The tools of a level screen. ``attempt``: the one they act on."""
 
     def __init__(self, attempt: Attempt) -> None:
         self.attempt = attempt
@@ -341,7 +340,7 @@ class PracticeTools:
         self.restarted()
 
     def restarted(self) -> None:
-        """The attempt began again; a quick-save stays good."""
+        """The attempt was restarted; a quick-save stays valid."""
         self.playback = Playback(self.attempt.simulation, self.attempt.inputs, spacing=_SPACING)
         self.rewinding = self.stepping = False
 
@@ -352,7 +351,7 @@ class PracticeTools:
         self.saved = self.attempt.save()
 
     def quick_load(self) -> bool:
-        """Go back to the kept moment; whether there is one."""
+        """Go back to the quick-save; False if there is none."""
         if self.saved is None:
             return False
         self.attempt.restore(self.saved)

@@ -1,4 +1,4 @@
-"""Where a panel over a level may lie: what it hides, and the place that hides least."""
+"""The place of a panel over a level that hides least."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
 from ninja_game.ui.canvas import WIDTH
 
-_BESIDE = 36.0  # px from a place to the panel of what is said about it: solid while the ninja is there
-_LOWEST = 573.0  # where it ends at the latest: below are the level's name and what a pass has brought, px
-_NEAR = 16.0  # px that a panel keeps from the middle of a thing
-_ALONG = 7  # open cells that weigh as much as a cell along rock
+_BESIDE = 36.0  # px from a place to the panel of its message: far enough not to fade while the ninja is there
+_LOWEST = 573.0  # lowest end of a panel: below are the level's name and the texts after a pass, px
+_NEAR = 16.0  # px between a panel and the middle of a thing
+_ALONG = 7  # open cells that cost as much as an open cell beside a solid one
 
 Things = tuple[tuple[float, float, int], ...]
-"""Where things are, px, and how bad it is to cover them: ``MUST``, or ``MAY`` for gold and the way."""
+"""Places of things, px, and the cost of covering them: ``MUST``, or ``MAY`` for gold and the author's route."""
 
 MUST, MAY = 1000, 30
 
@@ -29,12 +29,12 @@ TAG_ROOM = 72.0
 
 
 def tag_top(y: float) -> float:
-    """Upper edge of the name of a thing at ``y``, px: above it, or below where that is at the upper edge."""
+    """Upper edge of the name of a thing at ``y``, px: above it, or below it at the upper edge."""
     return y - 39 if y > TAG_ROOM else y + 23
 
 
 def things_in(world: World, *, tagged: bool) -> Things:
-    """The ninja and what else is in a world; ``tagged``: the names beside switches and exits too."""
+    """The ninja and the other objects of a world; ``tagged``: with the names beside switches and exits."""
     objects = world.objects[1:]
     places = [(o.x, o.y, MAY if o.kind == GOLD else MUST) for o in objects]
     names = [o for o in objects if tagged and o.kind in {SWITCH, EXIT}]
@@ -46,12 +46,12 @@ def things_in(world: World, *, tagged: bool) -> Things:
 
 
 def away_from(point: Point, x: float, y: float, w: float, h: float) -> float:
-    """How far a point is from a panel, px."""
+    """Distance between a point and a panel, px."""
     return hypot(max(x - point[0], 0.0, point[0] - x - w), max(y - point[1], 0.0, point[1] - y - h))
 
 
 def hidden_by(things: Things, x: float, y: float, w: float, h: float) -> Iterator[int]:
-    """How bad it is, for each thing that a panel would hide."""
+    """The costs of all things that a panel would hide."""
     return (cost for a, b, cost in things if -_NEAR < a - x < w + _NEAR and -_NEAR < b - y < h + _NEAR)
 
 
@@ -66,12 +66,11 @@ def solid_place(
     rows: int = 0,
     beside: Point | None = None,
 ) -> tuple[float, float, int, int]:
-    """Upper left corner of a panel of that size, px, where it covers no thing, little gold and the least of any way.
+    """Upper left corner of a panel of that size, px, then the whole cost, and the part of it for hidden things.
 
-    The third is how much it covers, the last how much of that are things, gold and the author's way. What is full is no
-    way, open space far from all that is full hardly one. Of equal places it is the one nearest to ``about``, or to the
-    middle of the upper border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
-    upper border to the lower one; ``beside``: around that place only, _BESIDE px from it.
+    Solid cells cost nothing, open cells beside solid ones most. Of equal places the one nearest to ``about`` is taken,
+    or to the middle of the upper border. ``rows``: only at the left, in the middle and at the right of that many
+    heights, from the upper border to the lower one; ``beside``: only around that place, _BESIDE px from it.
     """
     open_cells, ways = _ways(tiles)
 
@@ -83,7 +82,7 @@ def solid_place(
         covered += (_ALONG - 1) * sum((cells & area).bit_count() for cells in ways[columns])
         hidden = sum(hidden_by(things, x, y, w, h))
         far = hypot(x + w / 2 - about[0], y + h / 2 - about[1]) if about else 0.0
-        # Rounded: else the last bit of a width would choose between left and right.
+        # Rounded: otherwise the last bit of a width would choose between left and right.
         return covered + hidden, round(far or abs(x + w / 2 - WIDTH / 2) + y, 3), hidden
 
     edge = CELL + 4
@@ -105,7 +104,7 @@ def solid_place(
 
 @lru_cache(maxsize=4)
 def _ways(tiles: tuple[int, ...]) -> tuple[list[int], list[int]]:
-    """Bit masks, a number per column, a bit per row: the cells that are not full, and those of them beside rock."""
+    """Bit masks, a number per column, a bit per row: the open cells, and those of them beside solid ones."""
     all_rows = (1 << ROWS) - 1
     full = [
         sum(1 << row for row in range(ROWS) if SHAPE[tiles[first + row]] == FULL)

@@ -1,4 +1,4 @@
-"""The screen of a level: what keys do in each phase, where they lead, and the picture."""
+"""The screen of a level: the keys of each phase, the screens that follow, and the picture."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.view.overlays import Overlays
 
 SLOWER = 70
-"""Game speed that is offered to who is stuck, %."""
+"""Game speed that is offered to a player who is stuck, %."""
 
 HELP, SKIP = "Get help with this level", "Skip this level"
 HELP_ROW = 2
-"""Where the pause panel has it."""
+"""The row of help in the pause panel."""
 
 
 class LevelScreen(Screen):
-    """Plays the level of a context. ``play``: what happens in it."""
+    """The screen of a context's level. ``play``: its phases and ticks."""
 
     plays = True
 
@@ -63,7 +63,7 @@ class LevelScreen(Screen):
 
     @property
     def music(self) -> str:
-        """That of its column; of other levels always the same one."""
+        """The music of the level's column; other levels share one."""
         if self.context.practice_mode and not self.app.settings.music_in_practice:
             return SILENCE
         entry = self.context.entry
@@ -79,7 +79,7 @@ class LevelScreen(Screen):
         return self.play.attempt
 
     def enter(self) -> None:
-        """Uncovered: a pause is over, the clock starts afresh, and text input is off, so that keys are keys."""
+        """Uncovered: a pause is over, the clock is reset, and text input is off, so that keys are keys."""
         if self.phase is Phase.PAUSED:
             self.play.resume()
         self.play.clock.reset()
@@ -91,7 +91,7 @@ class LevelScreen(Screen):
     # --- what keys and the pause panel do ---
 
     def begin(self) -> None:
-        """By the key that chooses: on a keyboard it does not jump yet; on a pad it is the only one."""
+        """The key for confirm: on a keyboard it does not jump yet; a pad has only this one."""
         controls = self.app.controls
         controls.stop_running()
         self.play.begin(ignored=0 if controls.pad_used else controls.choosing())
@@ -103,14 +103,14 @@ class LevelScreen(Screen):
         panel.focus = panel.widgets[row]
 
     def back(self) -> None:
-        """Out of a level that is passed; where that would end the program, the pause panel comes first."""
+        """Leave a passed level; if that would end the program, the pause panel comes first."""
         if len(self.app.stack) > 1:
             self.quit()
         else:
             self.pause()
 
     def retry(self, *, ignored: int = 0) -> None:
-        """Back to the level's start, at once; a level file that was changed meanwhile is read again."""
+        """Back to the level's start, at once; a level file that has changed is read again."""
         self.app.audio_output.quiet()
         self.context.gave_up(self.attempt)
         try:
@@ -123,11 +123,11 @@ class LevelScreen(Screen):
         self.play.retry(ignored=ignored)
 
     def retry_by_choice(self) -> None:
-        """The key that chooses retries, and does not jump."""
+        """Retry by the key for confirm, which does not jump."""
         self.retry(ignored=self.app.controls.choosing())
 
     def retry_by_jump(self) -> None:
-        """The jump key retries too, but not at once; it begins to count when it is pressed again."""
+        """Retry by the jump key, but not at once; it counts as a jump when it is pressed again."""
         if self.play.after_end > DEATH_PAUSE:
             self.retry(ignored=JUMP_HELD)
 
@@ -145,7 +145,7 @@ class LevelScreen(Screen):
             self._leave_to(where)
 
     def _skip_the_last(self, run: EpisodeSession) -> None:
-        """An episode whose last level is left out leads to the next episode."""
+        """Skipping the last level of an episode leads to the next episode."""
         following = run.data.catalogue.following(run.episode)
         if following is None:
             self._leave_to(Navigation.BACK)
@@ -156,7 +156,7 @@ class LevelScreen(Screen):
         self.app.notify(f"Skipped. Now episode {following.code}: {following.name}")
 
     def skip(self) -> None:
-        """In practice a level may be left out; else there is a choice of help."""
+        """Skip the level in practice; else show the menu of help."""
         if self.context.practice_mode:
             self.go_on()
             self.app.notify("    ".join(self.context.notices))
@@ -164,9 +164,9 @@ class LevelScreen(Screen):
             self.ask_for_help()
 
     def ask_for_help(self, *, paused: bool = False) -> None:
-        """A menu for a level that is too hard; entries that are disabled say why.
+        """A menu for a level that is too hard; disabled entries say why.
 
-        ``paused``: asked for in the pause panel, to which Esc leads back, as it does from play.
+        ``paused``: opened from the pause panel, to which Esc leads back, as it does from play.
         """
         context, app = self.context, self.app
         run = context.data.catalogue.author_run(context.entry)
@@ -190,14 +190,14 @@ class LevelScreen(Screen):
         app.push(Menu(app, HELP, rows, back))
 
     def _watch(self, run: Replay | None) -> None:
-        """Watch a run; then the level waits at its start, and says again how it goes."""
+        """Watch a run; then the level waits at its start and shows its messages again."""
         self.retry()
-        self.play.sayings.say_again()
+        self.play.messages.say_again()
         watch(self.app, [run])
         self.app.notify(f"{self.app.controls.name('back')}: back to your own try")
 
     def _play_at(self, speed: int) -> None:
-        """Begin again at a speed, %; it stays in the settings."""
+        """Begin again at a speed, %; the setting is saved."""
         self.app.change_settings(game_speed=speed)
         self.retry()
 
@@ -217,7 +217,7 @@ class LevelScreen(Screen):
         self.play.give_up()
 
     def run_on(self) -> None:
-        """In practice, after single steps: let time go on."""
+        """Continue in practice after single steps."""
         if self.play.tools.stepping:
             self.play.hold()
 
@@ -238,13 +238,13 @@ class LevelScreen(Screen):
         return self.attempt.replay(self.context.title, self.app.settings.name)
 
     def keep_replay(self) -> None:
-        """Put this run among the player's replays, even one that is not the best."""
+        """Save this run among the player's replays, even if it is not the best."""
         if self._is_spared():
             return
         self.app.notify(keep_replay(self.context.data, self._replay()))
 
     def _is_spared(self) -> bool:
-        """Whether the run was survived only by being invincible: then its keys alone are no replay, and it is said."""
+        """Whether only invincibility saved the run: then its keys alone are no replay, and a notice says so."""
         if self.attempt.death_refused:
             self.app.notify("No replay: only the invincible could survive this run")
         return self.attempt.death_refused
@@ -271,7 +271,7 @@ class LevelScreen(Screen):
     def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
         """Do the first thing that the pressed actions mean in this phase.
 
-        After the end, a key that jumps and goes on is first a jump that came too late, and then no jump.
+        After the end, a key for both jump and retry is first a jump that came too late, and then no jump.
         """
         if {"jump", "confirm"} <= set(pressed) and self.phase in {Phase.DEAD, Phase.PASSED}:
             late = self.play.after_end < LATE_JUMP
@@ -289,7 +289,7 @@ class LevelScreen(Screen):
             return
 
     def _dispatch_practice(self, event: InputEvent) -> None:
-        """What keys mean for the tools: some act at once, some while they are held."""
+        """Keys of the practice tools: some act once, some while they are held."""
         if "quick_save" in event.pressed:
             self.play.tools.quick_save()
             self.app.notify(f"Saved: {self.app.controls.name('quick_load')} comes back to this moment")
@@ -322,7 +322,7 @@ class LevelScreen(Screen):
 def play_level(
     app: App, entry: Entry, *, practice: bool = False, following: Sequence[Entry] = (), player: PlayerData | None = None
 ) -> str:
-    """Play a level by itself, then those that follow it in a list; why that is impossible, or ''."""
+    """Play a level, then those that follow it in a list; the reason if it cannot be played, or ''."""
     run = LevelSession(
         player or app.player, entry, practice_mode=practice or app.settings.practice, following=following
     )
@@ -339,14 +339,14 @@ _UNPASSED: PhaseActions = {
     "pause": LevelScreen.pause, "back": LevelScreen.pause, "retry": LevelScreen.retry, "quit": LevelScreen.quit,
     "skip": LevelScreen.skip,
 }  # fmt: skip
-"""What holds as long as the level is not passed."""
+"""Actions while the level is not passed."""
 
 _END: PhaseActions = {
     "replay": LevelScreen.watch_replay,
     "export": LevelScreen.keep_replay,
     "link": LevelScreen.copy_link,
 }
-"""What dead and passed have in common."""
+"""Actions after a death and after a pass."""
 
 ACTIONS_BY_PHASE: dict[Phase, PhaseActions] = {
     Phase.READY: {"confirm": LevelScreen.begin, **_UNPASSED},
@@ -361,11 +361,11 @@ ACTIONS_BY_PHASE: dict[Phase, PhaseActions] = {
         "back": LevelScreen.back, "quit": LevelScreen.quit, **_END,
     },
 }  # fmt: skip
-"""What each action does in each phase; the other actions do nothing there."""
+"""What each action does in each phase; other actions do nothing."""
 
 
 class PausePanel(Panel):
-    """The game waits. Space, the pause key or Esc go on."""
+    """The game is paused. Space, the pause key or Esc continue."""
 
     def __init__(self, app: App, playing: LevelScreen) -> None:
         super().__init__(app, "Paused")
@@ -390,7 +390,7 @@ class PausePanel(Panel):
         copy_level_link(self.app, entry.named, entry.title)
 
     def handle(self, event: InputEvent) -> None:
-        """The pause key ends the pause too, the quit key leaves."""
+        """The pause key also continues, the quit key leaves."""
         if "pause" in event.pressed:
             self.back()
         elif "quit" in event.pressed:

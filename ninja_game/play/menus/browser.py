@@ -115,13 +115,13 @@ class Browser(ThumbnailScreen):
         return [*self.choosers(), self.play_it, self.practice, *watch, *more, self.link]
 
     def capture(self, event: InputEvent) -> bool:
-        """What is typed is searched for, wherever the focus is."""
+        """Typed letters go to the search, wherever the focus is."""
         if event.raw.type == pygame.TEXTINPUT and event.raw.text.strip():
             self.focus_on(self.entry_field)
         return super().capture(event)
 
     def handle(self, event: InputEvent) -> None:
-        """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""
+        """A file dropped on the window is copied into the player's folder; back in the window the list is reread."""
         if event.raw.type == pygame.DROPFILE:
             self._take_in(Path(event.raw.file))
         elif event.raw.type == pygame.WINDOWFOCUSGAINED:
@@ -164,9 +164,9 @@ class Browser(ThumbnailScreen):
         }
         if self.sort in keys:
             matching.sort(key=keys[self.sort])  # type: ignore[arg-type]
-        # A name is found before a comment.
+        # Matches in names come before those in comments.
         matching.sort(key=lambda e: not all(word in e.title.casefold() for word in words))
-        # The levels of days are a game of their own.
+        # Daily levels have their own screen.
         shown, known = (sum(Path(e.named.file).parent.name != DAILY for e in es) for es in (matching, self.entries))
         self._count = f"{shown} of {known} levels"
         if matching != self.shown:
@@ -181,7 +181,7 @@ class Browser(ThumbnailScreen):
         return self.shown[self.list.index] if self.list.index < len(self.shown) else None
 
     def _select(self, _index: int) -> None:
-        """Only what is open can be played, only what has been passed be watched; a button that is off says why."""
+        """Only unlocked levels can be played, only passed ones be watched; a button that is off says why."""
         selected = self.selected
         lock = self.player.lock_of(selected) if selected else "No level"
         self.play_it.enabled = self.practice.enabled = not lock

@@ -29,11 +29,11 @@ LEFT, TOP, WIDE = 44, 74, 480
 SIDE, SIDE_WIDTH, WEEK = 548, 200, 272
 
 DIG_MS = 60
-"""How long each cell takes of the cave that is seen while a level is made."""
+"""ms per cell of the cave that is drawn while a level is made."""
 
 
 class _Maker:
-    """A thread that makes the level of a day. ``progress``: how it stands; ``problem``: why there is none."""
+    """A thread that makes the level of a day. ``progress``: a text; ``problem``: why it failed."""
 
     def __init__(self, levels: Path, day: date) -> None:
         self.progress = "getting started"
@@ -62,7 +62,7 @@ class _Maker:
 
 
 class DailyScreen(ThumbnailScreen):
-    """The level of today, large, with what is known about it; while it is made, how that stands."""
+    """Today's level, large, with its facts; while it is made, its progress."""
 
     title = "Daily level"
 
@@ -91,7 +91,7 @@ class DailyScreen(ThumbnailScreen):
             self._maker = _Maker(self.player.folder / LEVELS, self.day)
 
     def leave(self) -> None:
-        """What is being made is given up; it starts again on the next visit."""
+        """Stop making the level; the next visit starts again."""
         super().leave()
         if self._maker:
             self._maker.stop.set()
@@ -117,7 +117,7 @@ class DailyScreen(ThumbnailScreen):
 
     @property
     def streak(self) -> int:
-        """How many days in a row have had their level passed, whenever that was, up to today, or yesterday."""
+        """The number of days in a row with a passed level, up to today or yesterday, whenever they were passed."""
         count = int(self.is_passed(self.day))
         day = self.day - timedelta(1)
         while self.is_passed(day):

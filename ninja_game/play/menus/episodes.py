@@ -27,19 +27,19 @@ from ninja_game.ui.theme import Area, Theme, mixed
 from ninja_game.ui.widgets import Button, Choice, Widget
 
 LEFT, TOP, WIDE, MOST_HIGH = 44, 116, 318, 286
-"""Where the grid lies: it is as large as the episodes that there are, cells up to LARGEST px."""
+"""Place and greatest height of the grid, px; cells are up to LARGEST px large."""
 
 LARGEST = 62
 NAMED = 48
-"""px from which on a cell is wide enough for its column's name."""
+"""Least width of a cell under its column's name, px."""
 
 LOOKS = (("beaten", "passed"), ("open", "open"), ("cheated", "seen in practice"), ("locked", "locked"))
 
 
 class Cells(ListView):
-    """The grid of the episodes that there are. ``numbers``: each cell's episode, -1 where there is none.
+    """The grid of a pack's episodes. ``numbers``: each cell's episode, -1 for none.
 
-    ``heads``: the columns, as numbers, that are there.
+    ``heads``: the columns with an episode, as numbers.
     """
 
     numbers: list[int]
@@ -60,7 +60,7 @@ class Cells(ListView):
         self.fill(self.numbers)
 
     def draw_names(self, surface: pygame.Surface, theme: Theme, names: Sequence[str]) -> None:
-        """The columns' names over them; where they are narrow that of the selected one alone."""
+        """The columns' names above them; above narrow columns only the selected one's."""
         size = self.cell_height
         faint = theme.palette.faint
         for place, column in enumerate(self.heads):
@@ -74,7 +74,7 @@ class Cells(ListView):
                 theme.text(surface, name, LEFT, TOP - 15, size=10, colour=faint, width=WIDE)
 
     def nudge(self, action: str) -> bool:
-        """Move the selection; where there is no episode the focus moves on instead."""
+        """Move the selection; beyond the last episode the focus moves on instead."""
         before, first = self.index, self.first
         used = super().nudge(action)
         if used and self.numbers[self.index] < 0:
@@ -89,14 +89,14 @@ class Cells(ListView):
 
 
 def _how_far(passed: int, count: int) -> str:
-    """How much of an episode without a best has been passed; levels that were skipped are not."""
+    """The passed part of an episode without a best; skipped levels do not count."""
     if passed == count:
         return f"All {count} levels passed, but not yet in one go"
     return f"{passed} of {count} levels passed. Skipped ones count once you pass them" if passed else f"{count} levels"
 
 
 def draw_look(surface: pygame.Surface, theme: Theme, look: str, area: Area) -> None:
-    """One cell by its state: shape tells it as well as colour."""
+    """Draw a cell by its state, which its shape shows as well as its colour."""
     canvas, palette = theme.canvas, theme.palette
     x, y, w, h = area
     fill = {"beaten": palette.tile, "locked": mixed(palette.background, palette.outline, 0.14)}.get(look, palette.panel)
@@ -125,7 +125,7 @@ SMALL_PICTURE = 96
 class EpisodeGrid(ThumbnailScreen):
     """Choose an episode to play, or one of its levels for a time trial. ``pack``: the key of the pack to begin with.
 
-    ``newcomer``: a player to whom that pack is shown, to preview it; None for the one who plays.
+    ``newcomer``: for a preview: a player who has passed nothing; by default the present player.
     """
 
     title = "Episodes"
@@ -238,7 +238,7 @@ class EpisodeGrid(ThumbnailScreen):
             super().handle(event)
 
     def _play(self, _index: int) -> None:
-        """Play the episode; one that was left half-way goes on there, or begins again."""
+        """Play the episode; one that was left half-way continues there, or begins again."""
         if self.episode is None or self._state(self.number) == LOCKED:
             return
         practice_mode = self.player.settings.practice

@@ -1,4 +1,4 @@
-"""Ten of the game's levels, read closely: what makes each of them good, with the places it is about."""
+"""Ten of the game's levels and what makes each of them good, with notes at places."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ FILE = "good-levels.toml"
 PICTURE: Area = (212, 66, 540, 540 * 25 / 33)
 """Where the level is shown."""
 AWAY = 24
-"""How far, across and down, a number is from what it points to, px."""
+"""Distance of a number from its place, across and down, px."""
 
 
 class GoodLevel(NamedTuple):
-    """``about``: what makes it good. ``notes``: column and row of a cell, and what is to be said about it."""
+    """``about``: what makes the level good. ``notes``: column and row of a cell, and a text about it."""
 
     entry: Entry
     about: str
@@ -77,7 +77,7 @@ class GoodLevelsScreen(ThumbnailScreen):
         theme, palette, (left, top, width, height) = self.theme, self.theme.palette, PICTURE
         self.thumbnails.draw(surface, self.level.entry, left, top, width)
         for number, (column, row, _) in enumerate(self.level.notes, 1):
-            # Beside what it points to, so that this is seen.
+            # Beside its place, so that the place is visible.
             px = width / 792
             x, y = middle_of((column, row))
             at = left + x * px, top + y * px

@@ -1,4 +1,4 @@
-"""The help's pages: texts, and small rooms with what is played in them (``assets/help/pages.toml``)."""
+"""The help's pages: texts, and small rooms with a demonstration (``assets/help/pages.toml``)."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ PAGES_FILE = "help/pages.toml"
 
 @dataclass(frozen=True)
 class Page:
-    """A page of the help. ``inputs``: one byte per tick; ``shows``: names of events that must happen in it."""
+    """A page of the help. ``inputs``: one byte per tick; ``shows``: names of events that must happen."""
 
     title: str
     text: tuple[str, ...]
@@ -45,7 +45,7 @@ class Page:
 
 
 def read_pages() -> list[Page]:
-    """The pages of the bundled file. Raises LevelError naming the page that is wrong."""
+    """The pages of the bundled file. Raises LevelError that names an invalid page."""
     path = data_folder("assets") / PAGES_FILE
     tables = tomllib.loads(path.read_text("utf-8"))["page"]
     return [_page(table, str(path)) for table in tables]
@@ -61,7 +61,7 @@ def _page(table: dict[str, Any], file: str) -> Page:
 
 
 class HelpPage(MenuScreen):
-    """All that can be done, on one page: ``words``, then the table of ``commands``."""
+    """All commands on one page: ``words``, then the table of ``commands``."""
 
     foot = "Esc goes back"
 
@@ -100,18 +100,18 @@ class HelpPage(MenuScreen):
 
 
 WINDOW: Area = (240, 66, 504, 288)
-"""Where the demonstration is seen: that much of the stage, at its own scale."""
+"""The area of the demonstration: that part of the stage, at its own scale."""
 
 MARGIN = 12.0
-"""px of the stage left out at the left of a room, so that half of its wall is seen."""
+"""px of the stage left out at the left of a room, so that half of its wall is visible."""
 
 REST_TICKS = 60
-"""How long a demonstration stands still after its last input (game.md §4.4)."""
+"""Ticks for which a demonstration stands still after its last input (game.md §4.4)."""
 
 KEYS_TITLE = "Keys"
 KEY_ROW = 22.0
 KEY_COLUMNS = (0, 152, 340)
-"""Where an action's name, its keys and its buttons begin in their table."""
+"""x of an action's name, its keys and its buttons in their table."""
 
 
 class HelpScreen(MenuScreen):
@@ -227,13 +227,13 @@ class HelpScreen(MenuScreen):
             theme.text(surface, text, x + left, y + 5, size=10.5, bold=not left and focused, width=end - left - 8)
 
     def _say_action(self, index: int) -> None:
-        """The chosen action in the foot, where there is room for the longest list of keys."""
+        """Show the chosen action in the foot, which has room for the longest list of keys."""
         action = list(ACTIONS)[index]
         self.keys.hint = f"{ACTIONS[action].label}: {', '.join(filter(None, self.app.controls.all_names(action)))}"
 
 
 class Demonstration:
-    """A page's room with its inputs, again and again, drawn on a sheet of its own of which a part is shown."""
+    """A page's room, whose inputs are repeated; drawn on its own sheet, part of which is shown."""
 
     def __init__(self, app: App, page: Page) -> None:
         self.app = app

@@ -38,14 +38,14 @@ from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.level_view import LevelView
 
 PANEL: Area = 14, 96, 232, 390
-"""Where the panel lies: at the edge, so that the run behind it is seen."""
+"""The panel's area: at the edge, so that the run behind it is visible."""
 
 HEAD, FIRST, ROW, EDGE = 98, 62, 43, 16
 """Heights of the title, of the first button and of a row of two, and the width of the panel's edge, px."""
 
 
 class MainMenu(MenuScreen):
-    """Where the game begins and where every way back ends. ``run``: with which play goes on."""
+    """The first screen of the game, to which all others lead back. ``run``: the context that play continues."""
 
     offers_back = False
 
@@ -59,7 +59,7 @@ class MainMenu(MenuScreen):
 
     @property
     def mood(self) -> Mood:
-        """That of the level behind it: other worlds are seen before one gets there."""
+        """The mood of the level behind the menu: a preview of other moods."""
         return self.attract.mood
 
     @property
@@ -89,7 +89,7 @@ class MainMenu(MenuScreen):
         self.app.push(EpisodeGrid(self.app, pack))
 
     def entries(self) -> list[tuple[str, Action, str]]:
-        """One for each screen: the first as wide as the panel, then two in a row; a last one alone is as wide again."""
+        """A button per screen: the first as wide as the panel, then two in a row; a last single one is wide again."""
         return [
             ("Play", self._play, "Go on where you left off" if self.begun else "Start at the very beginning"),
             ("Episodes", self._opener(EpisodeGrid), "Pick an episode, or any level in it"),
@@ -175,11 +175,11 @@ BAND: tuple[tuple[Point, ...], ...] = (
 """The headband under the name and its two ends: corners, px from the panel's."""
 
 REST_TICKS = 130
-"""How long a replay goes on after its end or a death."""
+"""Ticks for which a replay goes on after its end or a death."""
 
 
 class Attract:
-    """Plays replays for ever in a shuffled order, silently. ``shown``: how many were begun; ``mood``: of the level."""
+    """Plays replays forever in random order, silently. ``shown``: number of replays begun; ``mood``: of the level."""
 
     def __init__(self, app: App) -> None:
         self.app = app
@@ -202,7 +202,7 @@ class Attract:
                 yield lambda file=file: load_replays(file)[0]  # type: ignore[misc]
 
     def _begin_next(self) -> None:
-        """Put the next recording on the stage; one that cannot be read is left out."""
+        """Begin the next recording; one that cannot be read is skipped."""
         for read in self._order:
             try:
                 recording = read()

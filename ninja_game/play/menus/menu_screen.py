@@ -1,4 +1,4 @@
-"""Screens of widgets: focus by keyboard, gamepad and mouse; the frame around all menus; panels over other screens."""
+"""Screens of widgets: focus by keyboard, gamepad and mouse; the frame of all menus; panels over other screens."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ninja_game.ui.theme import Area, Theme, inside, wrapped
 from ninja_game.ui.widgets import Button, Widget
 
 FIRST_REPEAT_MS, REPEAT_MS, TEXT_REPEAT_MS = 350, 70, 40
-"""A direction that is held repeats, or a key in a text: when first, and then how often."""
+"""A held direction or a key in a text repeats: after the first time, then at the other intervals, ms."""
 
 DIRECTIONS = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
 MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
@@ -28,15 +28,15 @@ REPEATING = frozenset({*DIRECTIONS, "page_up", "page_down"})
 
 TITLE_SIZE = 22
 BACK: Area = (WIDTH - 24 - 84, 15, 84, 26)
-"""Beside the title: what the mouse goes back with."""
+"""The place beside the title where the mouse goes back."""
 
 
 class MenuScreen(Screen):
-    """Widgets, one of which has the focus. Subclasses fill ``widgets`` in ``build`` and say their ``title``.
+    """Widgets, one of which has the focus. Subclasses fill ``widgets`` in ``build`` and set their ``title``.
 
-    ``foot``: the line at the bottom, where the focused widget has no hint. ``offers_back``: whether the frame has a
-    place for the mouse to go back; keys and pads have theirs, so it takes no focus. ``wraps``: up from the first widget
-    leads to the last. ``says_full``: a notice tells that no more letters fit into a field.
+    ``foot``: the line at the bottom if the focused widget has no hint. ``offers_back``: the frame has a place where the
+    mouse goes back; keys and pads have their own, so it takes no focus. ``wraps``: up from the first widget leads to
+    the last. ``says_full``: a notice says that no more letters fit into a field.
     """
 
     title = ""
@@ -59,11 +59,11 @@ class MenuScreen(Screen):
         return CALM
 
     def build(self) -> Sequence[Widget]:
-        """The widgets; the first that can have it gets the focus."""
+        """The widgets; the first that can have the focus gets it."""
         raise NotImplementedError
 
     def enter(self) -> None:
-        """Make the widgets again: what they show may have changed. The focus keeps its place."""
+        """Build the widgets again, since what they show may have changed. The focus keeps its place."""
         place = self.widgets.index(self.focus) if self.focus in self.widgets else 0
         self.widgets = list(self.build())
         able = [widget for widget in self.widgets if widget.focusable]
@@ -74,23 +74,23 @@ class MenuScreen(Screen):
         self.app.report_problems()
 
     def show_episodes(self, pack: str) -> None:
-        """Called after an episode that began here, to see those of its pack: this screen, unless it says otherwise."""
+        """Called after an episode that was begun here. Screens with episodes show those of the pack."""
 
     def await_text(self) -> None:
-        """Have the system say what is typed, where there is a field for it."""
+        """Switch text input on where there is a field for it."""
         if any(isinstance(widget, TextEntry) for widget in self.widgets):
             pygame.key.start_text_input()
         else:
             pygame.key.stop_text_input()
 
     def widgets_changed(self) -> None:
-        """What a widget shows has changed, or which one has the focus."""
+        """A widget shows something else, or another one has the focus."""
         self.redraw = True
 
     def capture(self, event: InputEvent) -> bool:
-        """While a text is typed, a key is a letter before it is anything else; Tab leads to the next widget.
+        """While a text is typed, a key is a letter before anything else; Tab leads to the next widget.
 
-        So it hides the program only where something runs.
+        The key that hides the program therefore works only where nothing is typed.
         """
         if event.raw.type == pygame.KEYDOWN and event.source == ("keys", "tab"):
             self._next(-1 if event.raw.mod & pygame.KMOD_SHIFT else 1)
@@ -121,7 +121,7 @@ class MenuScreen(Screen):
             self.act(event.menu)
 
     def act(self, action: str, *, held: bool = False) -> None:
-        """Do what a menu action says: the focused widget first, then the screen. ``held``: it repeats."""
+        """Do a menu action: the focused widget first, then the screen. ``held``: it repeats."""
         self.widgets_changed()
         if action == "back":
             self.chime("menu-choose")
@@ -133,7 +133,7 @@ class MenuScreen(Screen):
         elif self.focus is not None and self.focus.nudge(action):
             self.chime("menu-move")
         elif action in DIRECTIONS and not (held and action in ("left", "right")):
-            # A slider that is held down to its end keeps the focus.
+            # A held key that brings a slider to its end does not move the focus on.
             self._move(*DIRECTIONS[action])
         elif action == "next":
             self._next()
@@ -162,8 +162,8 @@ class MenuScreen(Screen):
     def _move(self, dx: int, dy: int) -> None:
         """The focus goes to the nearest widget in a direction.
 
-        Up and down stay among the widgets above and below each other; at the end they lead to the other end, or, if it
-        does not wrap, nowhere.
+        Up and down stay among the widgets above and below each other; from the last they lead to the first, or, without
+        ``wraps``, nowhere.
         """
         focus = self.focus
         if focus is None:
@@ -174,7 +174,7 @@ class MenuScreen(Screen):
         ahead = [widget for widget in others if _ahead(focus, widget, dx, dy) > 0]
 
         def distance(widget: Widget) -> float:
-            # Of several that are equally near the one whose upper edges are most alike: the first of a page.
+            # Of several at one distance the one with the most similar upper edge: the first of a page.
             edges = abs(widget.area[1] - focus.area[1])
             return _ahead(focus, widget, dx, dy) + 3 * _aside(focus, widget, dx) + 0.01 * edges
 
@@ -225,7 +225,6 @@ class MenuScreen(Screen):
             self.act(direction, held=True)
 
     def leave(self) -> None:
-        """Nothing repeats in another screen's time."""
         self._typed.end()
         self._direction.end()
         self._dragged = None
@@ -254,13 +253,13 @@ class MenuScreen(Screen):
         )
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
-        """The widgets, the focused one last since its mark stands out."""
+        """Draw the widgets, the focused one last because of its mark."""
         for widget in sorted(self.widgets, key=lambda widget: widget is self.focus):
             widget.draw(surface, self.theme, focused=widget is self.focus)
 
 
 def _ahead(start: Widget, goal: Widget, dx: int, dy: int) -> float:
-    """How far a widget lies in a direction, px, from edge to edge; not positive: not in that direction."""
+    """Distance to a widget in a direction, px, from edge to edge; not positive: not in that direction."""
     (ax, ay), (bx, by) = start.centre, goal.centre
     along = (bx - ax) * dx + (by - ay) * dy
     gap = (start.area[2] + goal.area[2]) / 2 if dx else (start.area[3] + goal.area[3]) / 2
@@ -268,7 +267,7 @@ def _ahead(start: Widget, goal: Widget, dx: int, dy: int) -> float:
 
 
 def _aside(start: Widget, goal: Widget, dx: int) -> float:
-    """How far two widgets are apart across a direction, px; 0 where they overlap."""
+    """Distance of two widgets across a direction, px; 0 where they overlap."""
     side = 1 if dx else 0
     low, high = start.area[side], start.area[side] + start.area[side + 2]
     other_low, other_high = goal.area[side], goal.area[side] + goal.area[side + 2]
@@ -280,18 +279,18 @@ ROW = 40
 
 Action = Callable[[], object]
 MenuRow = tuple[str, Action | None, str]
-"""Text, action, hint; without an action it is seen, but cannot be chosen: the hint says why."""
+"""Text, action, hint; without an action the row is disabled, and the hint says why."""
 
 
 def nothing() -> None:
-    """The action of a button that does nothing but close; what is done behind saving, as a rule."""
+    """The action of a button that only closes; the usual action after saving."""
 
 
 CANCEL: MenuRow = ("Cancel", nothing, "")
 
 
 class Panel(MenuScreen):
-    """Rows over another screen. ``row_height``: px, with the gap; ``veil``: alpha over what is below."""
+    """Rows over another screen. ``row_height``: px, with the gap; ``veil``: alpha of the shade over what is below."""
 
     see_through = True
     offers_back = False
@@ -305,7 +304,7 @@ class Panel(MenuScreen):
 
     @property
     def mood(self) -> Mood:
-        """That of the screen below, which is seen; the panel itself looks like all menus."""
+        """The mood of the screen below, which is visible; the panel itself looks like all menus."""
         return self._mood
 
     @property
@@ -350,9 +349,9 @@ class Panel(MenuScreen):
 
 
 class Menu(Panel):
-    """Some actions; each of them closes the panel first. ``then``: done when it is left by the key for back.
+    """A panel of actions; each of them closes the panel first. ``then``: called when the back key closes it.
 
-    ``at``: the row that has the focus first.
+    ``at``: the row with the focus at first.
     """
 
     def __init__(self, app: App, title: str, rows: Sequence[MenuRow], then: Action = nothing, *, at: int = 0) -> None:
@@ -382,7 +381,7 @@ class Menu(Panel):
 
 
 def ask_received(app: App, pack: str, copy: Action, change: Action) -> None:
-    """Ask whether a copy is changed of what came by a link, or that itself."""
+    """Ask whether to change a copy of what came by a link, or the original."""
     rows: list[MenuRow] = [
         ("Copy it, to change that", copy, "What was received stays as it is"),
         ("Change it all the same", change, "It is yours from now on"),
@@ -392,7 +391,7 @@ def ask_received(app: App, pack: str, copy: Action, change: Action) -> None:
 
 
 class Question(Menu):
-    """Asks before something is done that is hard to undo. No first, and up stays there: a hasty key does no harm."""
+    """Asks before an action that is hard to undo. No comes first and up does not wrap, against hasty keys."""
 
     wraps = False
 
@@ -401,9 +400,9 @@ class Question(Menu):
 
 
 class FormPanel(Menu):
-    """Fields to fill in above two buttons. ``fields``: prompt, text, how many characters fit in.
+    """Fields to fill in above two buttons. ``fields``: prompt, text, most characters.
 
-    The text of the first is a proposal.
+    The text of the first field is a proposal.
     """
 
     def __init__(
@@ -419,7 +418,7 @@ class FormPanel(Menu):
         super().__init__(app, title, [(yes, lambda: action(self.texts), ""), CANCEL])
 
     def rows(self) -> list[MenuRow]:
-        """The buttons, below as many empty rows as there are fields."""
+        """The buttons, below one empty row per field."""
         return [("", nothing, "")] * len(self._fields) + self._rows
 
     def build(self) -> Sequence[Widget]:
@@ -447,5 +446,5 @@ class FormPanel(Menu):
 def ask_text(
     app: App, title: str, prompt: str, text: str, yes: str, action: Callable[[str], object], longest: int = 100
 ) -> None:
-    """Ask for one text, at most ``longest`` characters, and do something with it."""
+    """Ask for one text, at most ``longest`` characters, and call a function with it."""
     app.push(FormPanel(app, title, [(prompt, text, longest)], yes, lambda texts: action(texts[0])))

@@ -21,7 +21,7 @@ PICTURE = 104
 
 
 class PackList(ThumbnailScreen):
-    """``choose`` gets the pack. What is typed finds those whose name, author or comment has it."""
+    """``choose`` gets the pack. Typed letters search in names, authors and comments."""
 
     title = "Your packs"
 
@@ -37,7 +37,7 @@ class PackList(ThumbnailScreen):
         return [self.list, self.field]
 
     def capture(self, event: InputEvent) -> bool:
-        """What is typed is searched for, wherever the focus is."""
+        """Typed letters go to the search, wherever the focus is."""
         if event.raw.type == pygame.TEXTINPUT and event.raw.text.strip():
             self.focus_on(self.field)
         return super().capture(event)

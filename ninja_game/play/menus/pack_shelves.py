@@ -1,4 +1,4 @@
-"""Levels as cells on shelves, which the mouse takes along."""
+"""Levels as cells in rows, which the mouse drags."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from ninja_game.ui.theme import Area, Theme, wrapped
 WIDE, HIGH = 93, 106
 
 GAP = 12
-"""px by which cards make room for one that the mouse has."""
+"""px by which cells move aside for a dragged one."""
 
 PULL = 6
-"""px that the mouse moves with its button down before it takes something along."""
+"""px that the mouse moves with its button down before a drag begins."""
 
 
 class PackCell(NamedTuple):
-    """A place on the shelves or beside them. ``episode``: None in the row for a new one; ``level``: None if free."""
+    """A cell. ``episode``: None in the row for a new one; ``level``: None if free."""
 
     episode: EpisodeIndex | None
     level: Entry | None = None
@@ -35,10 +35,10 @@ class PackCell(NamedTuple):
 
 
 class Rack(ListView):
-    """Cells that the mouse takes along: ``pull`` gets a cell and the mouse's place. A second click instead chooses.
+    """Cells to drag: ``pull`` gets a cell and the mouse's place. A second click chooses the cell instead.
 
-    ``status``: of the pack that the levels are in. ``marked``, ``lifted``: files of levels that are, and that the mouse
-    has. ``gap``: the cell before which those behind it make room, 0 for none.
+    ``status``: of the levels' pack. ``marked``, ``lifted``: files of the marked and of the dragged levels. ``gap``: the
+    cell from which on cells move aside, 0 for none.
     """
 
     def __init__(
@@ -79,7 +79,7 @@ class Rack(ListView):
         return True
 
     def release(self) -> None:
-        """The button goes up where nothing was taken along."""
+        """The button is released without a drag."""
         was_clicked, self._again = self._again, False
         if was_clicked:
             self.choose(self.index)
@@ -89,7 +89,7 @@ class Rack(ListView):
         return self.cells[self.index] if self.cells else PackCell(None)
 
     def shift(self, index: int) -> float:
-        """By how many px a cell makes room."""
+        """How far a cell moves aside, px."""
         line, first = divmod(self.gap, self.columns)
         return GAP * (0 < first <= index % self.columns and index // self.columns == line)
 

@@ -1,4 +1,4 @@
-"""How far a pack is, and what makes it ready to share, whatever screen is on top meanwhile."""
+"""The state of a pack, and the background work that makes it ready to share, on whatever screen."""
 
 from __future__ import annotations
 
@@ -26,21 +26,20 @@ from ninja_game.runtime import NewestJob, cores
 from ninja_game.sim.level import Level
 
 SECONDS, LONGER = 20.0, 300.0
-"""For each search of a run; for one that found none before."""
+"""Time for each search of a run; for one whose earlier search failed."""
 
 NOT_FOUND = "no run found"
-"""The state of a level that was searched in vain."""
+"""The state of a level whose search has failed."""
 
 NOT_CERTIFIED = ("changed", "no run yet", "stopped")
-"""States of levels of which nobody knows whether they can be passed as they are."""
+"""States of levels that may be impossible as they are."""
 
 
 class Packer(Aside):
-    """``path``: the pack that is, or was, made ready; ``text``: how that stands or ended.
+    """``path``: the pack that is or was made ready; ``text``: its progress or result.
 
-    ``share``: of its step, None where nobody knows. ``saved``: the zip that came of it. ``desk``: the screen at which a
-    link is waited for. ``steps``: what was done at the desk.
-    ``open_problems``: a pack that is ready but for problems, about which the desk asks.
+    ``share``: of the present step, None if unknown. ``saved``: the zip. ``desk``: the screen that waits for a link.
+    ``steps``: actions at that screen. ``open_problems``: a pack with nothing but problems left, about which it asks.
     """
 
     def __init__(self, app: App) -> None:
@@ -67,12 +66,12 @@ class Packer(Aside):
         self._job.ask(path)
 
     def search_longer(self, path: Path, missing: tuple[Level, str]) -> None:
-        """Make the pack ready with another search of a run that was looked for in vain."""
+        """Make the pack ready with a longer search of a run that was not found."""
         self.obstacles.pop(missing, None)
         self.start(path, LONGER)
 
     def end(self) -> None:
-        """Stop; what was found is on the disk already."""
+        """Stop; results are on the disk already."""
         if not self.busy:
             return
         self._stopped = True
@@ -109,7 +108,7 @@ class Packer(Aside):
                 self.publish(ready)
 
     def publish(self, ready: ReadyPack) -> None:
-        """Write the zip, put the link into the clipboard of who waits for it, and say so."""
+        """Write the zip, put the link into the clipboard if a screen waits for it, and show a notice."""
         app, name, waited_for = self.app, ready.pack.name, self.app.top is self.desk
         self.saved = app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
         self._zipped, self._seen = ready.zipped, None
@@ -123,7 +122,7 @@ class Packer(Aside):
         self.text = self._made = "; ".join([*notices, *ready.notes])
 
     def follow(self, pack: Pack | None) -> None:
-        """Say of the zip what is true of it. ``pack``: as its files are now, None where it is gone."""
+        """Update the text about the zip. ``pack``: with its present files, None if it is gone."""
         if pack is None:
             self.text, self.saved = "", None
         elif self.saved and pack is not self._seen:
@@ -131,13 +130,13 @@ class Packer(Aside):
             self.text = self._made if pack.files.zipped() == self._zipped else f"Changed since {self.saved.name}"
 
     def left(self) -> None:
-        """Nobody looks any more: what was said of that moment, such as of the clipboard, is not said again."""
+        """The screen was left: texts about that moment, as about the clipboard, are not shown again."""
         self._made = f"Saved: {short_path(self.saved)}" if self.saved else ""
         self.text, self._seen = self._made, None
 
 
 class Checked(NamedTuple):
-    """What was odd about a pack. ``to_do``: what Make ready does; ``places``: the files that the others are about."""
+    """The findings of a pack. ``to_do``: what Make ready does; ``places``: the files of the findings."""
 
     pack: Pack
     findings: list[PackFinding]
@@ -146,7 +145,7 @@ class Checked(NamedTuple):
 
 
 class PackStatus:
-    """``pack``: the one that is shown; ``checked``: what was found odd about it, or about how it was before."""
+    """``pack``: the shown one; ``checked``: its findings, or those of its state before."""
 
     def __init__(self, packer: Packer, catalogue: Catalogue) -> None:
         self.packer, self.catalogue = packer, catalogue
@@ -157,7 +156,7 @@ class PackStatus:
         self._checks: NewestJob[Pack, Checked] = NewestJob(self.check)
 
     def show(self, pack: EpisodeSet | None) -> None:
-        """A pack as it is now. What was searched in vain changes nothing on the disk, but what is odd."""
+        """Show the present state of a pack. A failed search changes the findings, but nothing on the disk."""
         self.pack = pack
         self._states.clear()
         question = pack and pack.pack, len(self.packer.obstacles)
@@ -167,7 +166,7 @@ class PackStatus:
             self._checks.ask(question[0])
 
     def update(self) -> bool:
-        """Whether there is news."""
+        """Whether there are new findings."""
         news = self._checks.idle and self._checks.result is not self.checked
         self.checked = self._checks.result if news else self.checked
         return news
@@ -182,12 +181,12 @@ class PackStatus:
 
     @property
     def findings(self) -> list[PackFinding] | None:
-        """What is odd about the pack as it is now; None until that is known."""
+        """The findings of the pack's present state; None until they are known."""
         checked = self.checked
         return checked.findings if checked and self.pack and checked.pack is self.pack.pack else None
 
     def to_do(self) -> str:
-        """What Make ready will do; "" for nothing."""
+        """What Make ready would do; "" for nothing."""
         levels, checked = self.pack.levels if self.pack else [], self.checked
         states = [self.state(level) for level in levels]
         known = checked.to_do if checked and self.findings is not None else []
@@ -201,7 +200,7 @@ class PackStatus:
         return f"{will} {', '.join(parts[:-1])}{' and ' * (len(parts) > 1)}{parts[-1]}" if parts else ""
 
     def state(self, level: Entry) -> str:
-        """How far a level is, in a word: its time where it is measured."""
+        """The state of a level in a word: its time if it is measured."""
         known, file = self._states.get(id(level)), Path(level.named.file)
         if known is None:
             has_certificate = (file.parent / certificate_name(file.name, "exit")).is_file()
@@ -230,7 +229,7 @@ class PackStatus:
 
 
 def packer_of(app: App) -> Packer:
-    """The program's only one."""
+    """The packer of the program."""
     for task in app.aside:
         if isinstance(task, Packer):
             return task

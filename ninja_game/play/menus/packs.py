@@ -1,4 +1,4 @@
-"""The player's packs: episodes as shelves of levels, which are dragged and made; a pack is made ready to share."""
+"""The player's packs: episodes as rows of levels, to drag and to make; a pack is made ready to share."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ from ninja_game.ui.list_view import BAR
 from ninja_game.ui.widgets import Button, Choice, Widget
 
 DELETED = "deleted"
-"""The folder among the player's files into which packs go that are deleted."""
+"""The folder of deleted packs among the player's files."""
 
 _NO_PACK = (
     "A pack is a folder with your levels in episodes.",
@@ -64,10 +64,10 @@ Edit = Callable[[Entry, Finding | None], object]
 
 
 class PackScreen(ThumbnailScreen):
-    """``pack``: the one on the shelves. ``held``: what is being moved; ``pointer``: where the mouse has it, else None.
+    """``pack``: the shown one. ``held``: what is dragged; ``pointer``: the mouse's place during a drag, else None.
 
-    ``marked``: files of levels with which is done what is done with one of them.
-    ``edit``: opens a level in the editor, at a finding.
+    ``marked``: files of the marked levels: an action on one of them is done with all of them. ``edit``: opens a level
+    in the editor, at a finding.
     """
 
     title = "Packs"
@@ -102,7 +102,7 @@ class PackScreen(ThumbnailScreen):
     # --- what there is ---
 
     def _read(self, shown: Path | None = None, *, news: bool = False) -> None:
-        """All packs as they are now; this one on the shelves, or the one before. ``news``: only if that is another."""
+        """Read all packs from the disk; show this one, or the one before. ``news``: only if that has changed."""
         before, catalogue = shown or self.path, self.player.catalogue
         catalogue.problems.clear()
         self.sets = catalogue.packs()
@@ -177,7 +177,7 @@ class PackScreen(ThumbnailScreen):
         return [*first, *share] if have else [new, paste, *[undo] * bool(steps)]
 
     def _view(self) -> None:
-        """Show the episodes of the pack; those of one's own as nobody has played them yet."""
+        """Show the episodes of the pack; those of the player's own packs as a new player sees them."""
         if self.pack:
             newcomer = None if self.pack.received else self.player.newcomer()
             self.app.push(EpisodeGrid(self.app, self.pack.key, newcomer))
@@ -218,7 +218,7 @@ class PackScreen(ThumbnailScreen):
     # --- what can be done ---
 
     def do(self, action: Callable[[], object], what: str = "") -> None:
-        """Change something on the disk, and show all as it is then. ``what``: how undo calls it; "" is no step."""
+        """Change something on the disk, and show the result. ``what``: its name for undo; "" is no step."""
         try:
             if what and not self.packer.steps.do(what, action):
                 return
@@ -231,7 +231,7 @@ class PackScreen(ThumbnailScreen):
         self.app.top.enter()
 
     def change(self, action: Callable[[], object], what: str) -> None:
-        """Change the pack on the shelves; of one that was received it is asked whether a copy is to be changed."""
+        """Change the shown pack; for a received one ask first whether to change a copy."""
         if not (self.pack and self.pack.pack and self.pack.received):
             self.do(action, what)
             return
@@ -278,7 +278,7 @@ class PackScreen(ThumbnailScreen):
         self.do(take)
 
     def _take_in(self, pack: Pack) -> None:
-        """Make a pack one of the player's that stays another's, over an older version of it if so wished."""
+        """Install a received pack among the player's, instead of an older version if the player agrees."""
 
         def receive(over: Pack | None = None) -> None:
             def copy() -> None:
@@ -322,7 +322,7 @@ class PackScreen(ThumbnailScreen):
             super().handle(event)
 
     def _form(self, first: int = 0) -> None:
-        """Ask for what the index says first; the field number ``first`` has the focus."""
+        """Ask for the texts of the index; the field number ``first`` has the focus."""
         index = Pack(self.path).index
         keys = ("name", "author", "version", "comment")
         fields = [(key.capitalize(), getattr(index, key), 200) for key in keys]
@@ -376,7 +376,7 @@ class PackScreen(ThumbnailScreen):
 
     @property
     def _next_name(self) -> str:
-        """What a new episode is called until it has a name of its own."""
+        """The default name of a new episode."""
         return f"Episode {sum(cell.head for cell in self.shelves.cells)}"
 
     def _column(self) -> int:
@@ -414,7 +414,7 @@ class PackScreen(ThumbnailScreen):
         self.app.push(Menu(self.app, title, [*rows, CANCEL]))
 
     def _away(self, cell: PackCell) -> Callable[[], object] | None:
-        """What takes a level out of its episode, or one of the player's in none off the disk; None for any other."""
+        """Takes a level out of its episode, or deletes one of the player's in none; None for any other level."""
         levels = self._taken(cell.level) if cell.level else []
         title = _called(levels)
         if levels and all(Path(each.named.file).parent == self.path and each.episode for each in levels):
@@ -467,24 +467,24 @@ class PackScreen(ThumbnailScreen):
         self.app.push(Menu(self.app, title, rows))
 
     def _set_aside(self, action: Callable[[], object], what: str) -> None:
-        """Take levels out of their episode, and show where they are then."""
+        """Take levels out of their episode, and show them in their new place."""
         self.beside = "none"
         self.change(action, f"Take out {shown_text(what)}")
 
     # --- several at once ---
 
     def _levels(self, rack: Widget | None = None) -> list[Entry]:
-        """Those in view, in order; of one rack, or of both."""
+        """The visible levels, in order, of one row or of both."""
         racks = [each for each in (self.shelves, self.tray) if rack in (None, each)]
         return [cell.level for each in racks for cell in each.cells if cell.level]
 
     def _taken(self, level: Entry) -> list[Entry]:
-        """The levels with which is done what is done with this: all that are marked, if it is one of them."""
+        """The levels for an action on this one: all marked ones, if it is marked."""
         marked = [each for each in self._levels() if each.named.file in self.marked]
         return marked if level.named.file in self.marked else [level]
 
     def _mark(self, x: float, y: float) -> bool:
-        """Mark levels where Ctrl or Shift is down; whether it was. A click on another than those marked ends that."""
+        """Mark levels where Ctrl or Shift is down; whether it was. A click on an unmarked level clears the marks."""
         mods, rack = pygame.key.get_mods(), self._at(x, y)
         if not isinstance(rack, Rack) or (index := rack.at(x, y)) is None:
             return False
@@ -505,7 +505,7 @@ class PackScreen(ThumbnailScreen):
     # --- moving ---
 
     def _pull(self, cell: PackCell, pointer: tuple[float, float]) -> None:
-        """The mouse takes a cell along, or moves on with it."""
+        """Begin or continue to drag a cell."""
         if self.held is None and (cell.level or (cell.head and cell.episode)):
             self.held = cell
         self.pointer = pointer if self.held else None
@@ -535,12 +535,12 @@ class PackScreen(ThumbnailScreen):
             self.change(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
 
     def _is_after(self, index: int) -> bool:
-        """Whether the mouse is over the right half of a cell: what it has lands behind what is there."""
+        """Whether the mouse is over the right half of a cell: a dropped level lands behind that cell."""
         left, _, w, _ = self.shelves.row_area(index)
         return self.pointer is not None and self.pointer[0] > left + w / 2
 
     def _landing(self) -> tuple[int, bool] | None:
-        """Beside which cell the level that is held would land, and whether behind it."""
+        """The cell beside which the dragged level would land, and whether behind it."""
         over = self.shelves.at(*self.pointer) if self.pointer else self.shelves.index
         if over is None or not (self.held and self.held.level):
             return None
@@ -616,7 +616,7 @@ class PackScreen(ThumbnailScreen):
     def _problem(self, pack: Pack, finding: PackFinding) -> Problem:
         file = file_of(pack, finding)
         entry, why = self._entry(level_of(pack, file)), obstacle_of(pack, finding, self.packer.obstacles)
-        # Files count columns and episodes from 0; what is behind the semicolon is about files.
+        # Files count columns and episodes from 0; the text behind the semicolon is about files.
         text = re.sub(r"((?:column|episode) )(\d+)", lambda n: f"{n[1]}{int(n[2]) + 1}", finding.text.partition(";")[0])
         text = text[:1].upper() + text[1:]
         go: Callable[[], object] | None = self._about if file == INDEX else None
@@ -638,7 +638,7 @@ class PackScreen(ThumbnailScreen):
         return Problem(text, why.hint if why else finding.hint, go, accept_it, search=longer)
 
     def _edit_at(self, entry: Entry, known: Finding | None, sentence: str) -> None:
-        """Edit a level at what is odd about it, ``known`` or what is said of it so."""
+        """Edit a level at a finding: ``known``, or the one with this text."""
         odd = level_findings(entry.named.level, entry.named.says) if known is None else ()
         self._edit(entry, known or next((finding for finding in odd if finding.sentence == sentence), None))
 

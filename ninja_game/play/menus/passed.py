@@ -1,4 +1,4 @@
-"""An episode has been passed: its levels, its score, and what that has brought."""
+"""The screen after a passed episode: its levels, its score, and what it unlocked."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ from ninja_game.view.sprites.light import LightStyle, light_picture
 PICTURE = 132
 
 LEVEL_TICKS, FEAST_TICKS = 8, 130
-"""The marks of the levels come one after the other, so many ticks apart; then the medal is stamped, papers fly, light
-sweeps over it as over a level's; and all of it is over."""
+"""Ticks between the marks of two levels; ticks of the show after them: the medal is stamped, papers fly, light moves.
+"""
 
 PAPERS, PRIZE, MIDDLE = 70, 64.0, 318.0
-"""How many papers fly; size of the medal that all levels have, and the height, px, at which it and the score stand."""
+"""Number of papers; size of the medal of all levels; height of the medal and the score, px."""
 
 GLOW = LightStyle("gold_light", 230, 110)
 """The light behind the score."""
@@ -46,7 +46,7 @@ CLOCK = "What was left on the clock after the last level"
 class EpisodePassed(ThumbnailScreen):
     """Shown after an episode's last level. Space goes on to the next episode, which ``play`` begins.
 
-    ``medal``: what all its levels have, or better; "" where one has none.
+    ``medal``: the worst medal of its levels; "" where one has none.
     """
 
     def __init__(self, app: App, run: EpisodeSession, play: Callable[[EpisodeSession], object]) -> None:
@@ -64,7 +64,7 @@ class EpisodePassed(ThumbnailScreen):
         return LEVEL_TICKS * len(self.run.episode.levels)
 
     def update(self, real_ms: int) -> None:
-        """Let the feast go on: a note for each level, the medal's stamp, papers; all at once in reduced motion."""
+        """Continue the show: a note for each level, the medal's stamp, papers; all at once with reduced motion."""
         super().update(real_ms)
         before, settings = self.ticks, self.app.settings
         if before >= FEAST_TICKS:

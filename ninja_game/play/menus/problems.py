@@ -1,4 +1,4 @@
-"""A list of problems, each with its whole text, how to mend it, and a way to its place."""
+"""A list of problems, each with its whole text, how to fix it, and a button to its place."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from ninja_game.ui.widgets import Button, Widget
 ROW = 33
 SEARCH = "Search for 5 minutes"
 LONGEST = 900
-"""Characters of a problem that are shown, more than any message of the program has."""
+"""Most characters of a problem that are shown; no message of the program has more."""
 
 
 class Problem(NamedTuple):
-    """``text``: where and what; ``hint``: how to mend it. ``go``: leads to its place, ``accept``: lets it be.
+    """``text``: where and what; ``hint``: how to fix it. ``go``: leads to its place, ``accept``: accepts it as it is.
 
     ``accepted``: it is accepted already, and ``accept`` takes that back. ``search``: gives the solver more time.
     ``to_do``: no problem, but work that nobody has begun.
@@ -37,7 +37,7 @@ class Problem(NamedTuple):
 
 
 class ProblemsScreen(MenuScreen):
-    """``find``: the problems as they are now, asked whenever the screen is entered."""
+    """``find``: gives the present problems, called whenever the screen is entered."""
 
     title = "Problems"
 

@@ -36,9 +36,9 @@ from ninja_game.ui.widgets import Choice, Widget
 
 ROW = 34
 FIRST_SECONDS, MORE_SECONDS = 0.05, 0.008
-"""How long files are read when the screen opens, and in each picture after that."""
+"""Seconds for reading files when the screen opens, and in each picture after that."""
 FILES_SHOWN = 300
-"""Recordings read from the player's folder at most."""
+"""Most recordings read from the player's folder."""
 
 
 OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}
@@ -50,7 +50,7 @@ HINT = "Enter to watch, Delete to remove, E to save as a text file, C to copy a 
 
 
 class ReplayRow(NamedTuple):
-    """A replay: what it is called, whose, how it ended, when; and where it is."""
+    """A replay: title, player, result, date; and its place."""
 
     text: str
     who: str
@@ -61,7 +61,7 @@ class ReplayRow(NamedTuple):
 
 
 class ReplaysScreen(MenuScreen):
-    """All replays. Delete removes one of the records that no best needs. ``hint``, ``empty``: the list's."""
+    """All replays. Delete removes one of the records that no best needs. ``hint``, ``empty``: of the list."""
 
     title = "Replays"
     heads = "Level", "Player", "Result, time", "From"
@@ -109,7 +109,7 @@ class ReplaysScreen(MenuScreen):
         self.list.fill(self.rows)
 
     def _read_files(self, seconds: float) -> bool:
-        """Read files for so long; whether there were any left."""
+        """Read files for a number of seconds; whether any are left."""
         end, before = perf_counter() + seconds, len(self._files)
         while perf_counter() < end and (rows := next(self._unread, None)) is not None:
             self._files += rows
@@ -128,7 +128,7 @@ class ReplaysScreen(MenuScreen):
         return [("Your folder", files_below(self.player.replay_folder)), ("Included", self.bundled())]
 
     def bundled(self) -> list[Path]:
-        """The authors' runs of the levels in which a gold medal has opened them."""
+        """The authors' runs of the levels where a gold medal has unlocked them."""
         marks = self.player.marks.all()
         levels = self.player.catalogue.ours.levels if marks else []
         opened = {Path(level.named.file).stem for level in levels if opens_author(level, marks.get(level.digest))}
@@ -246,14 +246,14 @@ def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
 
 
 def result_of(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:
-    """What a passed run took, of any other how it ended; and its time."""
+    """The time of a passed run; of any other one its outcome and time."""
     taken = "all gold" if gold == all_gold > 0 else f"{gold} gold" if gold else "exit"
     what = taken if outcome == "exit" else OUTCOMES[outcome]
     return f"{what}, {seconds_text(final_tick + (outcome == 'running'))} s"
 
 
 def watch(app: App, replays: Iterable[Replay | None]) -> bool:
-    """Watch replays of the records one after another; whether there were any. Those that have gone are left out."""
+    """Watch replays of the records one after another, without deleted ones; whether there were any."""
     runs = [Recording(replay.level, replay) for replay in replays if replay is not None and replay.level is not None]
     if runs:
         app.push(ReplayScreen(app, runs))
@@ -261,7 +261,7 @@ def watch(app: App, replays: Iterable[Replay | None]) -> bool:
 
 
 def watch_recording(app: App, recording: Recording) -> None:
-    """Watch a recording from a file; a notice says why where its level cannot be played."""
+    """Watch a recording from a file; a notice says why its level cannot be played."""
     try:
         app.push(ReplayScreen(app, [recording]))
     except LevelError as error:
@@ -273,7 +273,7 @@ SIDE, SIDE_WIDTH = 528, 228
 
 
 class RecordRow(NamedTuple):
-    """A record: what, an episode's clock or a level's time ("": not passed), its replays, whether it heads a group."""
+    """A record: title, an episode's clock or a level's time ("": not passed), its replays, whether it heads a group."""
 
     text: str
     score: str

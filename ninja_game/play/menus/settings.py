@@ -26,7 +26,7 @@ from ninja_game.ui.widgets import TEXT, Button, Choice, Label, Slider, Widget
 
 
 def clash(first: str, second: str) -> bool:
-    """Whether two actions must not have the same input: other ones, read on one screen, that share none by default."""
+    """Whether two actions must not share an input: both are read on one screen, and share none by default."""
     a, b = ACTIONS[first], ACTIONS[second]
     if first == second or {a.where, b.where} == {"level", "replay"}:
         return False
@@ -38,7 +38,7 @@ def input_label(device: str, name: str) -> str:
 
 
 class Capture(Screen):
-    """Waits for one press, which becomes the input. Esc leaves all as it was."""
+    """Waits for one press, which becomes the input. Esc cancels."""
 
     see_through = True
 
@@ -82,7 +82,7 @@ LABEL_SHARE = 0.34
 
 def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
     actions = [name for name in ACTIONS if device == "keys" or ACTIONS[name].pad or name in ("quit", "skip", "boss")]
-    # The same one again after a press was taken, so that the selection stays.
+    # The same table after a press, so that the selection stays.
     table = screen.tables.setdefault(device, BindingTable(screen, device, actions))
     widgets: list[Widget] = [
         table,
@@ -104,7 +104,7 @@ def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
 
 
 class BindingTable(ListView):
-    """One row an action, one cell an input. Left and right choose the cell, Enter waits for a press, Delete clears."""
+    """A row per action, a cell per input. Left and right choose the cell, Enter waits for a press, Delete clears."""
 
     def __init__(self, screen: SettingsScreen, device: str, actions: list[str]) -> None:
         super().__init__(LIST, ROW, self._draw_action, self._capture)
@@ -123,7 +123,7 @@ class BindingTable(ListView):
         return ACTIONS[action].keys if self.device == "keys" else ACTIONS[action].pad
 
     def bind(self, action: str, inputs: tuple[str, ...]) -> None:
-        """Give an action other inputs; where they are the default ones nothing is stored."""
+        """Give an action other inputs; default ones are not stored."""
         changed = {**getattr(self.screen.player.settings, self.device), action: inputs}
         if inputs == self._default(action):
             del changed[action]
@@ -145,7 +145,7 @@ class BindingTable(ListView):
 
     def click(self, x: float, y: float) -> bool:
         left, width = self._cells()
-        if x < left:  # the name of the row: only a slot waits for a press
+        if x < left:  # the row's name, which waits for no press
             return self.hover(x, y)
         if x < left + self.slots * width:
             self.slot = int((x - left) // width)
@@ -159,9 +159,9 @@ class BindingTable(ListView):
         self.screen.app.push(Capture(self, self.actions[index], self.slot))
 
     def taken(self, action: str, slot: int, name: str) -> None:
-        """An input was pressed for an action: use it, unless other actions have it; then the player chooses.
+        """Use a pressed input for an action; if other actions have it, the player chooses.
 
-        To leave it comes first, so that a hasty key does no harm.
+        Cancel comes first, against hasty keys.
         """
         if not bindable(action, name, MENU_KEYS if self.device == "keys" else MENU_PAD):
             self.screen.app.notify(f"{input_label(self.device, name)} works the menus: choose another one")
@@ -182,7 +182,7 @@ class BindingTable(ListView):
         self.screen.app.push(Menu(self.screen.app, f"{input_label(self.device, name)} already means {labels}", rows))
 
     def put(self, action: str, slot: int, name: str) -> None:
-        """Put an input in its place; twice in one row is once."""
+        """Put an input in its place; one that is twice in a row is kept once."""
         inputs = [input_ for input_ in self.inputs(action) if input_ != name]
         inputs[slot : slot + 1] = [name]
         self.bind(action, tuple(inputs[: self.slots]))
@@ -247,7 +247,7 @@ class SettingsScreen(ThumbnailScreen):
         self.focus_on(next(widget for widget in self.widgets[1:] if widget.focusable))
 
     def back(self) -> None:
-        """One step: from a page to the list of pages, from there out."""
+        """One step back: from a page to the list of pages, from there out."""
         if self.focus is self.tabs:
             super().back()
         else:
@@ -257,7 +257,7 @@ class SettingsScreen(ThumbnailScreen):
         self.app.change_settings(**values)
 
     def _area(self) -> Area:
-        """Of the next row of the page."""
+        """The area of the next row of the page."""
         return LEFT, TOP + STEP * next(self._rows), WIDTH_OF_ROW, HEIGHT_OF_ROW
 
     def _choice(
@@ -273,7 +273,7 @@ class SettingsScreen(ThumbnailScreen):
         )
 
     def _slider(self, text: str, name: str, hint: str = "") -> Slider:
-        """One for a number; volumes, stored as 0 to 99, are heard at once."""
+        """A slider for a number; volumes, stored as 0 to 99, are heard at once."""
         volume = name.endswith("volume")
 
         def put(value: float) -> None:
@@ -369,7 +369,7 @@ class SettingsScreen(ThumbnailScreen):
         canvas, palette = self.app.canvas, self.app.theme.palette
         canvas.fill_rect(surface, palette.panel_edge, 204, 64, 1, 490)
         if self.page == "Picture":
-            # What the palette does: the first level of each column in it.
+            # A preview of the palette: the first level of each column.
             episodes = self.player.catalogue.episodes
             firsts = [episodes[episode].levels[0] for episode in sorted(episodes) if episode % EPISODES_PER_COLUMN == 0]
             for place, entry in enumerate(firsts[:5]):

@@ -1,4 +1,4 @@
-"""Small pictures of levels on screens, made a few at a time, so that opening a screen never waits for them."""
+"""Small pictures of levels, made a few per picture, so that no screen waits for them when it opens."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ninja_game.ui.theme import Theme
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 BUDGET = 0.006
-"""Seconds a picture may cost beyond its first thumbnail."""
+"""Seconds per picture that may go to thumbnails after the first."""
 
 MOST_KEPT = 600
 
@@ -29,7 +29,7 @@ Key = tuple[str, int, str]
 
 
 class Thumbnails:
-    """Pictures of levels by level, width and palette. Ask ``get`` while drawing, call ``work`` once a picture."""
+    """Pictures of levels by level, width and palette. Call ``get`` while drawing, ``work`` once per picture."""
 
     def __init__(self, app: App) -> None:
         self.app = app
@@ -37,7 +37,7 @@ class Thumbnails:
         self._wanted: dict[Key, Entry] = {}
 
     def get(self, entry: Entry, width: float) -> pygame.Surface | None:
-        """The picture of a level, ``width`` logical px wide; None if it has yet to be made."""
+        """The picture of a level, ``width`` logical px wide; None if it is not made yet."""
         palette = self.app.palette_in(entry.mood)
         key = entry.digest, self.app.canvas.px(width), palette.name
         if key not in self._made:
@@ -45,7 +45,7 @@ class Thumbnails:
         return self._made.get(key)
 
     def work(self) -> bool:
-        """Make some of the pictures that were asked for; whether there are new ones."""
+        """Make some of the requested pictures; whether there are new ones."""
         start = perf_counter()
         made = False
         while self._wanted and (not made or perf_counter() - start < BUDGET):
@@ -92,7 +92,7 @@ class ThumbnailScreen(MenuScreen):
 def all_gold_and_medal(
     surface: pygame.Surface, theme: Theme, entry: Entry, mark: Mark | None, right: float, middle: float
 ) -> None:
-    """The medal of a level, its middle at ``right``, and left of it the mark for all gold; nothing where none is."""
+    """The medal of a level, centred at ``right``, and left of it the mark for all gold; nothing without a medal."""
     medal = medal_of(entry, mark)
     if medal:
         draw_medal(surface, theme, medal, right, middle)
@@ -113,7 +113,7 @@ def draw_pars(
     y: float,
     medals: Sequence[str] = MEDALS,
 ) -> None:
-    """Pars in a row, those reached in a tick filled."""
+    """Draw pars in a row; those that a tick reaches are filled."""
     if pars is None:
         return
     for medal in medals:

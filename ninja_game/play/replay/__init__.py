@@ -1,1 +1,1 @@
-"""The screen on which a replay is watched, and its export."""
+"""The replay viewer, and its export."""

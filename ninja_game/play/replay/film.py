@@ -1,4 +1,4 @@
-"""Films of recordings: what is in their pictures, and how they are written."""
+"""Films of recordings: their pictures, and how they are written."""
 
 from __future__ import annotations
 
@@ -34,29 +34,29 @@ if TYPE_CHECKING:
     from ninja_game.runs.compare import RunSplits
 
 _TAIL = TICKS_PER_SECOND
-"""Ticks after the end that a film shows."""
+"""Ticks that a film shows after the end."""
 
 MOST_PICTURES = 20_000
-"""Pictures of a film whose last tick nobody named: more than eight minutes."""
+"""Most pictures of a film without a given last tick: more than eight minutes."""
 
 
 SHOWN_SPLITS = 3  # the last ones of a run, at most
-LETTERS = 12.0  # the least size of what is written above and below the level, px: films are small
-MOST_LETTERS = 18.0  # the greatest, for which there is room in the border, px of the level
+LETTERS = 12.0  # least size of the letters above and below the level, px: films are small
+MOST_LETTERS = 18.0  # the greatest, for which the border has room, px of the level
 
 
 class _StoppedError(Exception):
-    """The film was given up."""
+    """The film was cancelled."""
 
 
 @dataclass(frozen=True)
 class Film:
-    """What a film shows: a run from the moment after ``first`` ticks to that after ``last`` (None: to its end and on).
+    """What a film shows: a run from ``first`` ticks to ``last`` (None: to its end and a second more).
 
-    ``size``: px of a run's picture. ``speed``: 1 is that of the game. ``ghosts``: runs on the same level that go along;
-    ``beside``: up to three more of it, each in a picture of its own. ``keys``, ``splits``: whether the keys that are
-    down are shown, and time and splits, those of gold with ``gold``, with how many ticks other runs are later.
-    ``known``: its moments, where they are known already.
+    ``size``: px of a run's picture. ``speed``: 1 is that of the game. ``ghosts``: runs on the same level in the same
+    picture; ``beside``: up to three more runs, each in a picture of its own. ``keys``, ``splits``: show the keys that
+    are down; show time and splits, with ``gold`` those of gold too, and by how many ticks other runs are later.
+    ``known``: its moments, if they are known already.
 
     Raises ArgumentError for a section that is empty or begins after the end, and for one without ``last`` in which the
     runs have more than MOST_PICTURES together.
@@ -82,7 +82,7 @@ class Film:
 
     @cached_property
     def moments(self) -> range:
-        """The ticks after which there is a picture. Raises LevelError for a level that cannot be played."""
+        """The ticks with a picture. Raises LevelError for a level that cannot be played."""
         if self.known is not None:
             return self.known
         runs = self.run, *self.beside
@@ -101,14 +101,14 @@ class Film:
 
 
 def length_of(films: Sequence[Film]) -> int:
-    """The number of their pictures. Raises what ``Film.moments`` does."""
+    """The number of pictures of films. Raises as ``Film.moments`` does."""
     return sum(len(film.moments) for film in films)
 
 
 def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film]:
-    """The part of consecutive films between two pictures, counted from 0 over all. ``last``: None: the end.
+    """A section of consecutive films between two pictures, counted from 0 over all. ``last``: None: the end.
 
-    Raises ArgumentError for an empty part.
+    Raises ArgumentError for an empty section.
     """
     sections, before = [], 0
     for film in films:
@@ -124,7 +124,7 @@ def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film
 
 
 class _Panel:
-    """A run in a picture of its own. ``splits``: tick and text of each of its splits."""
+    """A run in its own picture. ``splits``: tick and text of each of its splits."""
 
     def __init__(self, film: Film, run: Recording, splits: Sequence[tuple[int, str]]) -> None:
         context = OffscreenContext(film.size, film.settings)
@@ -170,7 +170,7 @@ class _Panel:
 
 
 def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
-    """Tick and text of each split of a run: how many ticks later (+) or earlier (-) the others have it."""
+    """Tick and text of each split of a run: by how many ticks others are later (+) or earlier (-) there."""
     texts, names = [], names_of([run.recording for run in (own, *others)])[1:]
     for split in own.splits:
         words = [split.name]
@@ -182,7 +182,7 @@ def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, 
 
 
 def film_pictures(film: Film) -> Iterator[pygame.Surface]:
-    """One picture a tick, always the same surface. Raises what ``Film.moments`` does."""
+    """One picture per tick, always on the same surface. Raises as ``Film.moments`` does."""
     moments, (w, h), runs = film.moments, film.size, (film.run, *film.beside)
     splits: list[list[tuple[int, str]]] = [[]] * len(runs)
     if film.splits:
@@ -211,9 +211,9 @@ def write_film(
 ) -> bool:
     """Write films, one after the other, to ``path``: a .gif, .webm, .mp4, or without suffix a folder of PNG pictures.
 
-    Size, speed and colours are those of the first. ``report`` gets how many pictures are made so far, and of how many;
-    where it gives False, the film is given up: then this gives False and leaves no file. Raises NinjaGameError for
-    another suffix, MissingExtraError, OSError, what ``Film.moments`` does.
+    Size, speed and colours are those of the first. ``report`` gets the numbers of pictures made and to make; if it
+    gives False, the film is cancelled: this gives False and leaves no file. Raises NinjaGameError for another suffix,
+    MissingExtraError, OSError, and as ``Film.moments`` does.
     """
     first, count = films[0], length_of(films)
 
@@ -239,16 +239,16 @@ def write_film(
 
 
 _SHORTEST_MS = 20
-"""Players of GIFs show no picture for a shorter time."""
+"""Shortest time of a picture that players of GIFs respect."""
 _LONG_FILM = 600
-"""Ticks beyond which a GIF leaves every second one out."""
+"""A GIF of more ticks has a picture only every second tick."""
 _MOST_A_SECOND = 60
-"""Pictures a second of a video; a faster one leaves some out."""
+"""Most pictures per second of a video; a faster one skips some."""
 _VIDEO: dict[str, tuple[str, dict[str, object]]] = {
     ".webm": ("libvpx-vp9", {"crf": "24", "b:v": "0", "deadline": "good", "cpu-used": "5"}),
     ".mp4": ("libx264", {"crf": "20"}),
 }
-"""By suffix the encoder of a video and its options, which lose little."""
+"""By suffix a video's encoder and its options, for high quality."""
 
 
 def write_gif(
@@ -260,7 +260,7 @@ def write_gif(
     palette: Palette,
     ghosts: int = 0,
 ) -> None:
-    """Write ``length`` pictures of ``size`` px, one a tick, as a GIF in the colours of a palette, and of some ghosts.
+    """Write ``length`` pictures of ``size`` px, one per tick, as a GIF with the colours of a palette and of ghosts.
 
     Raises OSError, and NinjaGameError in a page, which has no library for GIFs.
     """
@@ -269,7 +269,7 @@ def write_gif(
 
     tick_ms = 1000 / TICKS_PER_SECOND / speed
     every = max(2 if length > _LONG_FILM else 1, round(_SHORTEST_MS / tick_ms + 0.49))
-    # A GIF counts hundredths of a second: what one picture lacks, the next one gets.
+    # A GIF counts hundredths of a second: the rounding error of a picture is added to the next one.
     ends = [round(number * every * tick_ms / 10) for number in range(-(-length // every) + 1)]
     durations = [10 * (end - start) for start, end in pairwise(ends)]
     colours = Image.new("P", (1, 1))
@@ -289,9 +289,9 @@ def write_gif(
 
 
 def write_video(pictures: Iterator[pygame.Surface], path: Path, size: tuple[int, int], speed: float) -> None:
-    """Write pictures of ``size`` px, one a tick, as a WebM (VP9) or MP4 (H.264).
+    """Write pictures of ``size`` px, one per tick, as a WebM (VP9) or MP4 (H.264).
 
-    Raises MissingExtraError without PyAV or its encoder, ArgumentError for a size in odd px, OSError.
+    Raises MissingExtraError without PyAV or its encoder, ArgumentError for an odd width or height, OSError.
     """
     codec, options = _VIDEO[path.suffix]
     try:
@@ -328,9 +328,9 @@ def write_folder(pictures: Iterator[pygame.Surface], path: Path) -> None:
 
 
 def film_colours(palette: Palette, ghosts: int = 0) -> list[int]:
-    """The 256 colours of a film, as red, green, blue, …: those of palette and ghosts, what lies between them at edges.
+    """The 256 colours of a film, as red, green, blue, …: those of palette and ghosts, and blends for edges.
 
-    The same ones in every picture, so that nothing flickers.
+    They are the same in every picture, so that nothing flickers.
     """
     roles = [getattr(palette, role) for role in ROLES]
     colours = [*roles]
@@ -349,7 +349,7 @@ def film_colours(palette: Palette, ghosts: int = 0) -> list[int]:
 
 
 class FilmJob:
-    """A film made in the background. ``done`` and then ``result``, a sentence for the player.
+    """A film made in the background. ``done``, and then ``result``, a sentence for the player.
 
     ``folder``: the player's.
     """

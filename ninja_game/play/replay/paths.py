@@ -41,7 +41,7 @@ def paths_picture(level: Level, paths: Sequence[Path], palette: Palette, width: 
 def draw_path(
     surface: pygame.Surface, canvas: Canvas, positions: NDArray[np.float64], colour: pygame.Color, width: float = 1.5
 ) -> pygame.Rect:
-    """A path as a line, ``width`` logical px wide, over a picture of its level; the px that it covers."""
+    """Draw a path, ``width`` logical px wide, over a picture of its level; the px that it covers."""
     if len(positions) < 2:
         return pygame.Rect(0, 0, 0, 0)
     x, y = (positions * canvas.scale + canvas.origin).T.tolist()

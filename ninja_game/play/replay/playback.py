@@ -1,4 +1,4 @@
-"""Recorded inputs played on a level, tick by tick or to any of their moments; as ghosts; and real time as ticks."""
+"""Recorded inputs played on a level, with seeking; ghosts; real time as ticks."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from ninja_game.view.sprites.drawing import is_near
 
 
 class Playback:
-    """Plays inputs on a simulation; in ticks beyond them no key is down.
+    """Plays inputs on a simulation; after their last tick no key is down.
 
-    ``inputs`` may grow while it plays. ``spacing``: ticks between the save-states that make seeking quick; 0: only the
-    start is kept. ``states``: those of another playback of the same inputs, which both use from now on.
+    ``inputs`` may grow during playback. ``spacing``: ticks between the save-states that make seeking fast; 0: only the
+    start is kept. ``states``: of another playback of the same inputs, to be shared with it.
     """
 
     def __init__(
@@ -39,7 +39,7 @@ class Playback:
     ) -> None:
         self.simulation = simulation
         self.inputs = inputs
-        # A save-state holds the inputs that led to it too, a byte each.
+        # A save-state also holds its inputs so far, one byte per tick.
         values = tick_cost(simulation.level) + len(inputs) // 250
         self._states = states or SaveStates(simulation.tick, simulation.save(), spacing=spacing, values=values)
 
@@ -55,16 +55,16 @@ class Playback:
         self.note()
 
     def note(self) -> None:
-        """Keep this moment if it is due: for ticks that were not played by ``step``."""
+        """Keep a save-state if it is due: for ticks that ``step`` has not played."""
         if self._states.wants(self.simulation.tick):
             self._states.keep(self.simulation.tick, self.simulation.save())
 
     def forget_after(self, tick: int) -> None:
-        """Drop the moments after a tick: from there the run goes another way."""
+        """Drop the save-states after a tick: the inputs differ from there on."""
         self._states.forget_after(tick)
 
     def seek(self, tick: int, most: int = MAX_TICKS) -> int:
-        """Go to the moment after this many ticks, or as near as ``most`` ticks lead; how many of them are left."""
+        """Seek to a tick, simulating at most ``most`` ticks; the number of ticks that are left."""
         run = self.simulation
         nearest, state = self._states.nearest(tick)
         if not nearest <= run.tick <= tick:
@@ -77,7 +77,7 @@ class Playback:
     def find_end(self, most: int = MAX_TICKS + 1) -> int | None:
         """The tick of the exit contact or death, or the last one of the inputs: plays to it from the present moment.
 
-        None where it is not reached within ``most`` ticks.
+        None if it is not reached within ``most`` ticks.
         """
         run = self.simulation
         while run.outcome == "running" and run.tick <= len(self.inputs) and most:
@@ -88,7 +88,7 @@ class Playback:
         return len(self.inputs) if run.tick > len(self.inputs) else None
 
     def beside(self) -> Playback:
-        """A playback of the same inputs at the same moment in a world of its own; both use the same save-states."""
+        """A playback of the same inputs at the same moment in its own world; both share the save-states."""
         run = self.simulation
         other = Simulation(run.level, body=run.body)
         other.restore(run.save())
@@ -96,11 +96,11 @@ class Playback:
 
 
 class Ghost:
-    """One recording, ticking along.
+    """A recording that runs along with another one.
 
-    ``behind``: ticks that it lags behind after a leap: it catches up by the work of a turn with each tick. Not
-    ``alone``: only when it is told to. ``pace``: its ticks for each tick of the clock. ``shade``: its colour, None: the
-    palette's for ghosts; ``name``: stands above it.
+    ``behind``: ticks to catch up after a seek, a turn's work per tick. ``alone``: it catches up by itself; else only
+    when called. ``pace``: its ticks for each tick of the clock. ``shade``: its colour, None: the palette's for ghosts;
+    ``name``: stands above it.
     """
 
     def __init__(
@@ -132,7 +132,7 @@ class Ghost:
 
     @property
     def over(self) -> bool:
-        """Whether it has reached its end; it then stays where it is."""
+        """Whether it has reached its end, where it stays."""
         return self.simulation.world.ninja.state in {DEAD, CELEBRATING}
 
     def on_tick(self) -> None:
@@ -149,7 +149,7 @@ class Ghost:
                 self._now = self._place()
 
     def on_seek(self, tick: int) -> None:
-        """Be where the recording is after that many ticks, or on the way to there."""
+        """Seek to a tick of the recording, or begin to catch up."""
         tick, self._due = int(tick * self.pace), tick * self.pace % 1
         if tick < self.simulation.tick or self.over:
             self._playback.seek(0)
@@ -157,7 +157,7 @@ class Ghost:
         self.catch_up(self._turn)
 
     def catch_up(self, most: int) -> int:
-        """Go on after a leap for this many ticks at most; how many it was."""
+        """Catch up by this many ticks at most; the number simulated."""
         before = self.simulation.tick
         ticks = min(self.behind, most)
         self.behind -= ticks
@@ -178,20 +178,20 @@ class Ghost:
         return self.shade or palette.ghost
 
 
-LONGEST_NAME = 28  # letters of a run's name among others
+LONGEST_NAME = 28  # most letters of a run's name among others
 
 
 def names_of(runs: Sequence[Recording]) -> list[str]:
-    """The label of each run: its player; of several by one player the file."""
+    """The label of each run: its player, or its file for several runs of one player."""
     names = [run.whose for run in runs]
     labels = [run.place or name if names.count(name) > 1 else name for run, name in zip(runs, names, strict=True)]
     return [name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 3]}..." for name in labels]
 
 
 def ghosts_of(runs: Sequence[Recording], among: Sequence[Recording] = (), *, alone: bool = True) -> list[Ghost]:
-    """Runs that go along, each with its name and a colour of its own; ``alone``: as of Ghost.
+    """Ghosts of runs, each with its name and a colour of its own; ``alone``: as of Ghost.
 
-    ``among``: each keeps the colour that it has by its place among these (on a page of the board, in its picture).
+    ``among``: each gets the colour of its place among these (on a page of the board, in its picture).
     """
     numbers = {id(run): number for number, run in enumerate(among or runs)}
     colours = [RUN_COLOURS[numbers[id(run)] % len(RUN_COLOURS)] for run in runs]
@@ -204,7 +204,7 @@ def ghosts_of(runs: Sequence[Recording], among: Sequence[Recording] = (), *, alo
 def draw_names(
     surface: pygame.Surface, theme: Theme, ghosts: Iterable[Ghost], fraction: float, size: float = 9.0
 ) -> list[pygame.Rect]:
-    """Draw the names of ghosts above them, one that would cover another higher; where, px.
+    """Draw the names of ghosts above them, higher where one would cover another; their rectangles, px.
 
     ``size``: of the letters, px of the level.
     """
@@ -222,15 +222,13 @@ def draw_names(
 
 
 LONGEST_MS = 2000
-"""More than this in one picture is a stall: it counts as one tick and is not caught up."""
+"""A longer picture is a stall: it counts as one tick and is not caught up."""
 
 
 class RunClock:
-    """Counts real time and says how many ticks are due; the remainder is kept.
+    """Counts real time and gives the number of due ticks; the remainder is kept.
 
-    >>> clock = RunClock()
-    >>> [clock.ticks_due(ms) for ms in (24, 1, 60, 5000)]
-    [0, 1, 2, 1]
+    >>> clock = RunClock() >>> [clock.ticks_due(ms) for ms in (24, 1, 60, 5000)] [0, 1, 2, 1]
     """
 
     def __init__(self) -> None:
@@ -238,11 +236,11 @@ class RunClock:
         self.tick_ms = TICK_MS
 
     def reset(self) -> None:
-        """Start afresh: when play starts, on unpausing, on starting a replay."""
+        """Reset the clock: when play or a replay starts, and after a pause."""
         self.remainder = 0
 
     def ticks_due(self, real_ms: int, tick_ms: int = TICK_MS) -> int:
-        """How many ticks to run now that ``real_ms`` have passed; ``tick_ms``: real ms a tick."""
+        """The number of ticks due after ``real_ms`` more; ``tick_ms``: real ms per tick."""
         self.tick_ms = tick_ms
         time = real_ms + self.remainder
         if time > LONGEST_MS:
@@ -252,5 +250,5 @@ class RunClock:
 
     @property
     def fraction(self) -> float:
-        """How much of the next tick has passed, 0…1: where between two ticks to draw."""
+        """The elapsed part of the next tick, 0…1, for drawing between two ticks."""
         return min(1.0, self.remainder / self.tick_ms)

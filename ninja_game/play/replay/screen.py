@@ -1,4 +1,4 @@
-"""The replay viewer: play, pause, seek to any tick, speed, tick by tick, the keys pressed, ghosts, export."""
+"""The replay viewer: play, pause, seek, speed, single ticks, the pressed keys, ghosts, export."""
 
 from __future__ import annotations
 
@@ -32,22 +32,22 @@ if TYPE_CHECKING:
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 NORMAL_SPEED = SPEEDS.index(1.0)
 SHOWN_AFTER_END = 130
-"""Ticks that are shown after the end (game.md §2)."""
+"""Ticks shown after the end (game.md §2)."""
 MOST_GHOSTS = 8
 _WARM = 12
-"""Ticks that are run with their animations before the moment sought, so that it looks as if played."""
+"""Ticks played with animations before the sought one, so that it looks as if played."""
 _STILL_MS = 500
-"""Stillness before a replay starts (20 of the classic game's video frames)."""
+"""ms before a replay starts (20 of the classic game's video frames)."""
 
 
 class ReplayScreen(Screen):
-    """Shows a recording. Others on the same level run along as ghosts. Raises LevelError for one that cannot be played.
+    """Shows a recording; others on the same level are ghosts. Raises LevelError for one that cannot be played.
 
-    ``end``: the tick of the exit contact or death, or the last one of the recording; ``outcome``: what it brought.
-    ``length``: ticks to show. ``editable``: whether the TAS editor may be opened from here, if the app has one.
+    ``end``: the tick of the exit contact or death, or the last one of the recording; ``outcome``: at the end.
+    ``length``: ticks to show. ``editable``: the TAS editor may be opened from here, if the app has one.
 
-    Between two pictures there is the work of a turn at most: in a long run the end is looked for while it plays, and
-    until it is found ``end`` is the last tick of the recording; to seek far ahead takes several turns.
+    A picture simulates at most a turn's work: the end of a long run is searched during playback, and until it is found
+    ``end`` is the last tick of the recording; seeking far ahead takes several turns.
     """
 
     foot_high = 26.0  # its bar
@@ -98,7 +98,7 @@ class ReplayScreen(Screen):
         pygame.key.stop_text_input()
 
     def leave(self) -> None:
-        """No sound from a covered screen; a film that is being made is given up."""
+        """End looped sounds, and cancel a film that is being made."""
         self.app.audio_output.quiet()
         if self.export:
             self.export.cancel()
@@ -109,7 +109,7 @@ class ReplayScreen(Screen):
 
     @property
     def settled(self) -> bool:
-        """Whether the end of the run is known, and the moment sought is reached, by ghosts too."""
+        """Whether the end of the run is known, and all runs have reached the sought moment."""
         return self._scout is None and self._way is None and not any(ghost.behind for ghost in self.ghosts)
 
     # --- moving in time ---
@@ -124,7 +124,7 @@ class ReplayScreen(Screen):
     def seek(self, tick: int) -> None:
         """Show the moment after this many ticks, exactly; the corpse and particles are those of the last moments.
 
-        One that the work of a turn does not lead to is reached in the next ones.
+        A moment beyond a turn's work is reached in the next turns.
         """
         tick = min(max(0, tick), self.length)
         start = max(0, tick - _WARM)
@@ -178,7 +178,7 @@ class ReplayScreen(Screen):
         self._left = self._turn
 
     def _gather_ghosts(self) -> bool:
-        """Let ghosts catch up after a leap; whether there were any that had to."""
+        """Let ghosts catch up after a seek; whether any had to."""
         late = [ghost for ghost in self.ghosts if ghost.behind]
         for ghost in late:
             self._left -= ghost.catch_up(self._left)
@@ -263,7 +263,7 @@ class ReplayScreen(Screen):
         copy_link(self.app, lambda: replay_link([_with_claims(self.run)]), title=self.run.title)
 
     def edit(self) -> None:
-        """Open the TAS editor on this run, at this tick, with the others beside it."""
+        """Open the TAS editor on this run, at this tick, with the other runs."""
         if self.tas_editor:
             self.tas_editor(
                 self.app, self.run, [run for run in self.runs if run is not self.run], max(0, self.tick - 1)
@@ -305,10 +305,10 @@ class ReplayScreen(Screen):
 
 
 def _with_claims(run: Recording) -> Replay:
-    """A run to be shared: with its result, where it was only played or is of N."""
+    """A run to share: with its result, where it was only played or comes from N."""
     if not run.replay.unclaimed:
         return replace(run.replay, level=run.level)
-    # It imports modules that playing does without.
+    # It imports modules that play does not need.
     from ninja_game.runs.conversion import recorded_again
 
     return recorded_again(run)
@@ -318,7 +318,7 @@ _LEFT, _WIDTH, _Y = 24.0, 400.0, 588.0
 
 
 class ReplayBar:
-    """The bar below a replay: a press or a drag seeks. ``dragging``: the mouse holds it."""
+    """The bar below a replay: a press or a drag seeks. ``dragging``: a drag is going on."""
 
     def __init__(self) -> None:
         self.dragging = False

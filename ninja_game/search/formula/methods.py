@@ -25,7 +25,7 @@ from ninja_game.search.formula.task import (
 from ninja_game.search.local_search import mutate
 from ninja_game.search.nodes import RandomState, random_below, zeroed
 from ninja_game.sim.level import Body, Level
-from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.declare import kernel
 from ninja_game.sim.states import OUTCOME_RUNNING
 
 METHODS = ("local", "beam", "exhaustive")
@@ -44,7 +44,7 @@ MOST_ENDS = 2_000_000
 """Ends of a span up to which all are tried."""
 
 
-@entry_point
+@kernel
 def mutate_rows(rows: Keys, length: int, source: list[RandomState]) -> None:
     """Change each row of keys by one or more small edits."""
     for index in range(len(rows)):

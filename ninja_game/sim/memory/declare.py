@@ -28,7 +28,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 REGISTERED: set[Any] = set()
 """Every function marked ``@fast``."""
 
-ENTRY_POINTS: dict[Any, str] = {}
+KERNELS: dict[Any, str] = {}
 """Those of them that Python calls, with their names: only they get wrappers and a place in the cache."""
 
 
@@ -38,14 +38,14 @@ def fast(function: F) -> F:
     return function
 
 
-def entry_point(function: F) -> F:
+def kernel(function: F) -> F:
     """Register a function that is called from outside; its arguments are arrays and numbers, never single records.
 
-    Raises TypeError for a name that another entry point has.
+    Raises TypeError for a name that another kernel has.
     """
-    if function.__name__ in ENTRY_POINTS.values():
-        raise TypeError(f"there is another entry point of the name {function.__name__}; rename one")
-    ENTRY_POINTS[function] = function.__name__
+    if function.__name__ in KERNELS.values():
+        raise TypeError(f"there is another kernel of the name {function.__name__}; rename one")
+    KERNELS[function] = function.__name__
     return fast(function)
 
 

@@ -1,1 +1,1 @@
-"""The level in the TAS editor: the world after any tick, paths and ghosts of runs, playing and taking over."""
+"""The level in the TAS editor: the world after any tick, paths and ghosts of runs, playback and play by hand."""

@@ -1,4 +1,4 @@
-"""Other runs of the same level beside the one under edit: opened, chosen, and taken in part by part."""
+"""Other runs of the same level beside the one under edit: to open, to choose, and to copy from."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget
 
 AHEAD = 10
-"""Ticks for which two ninjas that are joined are thought to go on at their speeds. Not tuned."""
+"""Ticks for which two joined ninjas are extrapolated at their speeds. Not tuned."""
 QUICK = RUN_BUDGET // 100
-"""Work that a run may cost only to be listed: 30 ms compiled, some ten times what a run of a minute costs."""
+"""Work that a run may cost in a list: 30 ms compiled, some ten times that of a run of a minute."""
 LOOK_SECONDS = 0.3
-"""Processor time for which the files of a folder are looked into."""
+"""Processor time for looking into the files of a folder."""
 NONE_YET = "No other run is open: Ctrl+O opens one"
 
 
@@ -61,7 +61,7 @@ class OtherRuns:
 
     @property
     def chosen(self) -> OtherRun | None:
-        """The run that parts are taken from; a notice without one."""
+        """The run to copy from; a notice without one."""
         if not self.editor.others:
             self.editor.app.notify(NONE_YET)
         return self.editor.beside
@@ -73,7 +73,7 @@ class OtherRuns:
             editor.app.notify(f"Compared, and parts are taken from: {editor.others[editor.chosen].name}")
 
     def splice(self) -> None:
-        """The selected ticks get the keys that the other run has in the same ticks; all others keep theirs."""
+        """Copy the keys of the selected ticks from the same ticks of the other run; all other ticks keep theirs."""
         other = self.chosen
         if other is not None:
             first, last = self.editor.selection
@@ -82,7 +82,7 @@ class OtherRuns:
                 self.editor.app.notify(f"Ticks {first} to {last - 1} are those of {other.name}")
 
     def splice_here(self) -> None:
-        """Behind the cursor comes the rest of the other run, from the tick in which its ninja was nearest to ours.
+        """Replace all ticks behind the cursor by the other run's, from the tick where its ninja was nearest to ours.
 
         Nearest by place and by speed: a difference of speed counts as the distance after AHEAD ticks.
         """
@@ -101,7 +101,7 @@ class OtherRuns:
 
 
 def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
-    """A recording as a run to be shown beside. Raises ReplayError for another level, or another body."""
+    """A recording as another run. Raises ReplayError for another level, or another body."""
     about = editor.session.about
     if not same_level(recording, about):
         what = "body" if recording.body != about.body else "level"
@@ -111,7 +111,7 @@ def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
 
 
 def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
-    """A name that no other run has: its author, or its file and number, or its name."""
+    """A unique name: its author, or its file and number, or its name."""
     # Records of N are often many by one author: their files and numbers tell them apart.
     known = recording.whose if recording.player != about.author else recording.place or recording.name
     name = known or "another run"
@@ -119,7 +119,7 @@ def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
 
 
 class OtherRunScreen(ReplaysScreen):
-    """The replays of the level that is in the TAS editor; the chosen one is shown beside."""
+    """The replays of the level in the TAS editor; the chosen one is shown beside the run."""
 
     title = "Another run of this level"
     heads = "Run", "Player", "Result", "From"
@@ -135,7 +135,7 @@ class OtherRunScreen(ReplaysScreen):
         return [*super().build(), Button((538, 15, 134, 26), "From a file ...", self._ask, hint="Any file with runs")]
 
     def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
-        """Those of the same level, the fastest first, those without an exit last."""
+        """Those of the same level, fastest first, those without an exit last."""
         return sorted(filter(self._is_of_the_level, rows), key=lambda row: (not row.good, _ticks(row)))
 
     def _file_rows(self) -> Iterator[list[ReplayRow]]:
@@ -151,7 +151,7 @@ class OtherRunScreen(ReplaysScreen):
         return [("Same folder", siblings[:FILES_SHOWN]), *super().places()]
 
     def bundled(self) -> list[Path]:
-        """All of them: who edits runs knows the way."""
+        """All bundled replays: an editor of runs needs no protection from solutions."""
         return bundled_replays()
 
     def _is_of_the_level(self, row: ReplayRow) -> bool:
@@ -182,7 +182,7 @@ class OtherRunScreen(ReplaysScreen):
 class RunFiles(MenuScreen):
     """The folders and files beside the file of the run, then elsewhere: those with runs of its level.
 
-    ``done``: called once the runs of one are beside it.
+    ``done``: called once a file's runs are shown.
     """
 
     foot = "Enter opens a folder, or shows the runs of a file; Esc goes back"
@@ -203,7 +203,7 @@ class RunFiles(MenuScreen):
         return [self.field, self.list]
 
     def _look(self) -> None:
-        """List the folder; of its files those with runs of the level, as far as that is quickly seen."""
+        """List the folder, and its files with runs of the level, as far as that is quick."""
         self.title, end = short_path(self.folder)[-40:], thread_time() + LOOK_SECONDS
         names = [name for name in files_in(self.folder) if name.lower().endswith(SUFFIXES)]
         fitting = [name for name in names if thread_time() > end or self._has_runs(self.folder / name)]
@@ -217,7 +217,7 @@ class RunFiles(MenuScreen):
             return False
 
     def open_file(self, text: str) -> None:
-        """Show the runs of a file or a link, or what is in a folder; a path may begin in the folder that is shown."""
+        """Show the runs of a file or a link, or the contents of a folder; a path may be relative to that shown."""
         path = Path(text) if is_link(text) else self.folder / Path(text).expanduser()
         if not is_link(path) and path.is_dir():
             self.folder, self.list.index, self.redraw = path.resolve(), 0, True
@@ -245,7 +245,7 @@ def _folders_in(folder: Path) -> list[Path]:
 
 
 def _named(row: ReplayRow) -> ReplayRow:
-    """A run in a file by the name of that; one without claims is run to its end, if that is quick."""
+    """A file's run under the file's name; a run without claims is run to its end, if that is quick."""
     source = row.source
     if not isinstance(source, Recording):
         return row

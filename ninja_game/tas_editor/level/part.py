@@ -1,4 +1,4 @@
-"""The level beside the roll: the world after the tick under the cursor, the paths of runs, and the mouse over it."""
+"""The level beside the roll: the world after the cursor's tick, the paths of runs, and the mouse over it."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
 from ninja_game.view.overlays import OVERLAY_ACTIONS
 
-_REACH = 16.0  # px of the level within which an object is pointed at
+_REACH = 16.0  # px of the level within which the mouse points at an object
 _NEAR = 40.0  # px of the level within which a click goes to a tick
 _LEAP = 40.0
-"""A drag goes to a nearer part of the run that is many ticks away only if it is nearer by more px than this."""
+"""Least gain in px for which a drag leaps to a part of the run that is many ticks away."""
 
-LINE = 13.0  # height of what is written below the level, logical px
+LINE = 13.0  # height of a text below the level, logical px
 
 Px = tuple[int, int]
 
 
 def nearest_tick(positions: paths.Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int | None:
-    """The tick, of those whose path is shown, after which the ninja was nearest to a place, px of the level.
+    """The tick, among those with a visible path, after which the ninja was nearest to a place, px of the level.
 
-    None where it was never near, unless the mouse is ``dragged``.
+    None if it was never near, unless the mouse is ``dragged``.
     """
     first, last = paths.shown_span(cursor)
     shown = positions[first:last] if first < len(positions) else positions
@@ -52,7 +52,7 @@ def nearest_tick(positions: paths.Positions, x: float, y: float, cursor: int, *,
 
 
 def object_at(run: Simulation, x: float, y: float) -> ObjectView | None:
-    """The object that is nearest to a place now, if it is near; a switch of an exit is that exit."""
+    """The object nearest to a place now, if it is near; the switch of an exit counts as that exit."""
     world, objects = run.world, run.objects
     switches = (world.objects[world.objects[obj.id + 1].partner] for obj in objects if obj.kind == KIND_NAMES[EXIT])
     objects += [replace(run.object(obj.partner - 1), x=obj.x, y=obj.y) for obj in switches if obj.kind == SWITCH]
@@ -61,9 +61,9 @@ def object_at(run: Simulation, x: float, y: float) -> ObjectView | None:
 
 
 class LevelPart(TasPart):
-    """The level, smaller than in the game. ``hover``: the tick to which a click goes; ``pointed``: the object there.
+    """The level, smaller than in the game. ``hover``: the tick for a click; ``pointed``: the object under the mouse.
 
-    ``ask_to_watch``: proposes a formula about it.
+    ``ask_to_watch``: proposes a formula about that object.
     """
 
     slot = "level"
@@ -117,7 +117,7 @@ class LevelPart(TasPart):
             self.mouse_left()
 
     def stop(self) -> None:
-        """End playing and taking over; the speed is remembered."""
+        """End playback and play by hand; the speed is saved."""
         self.playing.stop()
         self.playing.remember()
         self.take_over.end()
@@ -188,14 +188,14 @@ class LevelPart(TasPart):
         self._write(surface, theme)
 
     def _follow_ninja(self, size: tuple[int, int], fraction: float) -> None:
-        """Have the ninja in the picture when it is elsewhere than before, unless the mouse has hold of the run."""
+        """Scroll to the ninja after it has moved, unless the mouse drags."""
         place = self.picture.place(fraction)
         if place != self._followed and not self._pointer.busy:
             self.picture.camera.follow(size, *place)
         self._followed = place
 
     def _present(self) -> paths.Positions:
-        """Where the ninja is after each simulated tick."""
+        """The ninja's place after each simulated tick."""
         timeline = self.editor.session.timeline
         known = timeline.inputs, timeline.simulated_until
         if known != self._known:
@@ -203,7 +203,7 @@ class LevelPart(TasPart):
         return self._positions
 
     def _follow_others(self, positions: paths.Positions) -> list[paths.OtherRunPath]:
-        """The paths of other runs, and of the run before the last edit where it differs; their ghosts go along."""
+        """Update the paths of other runs, and of the run before the last edit where it differs; and their ghosts."""
         editor = self.editor
         kept, self._ghosts = self._ghosts, {}
         if not editor.ghosts:
@@ -220,7 +220,7 @@ class LevelPart(TasPart):
         for run, colour in runs:
             self._ghosts[run.trajectory] = kept.get(run.trajectory) or RunGhost(run.trajectory, run.name, colour)
         self.picture.follow(self.ghosts)
-        # Not at each tick of a run that is taken over is the other one shorter.
+        # During play by hand the other run is not shortened at each tick.
         first, last = paths.shown_span(editor.cursor)
         other_paths = [paths.OtherRunPath(run.trajectory, colour, first, last) for run, colour in runs]
         return [
@@ -262,7 +262,7 @@ class LevelPointer:
 
     @property
     def busy(self) -> bool:
-        """Whether it goes along the run, or moves the picture."""
+        """Whether it drags along the run or moves the picture."""
         return self._goes or self._camera.held is not None
 
     def release(self) -> None:
@@ -307,7 +307,7 @@ class LevelPointer:
             part.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
 
     def _point(self, event: pygame.Event, at: Px) -> None:
-        """Name what is there; a click, or a drag, goes to the tick in which the ninja was nearest."""
+        """Name the object under the mouse; a click or a drag goes to the tick where the ninja was nearest."""
         part, editor = self._part, self._editor
         timeline = editor.session.timeline
         behind = timeline.end[0] + 1 or max(1, len(editor.track))

@@ -1,4 +1,4 @@
-"""The paths of runs over the level: drawn once, and again only where they change."""
+"""The paths of runs over the level, of which only changed parts are drawn again."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from ninja_game.ui.theme import Theme
 
 Positions = NDArray[np.float64]
 
-BRIGHT_TICKS = 40  # ticks before and after the cursor whose path is bright
+BRIGHT_TICKS = 40  # ticks before and after the cursor with a bright path
 _DOT_EVERY = 10  # ticks between two dots on the bright path
-_CLOSE = 0.5  # px of the level in a px of the window, below which each tick has a dot
-FAINT, CLEAR = 110, 190  # of 255, how solid paths are
-_BLOCK = 1000  # ticks by which the part of a long run moves whose path is shown
-LETTERS = 9  # size of what is written over the level, logical px of the TAS editor, as all sizes here
+_CLOSE = 0.5  # px of the level per px of the window, below which each tick has a dot
+FAINT, CLEAR = 110, 190  # opacity of paths, of 255
+_BLOCK = 1000  # ticks by which the visible part of a long run moves
+LETTERS = 9  # size of texts over the level, in logical px of the TAS editor, as all sizes here
 _LONGEST_NAME = 100
 _THIN = 0.8  # width of paths
 _THICK = 2.7  # of their selected part
@@ -37,13 +37,13 @@ def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
 
 
 def shown_span(cursor: int) -> Span:
-    """The ticks whose path are shown: more would be a tangle."""
+    """The ticks with a visible path: more would be a tangle."""
     middle = cursor - cursor % _BLOCK
     return max(0, middle - 2 * _BLOCK), middle + 4 * _BLOCK
 
 
 class OtherRunPath(NamedTuple):
-    """The path of another run in the ticks ``first`` … ``last`` - 1; ``alpha``: of 255, how solid."""
+    """The path of another run in the ticks ``first`` … ``last`` - 1; ``alpha``: opacity, of 255."""
 
     trajectory: Trajectory
     colour: pygame.Color
@@ -53,7 +53,7 @@ class OtherRunPath(NamedTuple):
 
 
 class PathLayer:
-    """One surface with the path of one run, to which more ticks are added as they are known. ``covered``: its px."""
+    """A surface with the path of one run, which is extended as ticks become known. ``covered``: its px."""
 
     def __init__(self, canvas: Canvas, colour: pygame.Color, width: float) -> None:
         self.surface = pygame.Surface(canvas.window, pygame.SRCALPHA)
@@ -64,7 +64,7 @@ class PathLayer:
         self.covered = pygame.Rect(0, 0, 0, 0)
 
     def show(self, positions: Positions) -> None:
-        """Show this path; what it has in common with the last one stays."""
+        """Show this path; the part in common with the last one is kept."""
         known = len(self._drawn)
         if known > len(positions) or not np.array_equal(self._drawn, positions[:known]):
             self.surface.fill((0, 0, 0, 0), self.covered)
@@ -87,7 +87,7 @@ class LevelPaths:
         self._labels: list[pygame.Rect] = []
 
     def _px(self, length: float) -> float:
-        """A length of the TAS editor in px of the level: what is drawn over it does not grow with it."""
+        """A length of the TAS editor in px of the level: drawings over the level do not grow with it."""
         return length * self.theme.canvas.scale / self.canvas.scale
 
     def _put(self, surface: pygame.Surface, layer: pygame.Surface, covered: pygame.Rect) -> None:
@@ -95,7 +95,7 @@ class LevelPaths:
         surface.blit(layer, seen, seen)
 
     def draw_beside(self, surface: pygame.Surface, paths: Sequence[OtherRunPath]) -> None:
-        """The other runs; a picture begins."""
+        """Begin a picture, with the other runs."""
         self._labels.clear()
         if tuple(paths) != self._beside:
             self._beside = tuple(paths)
@@ -116,7 +116,7 @@ class LevelPaths:
     def draw_present(
         self, surface: pygame.Surface, positions: Positions, cursor: int, selected: Span, shown: Span
     ) -> None:
-        """The run itself: faint, brighter near the cursor and dotted there; the selected ticks stand out."""
+        """The run itself: faint, bright and dotted near the cursor; the selected ticks thick."""
         canvas, palette = self.canvas, self.theme.palette
         self._present.show(positions[slice(*shown)])
         self._put(surface, self._present.surface, self._present.covered)
@@ -149,7 +149,7 @@ class LevelPaths:
         self._label(surface, f"{seen.kind} {seen.id}", (seen.x, seen.y), (5, -14), self.theme.palette.text)
 
     def draw_names(self, surface: pygame.Surface, ghosts: Sequence[tuple[str, Point, pygame.Color]], at: Point) -> None:
-        """The names of ghosts ("": none) above them, over none of them nor the ninja, which is ``at`` a place."""
+        """The names of ghosts ("": none) above them; no name covers a ghost or the ninja, which is ``at`` a place."""
         places = [at, *(place for _, place, _ in ghosts)]
         ninjas = [self.canvas.rect(x - RADIUS, y - RADIUS, 2 * RADIUS, 2 * RADIUS) for x, y in places]
         self._labels[:0] = ninjas
@@ -160,7 +160,7 @@ class LevelPaths:
         del self._labels[: len(ninjas)]
 
     def _label(self, surface: pygame.Surface, text: str, at: Point, beside: Point, colour: pygame.Color) -> None:
-        """A small text on a plate, beside a place of the level, inside of the picture where that place is."""
+        """A small text on a plate beside a place of the level, kept inside of the picture if the place is."""
         theme, px = self.theme, self.canvas.point(*at)
         if not surface.get_rect().collidepoint(px):
             return
@@ -173,7 +173,7 @@ class LevelPaths:
         up = beside[1] < 0
         while (hidden := plate.collidelist(self._labels)) >= 0 and self._labels[hidden].bottom < surface.get_height():
             other = self._labels[hidden]
-            # What stands above a place goes up, where the ninja is not, as long as there is room; then only down.
+            # A label above a place moves up, away from the ninja, as long as there is room, and only then down.
             up = up and plate.top <= other.top and other.top > plate.height
             top = other.top - plate.height - 1 if up else other.bottom + 1
             y += (top - plate.top) / scale

@@ -1,4 +1,4 @@
-"""The world after any tick of the run as the game draws it, which part of it is seen, and the ghosts of other runs."""
+"""The world after any tick of the run, the visible part of it, and the ghosts of other runs."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from ninja_game.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.view.ninja.ragdoll import Ragdoll
 from ninja_game.view.overlays import Overlays
 
-_GHOST_WARM = 12  # ticks that its figure follows before the one that is sought
+_GHOST_WARM = 12  # ticks of animation before a sought tick
 
 
 class RunGhost:
-    """``label``: the run's name. ``shade``: its colour, None: the palette's for ghosts. It has ticks."""
+    """``label``: the run's name. ``shade``: its colour, None: the palette's for ghosts. It has at least one tick."""
 
     def __init__(self, trajectory: Trajectory, label: str = "", shade: pygame.Color | None = None) -> None:
         self.trajectory = trajectory
@@ -63,15 +63,15 @@ class RunGhost:
 
 
 _WARM = 4
-"""Ticks that are run with their animations before the one that is sought, so that it looks as if played."""
-_NEAR = 6  # ticks that are played on to, rather than sought
+"""Ticks run with animations before a sought one, so that it looks as if played."""
+_NEAR = 6  # most ticks that are played rather than sought
 
 
 _FALL = 40  # ticks after which a corpse lies still
 
 
 class CachedWorldSimulation(Simulation):
-    """A simulation whose world is copied once a tick at most."""
+    """A simulation that copies its world at most once per tick."""
 
     _copy: World | None = None
 
@@ -91,9 +91,9 @@ class CachedWorldSimulation(Simulation):
 
 
 class LevelPicture:
-    """``canvas``: from px of the level to px of ``surface``, which is the picture. ``run``: what it shows.
+    """``canvas``: from px of the level to px of ``surface``, the picture. ``run``: the one shown.
 
-    ``camera``: which part of the level; ``overlays``: those of the game, which are shown over it.
+    ``camera``: the visible part of the level; ``overlays``: those of the game.
     """
 
     def __init__(self, editor: TasEditor) -> None:
@@ -120,7 +120,7 @@ class LevelPicture:
         return self.run.tick - 1
 
     def fit(self, size: tuple[int, int]) -> bool:
-        """Have a size, px, the player's settings and what the camera shows; whether all is to be drawn again."""
+        """Apply a size, px, the player's settings and the camera's part; whether to draw all again."""
         app, seen = self.editor.app, (size, *self.camera.render_key)
         settings = app.settings.changed(show_ghost=True)
         if self._view is not None and self._context.settings.palette == settings.palette and size == self._seen[0]:
@@ -150,7 +150,7 @@ class LevelPicture:
                 ghost.on_seek(self.run.tick)
 
     def show(self, tick: int, *, audible: bool = False) -> None:
-        """Show the world after a tick, if that is simulated. ``audible``: it is played, and its events are heard."""
+        """Show the world after a tick, if that is simulated. ``audible``: during playback, with sounds."""
         timeline = self.editor.session.timeline
         moment = tick + 1
         if timeline.simulated_until < moment:
@@ -167,7 +167,7 @@ class LevelPicture:
             self._view.audible = False
 
     def _seek(self, moment: int, inputs: bytes) -> None:
-        """Some ticks before the moment after this many ticks."""
+        """Seek to some ticks before a tick."""
         start = max(0, moment - _WARM)
         end, outcome = self.editor.session.timeline.end
         corpse = self._corpse(end, inputs, min(start - end, _FALL)) if outcome == "dead" and start > end else None
@@ -176,7 +176,7 @@ class LevelPicture:
             self._view.ragdoll = corpse
 
     def _go(self, moment: int, inputs: bytes) -> None:
-        """Be at the moment after this many ticks, as if nothing had been seen before."""
+        """Go to a tick, without animations from earlier pictures."""
         if self.run.memory != self.editor.session.timeline.memory:
             self.run = self._new_run()
         self.run.restore(self.editor.session.timeline.save_state(moment))
@@ -186,7 +186,7 @@ class LevelPicture:
             self._view.on_seek()
 
     def _corpse(self, end: int, inputs: bytes, ticks: int) -> Ragdoll | None:
-        """What lies there so many ticks after the death: it falls again, in the world as it was then."""
+        """The corpse a number of ticks after the death: it falls again, in the world of those ticks."""
         if self._view is None:
             return None
         self._go(end, inputs)
@@ -208,6 +208,6 @@ class LevelPicture:
             self._view.draw(self.surface, fraction, whole=whole)
 
     def draw_ninja_over(self, surface: pygame.Surface, fraction: float) -> None:
-        """Draw the ninja once more, on a copy of the picture over which something else was drawn."""
+        """Draw the ninja once more, over a copy of the picture with something drawn on it."""
         if self._view is not None:
             self._view.draw_ninja_over(surface, fraction)

@@ -1,4 +1,4 @@
-"""The run plays from the cursor on, at any speed; or the player takes over, and the real keys play it on."""
+"""Playback of the run from the cursor on, at any speed; and play by hand from there."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 
 class Playing:
-    """``on``: it plays. ``speed``: a number of SPEEDS. ``clock``: also of a run that was taken over."""
+    """``on``: it plays. ``speed``: a number of SPEEDS. ``clock``: shared with play by hand."""
 
     def __init__(self, editor: TasEditor, picture: LevelPicture) -> None:
         self.editor = editor
@@ -46,7 +46,7 @@ class Playing:
         self.clock.reset()
 
     def remember(self) -> None:
-        """Have this speed the next time, too."""
+        """Save this speed for the next time."""
         percent = round(100 * SPEEDS[self.speed])
         if percent != self.editor.app.settings.play_speed:
             self.editor.app.change_settings(play_speed=percent)
@@ -56,7 +56,7 @@ class Playing:
         self.editor.go(self.editor.cursor + ticks)
 
     def update(self, real_ms: int) -> None:
-        """Let real time pass. It waits for what is not simulated yet."""
+        """Let real time pass. Playback waits for ticks that are not simulated yet."""
         if not self.on:
             return
         editor = self.editor
@@ -79,16 +79,16 @@ _WHILE_PLAYING = {
 _BY_KEY = {"escape": "take_over"} | {
     key: command.name for command in TABLE.commands if command.name in _WHILE_PLAYING for key in command.keys
 }
-"""The commands of a run that is taken over."""
+"""The commands during play by hand."""
 _BY_PAD = {button: name for button, name in BY_PAD.items() if name in ("step", "step_back")}
 
 
 class TakeOver:
-    """Playing on by hand from the cursor.
+    """Play by hand from the cursor on.
 
-    ``on``: the run is taken over. ``waiting``: it begins with the first key. ``still``: tick by tick, or paused.
-    Each tick gets the keys that are down then; all of it is one edit. After an exit or a death nothing is recorded any
-    more; it ends when the aftermath has been shown.
+    ``on``: it is active. ``waiting``: it begins with the first key. ``still``: tick by tick, or paused. Each tick gets
+    the keys that are down then; the whole is one edit. After an exit or a death nothing more is recorded; it ends when
+    the ticks after that have been shown.
     """
 
     def __init__(self, playing: Playing) -> None:
@@ -99,7 +99,7 @@ class TakeOver:
         self._held_before = 0
 
     def begin(self) -> None:
-        """Take over from the tick under the cursor; it begins with the first key that is pressed."""
+        """Begin at the tick under the cursor; the first pressed key starts the clock."""
         editor = self.editor
         self.playing.stop()
         editor.session.timeline.ensure(editor.cursor)
@@ -122,7 +122,7 @@ class TakeOver:
             self.editor.session.timeline.simulate(self.editor.session.ticks_per_frame)
 
     def pause(self) -> None:
-        """Pause, or go on; before the first key it still waits for that."""
+        """Pause or continue; before the first key it still waits for one."""
         if not self.waiting:
             self.stand_still(still=not self.still)
         self.editor.app.controls.stop_running()
@@ -146,7 +146,7 @@ class TakeOver:
         self.playing.picture.show(tick, audible=audible)
 
     def _keys(self) -> int:
-        """The keys that are down now, to be recorded: Space, which pauses, is no jump."""
+        """The keys to record: Space, which pauses, is no jump."""
         controls = self.editor.app.controls
         return controls.poll() & ~controls.choosing(pads=False)
 
@@ -171,7 +171,7 @@ class TakeOver:
         if not self.on or self.still:
             return
         if self.waiting:
-            # Keys that were down before do not count until they are pressed again.
+            # Keys that were down before count only when they are pressed again.
             held = self._keys()
             self._held_before &= held
             self.waiting = not held & ~self._held_before
@@ -184,15 +184,15 @@ class TakeOver:
     @staticmethod
     def meaning(event: InputEvent) -> str:
         moves = _MOVES.intersection(event.pressed)
-        # A key that jumps and goes on, as Space, is a command here; a button of a pad that does both jumps.
+        # A key for both jump and confirm, as Space, is a command here; such a button of a pad does both.
         if event.source is None or (moves and (event.source[0] == "pad" or "confirm" not in event.pressed)):
             return ""
         if getattr(event.raw, "mod", 0) & (pygame.KMOD_CTRL | pygame.KMOD_META):
-            return ""  # a command of the TAS editor, none of the bare key
-        # By the bare key: Shift may be down, which jumps.
+            return ""  # a command of the TAS editor, not of the bare key
+        # The bare key counts: Shift may be down, which jumps.
         of_key = (_BY_KEY if event.source[0] == "keys" else _BY_PAD).get(event.source[1], "")
         return of_key or next((_BY_ACTION[action] for action in event.pressed if action in _BY_ACTION), "")
 
     def captures(self, event: InputEvent) -> bool:
-        """Whether a key is none that goes on to the commands or to the app."""
+        """Whether neither the commands nor the app get a key."""
         return event.source is not None and not self.meaning(event) and not _OF_THE_APP.intersection(event.pressed)

@@ -1,1 +1,1 @@
-"""The piano roll of the TAS editor: one row per tick, the keys of each, and what the world says after it."""
+"""The piano roll of the TAS editor: a row per tick with its keys and the values after it."""

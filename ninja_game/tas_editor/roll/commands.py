@@ -22,7 +22,7 @@ BEHIND = "Nothing here: the run ends earlier"  # where nothing can be copied or 
 
 
 class RollCommands:
-    """The commands of the piano roll: cursor, selection, edits of keys. ``page``: how many rows are seen."""
+    """The commands of the piano roll: cursor, selection, edits of keys. ``page``: the number of visible rows."""
 
     def __init__(self, editor: TasEditor, page: Callable[[], int]) -> None:
         self._editor = editor
@@ -107,7 +107,7 @@ class RollCommands:
         return first, min(last, len(self._editor.track))
 
     def toggle(self, key: int) -> None:
-        """A key down in the selected ticks; up where it is down in all of them."""
+        """Press a key in the selected ticks; release it if it is down in all of them."""
         first, last = self._editor.selection
         down = not all(self._editor.track.keys_at(tick) & key for tick in range(first, last))
         self._editor.edit_selected(lambda track: track.with_key(first, last, key, down=down))
@@ -120,7 +120,7 @@ class RollCommands:
             self._editor.edit_selected(lambda track: track.replaced(first, last, bytes(last - first)))
 
     def insert(self) -> None:
-        """Ticks without a key before the selected ones, as many as they are."""
+        """Insert as many ticks without a key before the selected ones."""
         first, last = self._editor.selection
         self._editor.edit_selected(lambda track: track.replaced(first, first, bytes(last - first)))
 
@@ -143,7 +143,7 @@ class RollCommands:
             editor.edit(lambda track: track.replaced(end + 1, len(track), b""))
 
     def _step(self, step: Callable[[], bool], done: str, refusal: str) -> None:
-        """Undo or redo, and have the cursor and the selection of that time again; else go where something changes."""
+        """Undo or redo, and restore the cursor and the selection of that time; else go to the change."""
         editor = self._editor
         editor.session.end()
         before, place = editor.track, (editor.cursor, editor.anchor)
@@ -165,7 +165,7 @@ class RollCommands:
     # --- clipboard ---
 
     def copy(self) -> None:
-        """The selected ticks as text of our notation, with their markers."""
+        """Copy the selected ticks as text of our notation, with their markers."""
         first, last = self._filled()
         markers = [Marker(tick - first, name) for tick, name in self._editor.track.markers if first <= tick < last]
         text = "\n".join(write_inputs(self._editor.track.inputs[first:last], markers))
@@ -183,7 +183,7 @@ class RollCommands:
             self.remove()
 
     def paste(self, *, between: bool = False) -> None:
-        """The ticks of the clipboard's text over what is there, or ``between``; they are selected then."""
+        """Paste the clipboard's ticks over the present ones, or ``between``, and select them."""
         editor = self._editor
         try:
             pasted = inputs_of_text(pasted_text(), "clipboard")
@@ -216,7 +216,7 @@ class RollCommands:
 
 
 def _with_pasted(track: InputTrack, first: int, pasted: Inputs, *, between: bool) -> InputTrack:
-    """An input track with pasted ticks; markers that it has keep their ticks."""
+    """An input track with pasted ticks; markers in it keep their ticks."""
     last = first if between else first + len(pasted.keys)
     made = track.replaced(first, last, pasted.keys)
     for tick, name in pasted.markers:
@@ -232,7 +232,7 @@ def _first_change(before: InputTrack, after: InputTrack) -> int:
 
 
 def _change_text(before: InputTrack, after: InputTrack, first: int, edit_tick: int) -> str:
-    """What was changed, from tick ``first`` on; ``edit_tick``: named instead where ticks came or went there."""
+    """The change in words, from tick ``first``; ``edit_tick``: named if ticks were inserted or deleted there."""
     if before.inputs == after.inputs:
         return f"a marker in tick {first}"
     more = len(after) - len(before)

@@ -1,4 +1,4 @@
-"""The content of the roll's rows: keys and values of each tick, and where another run has other keys."""
+"""The content of the roll's rows: keys and values of each tick, and differences from another run."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ PREVIEW, BEFORE = -1, -2
 
 
 class Compared(NamedTuple):
-    """A run whose keys are marked beside those of the one under edit. ``number``: of another run, or which it is."""
+    """A run whose keys are compared with those of the one under edit. ``number``: of another run, PREVIEW or BEFORE."""
 
     track: InputTrack
     name: str
@@ -38,9 +38,9 @@ class Compared(NamedTuple):
 
 
 def compared(editor: TasEditor) -> Compared | None:
-    """The result or branch that is looked at, else the chosen other run, else the run before the last edit.
+    """The previewed result or branch, else the chosen other run, else the run before the last edit.
 
-    None where other runs are not shown.
+    None if other runs are not shown.
     """
     if not editor.ghosts:
         return None
@@ -54,14 +54,14 @@ def compared(editor: TasEditor) -> Compared | None:
 
 @lru_cache(maxsize=4)
 def different_keys(ours: bytes, theirs: bytes) -> NDArray[np.uint8]:
-    """In each tick of the longer one of two runs the keys that are down in one of them only, as a sum."""
+    """For each tick of the longer of two runs the keys that are down in only one of them, as a sum."""
     first, second = _keys(ours, theirs)
     return first ^ second
 
 
 @lru_cache(maxsize=4)
 def changes(ours: bytes, theirs: bytes) -> NDArray[np.intp]:
-    """The ticks with different keys, without those in which all is as in the tick before."""
+    """The ticks with different keys, except those equal to the tick before."""
     both = np.stack(_keys(ours, theirs))
     moved = np.ones(both.shape[1], bool)
     moved[1:] = (both[:, 1:] != both[:, :-1]).any(axis=0)
@@ -70,7 +70,7 @@ def changes(ours: bytes, theirs: bytes) -> NDArray[np.intp]:
 
 @lru_cache(maxsize=4)
 def different_rows(ours: bytes, theirs: bytes, ticks: int, height: int) -> list[int]:
-    """The px of a bar of this height, for this many ticks, in which there are ticks with different keys."""
+    """The px of a bar of this height, for this many ticks, that contain ticks with different keys."""
     different = np.flatnonzero(different_keys(ours, theirs)[:ticks])
     return np.flatnonzero(np.bincount(different * height // ticks)).tolist()
 
@@ -99,12 +99,12 @@ class Values(NamedTuple):
 
 
 class RowFacts(NamedTuple):
-    """The data that a row is drawn from.
+    """The data of a row.
 
     ``keys``, ``before``: inputs of the tick and of the one before it; ``differs``: the keys that are down either here
-    or in the run that this one is compared to. ``values``: None where nothing is simulated.
-    ``death``: what kills the ninja in this tick; ``lead``: over the run beside, None where not both do the same.
-    ``beyond``: behind the last input; ``over``: behind exit or death. ``changed``: its keys are not the saved ones.
+    or in the compared run. ``values``: None if the tick is not simulated. ``death``: the killer of this tick; ``lead``:
+    over the other run, None without a common event. ``beyond``: behind the last input; ``over``: behind exit or death.
+    ``changed``: its keys differ from the saved ones.
     """
 
     tick: int
@@ -171,12 +171,12 @@ def _values(editor: TasEditor, first: int, last: int) -> list[Values]:
 
 
 MOST_ROWS = 400
-"""Spans of the same keys in which changes are looked for one by one."""
+"""Most spans of equal keys whose changes are found one by one."""
 
 
 @lru_cache(maxsize=2)
 def changed_ticks(track: InputTrack, saved: InputTrack) -> bytes:
-    """Whether each tick of a track differs from the saved one: a bool per tick; ticks that only moved do not."""
+    """For each tick of a track whether it differs from the saved one; ticks that only moved do not."""
     ours, theirs = track.inputs, saved.inputs
     if len(ours) == len(theirs):
         return bytes(np.frombuffer(ours, np.uint8) != np.frombuffer(theirs, np.uint8))
@@ -197,13 +197,13 @@ def changed_ticks(track: InputTrack, saved: InputTrack) -> bytes:
 
 
 def key_difference_text(row: RowFacts, other: str) -> str:
-    """The keys of a row, and those of the run that is compared, which is called ``other``."""
+    """The keys of a row, and those of the compared run, which is called ``other``."""
     ours, theirs = (KEY_NAMES[keys & KEYS_DOWN] for keys in (row.keys, row.keys ^ row.differs))
     return f"{row.tick}: {ours}; {other}: {theirs}"
 
 
 def row_text(row: RowFacts, *, numbers: bool) -> str:
-    """A row in full: places and speeds to the last digit, or the rest."""
+    """The full text of a row: places and speeds to the last digit, or the rest."""
     name = f"#{row.name}  " if row.name else ""
     if row.values is None:
         return f"{name}{row.tick}: not simulated yet"

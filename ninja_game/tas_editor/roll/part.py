@@ -16,15 +16,15 @@ from ninja_game.tas_editor.roll.rows import COLUMNS, Column, RollLayout, RowShee
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Theme, mixed
 
-MARGIN = 4  # the rows scroll with a cursor that moves in the first or the last of so many parts of the roll
+MARGIN = 4  # the rows scroll when the cursor is in the first or the last of so many parts of the roll
 
 WHEEL_ROWS = 4
 SCROLL_MS = 25
-"""Beyond the edge a row comes after so many ms for each row that the pointer is beyond it, but for four at most."""
+"""ms per row of scrolling beyond the edge, for each row (at most four) between the edge and the pointer."""
 
 
 class Roll(TasPart):
-    """One row per tick. ``top``: the first tick that is seen; ``hidden``: the names of columns that are not."""
+    """One row per tick. ``top``: the first visible tick; ``hidden``: the names of hidden columns."""
 
     slot = "roll"
 
@@ -43,14 +43,14 @@ class Roll(TasPart):
         return layout_of(self.editor.theme.canvas, self.area, self.hidden)
 
     def scroll(self, top: int) -> None:
-        """Scroll so that this tick is at the upper edge, up to the last ticks."""
+        """Scroll until this tick is at the upper edge, at most to the last ticks."""
         self.top = max(0, min(top, self.editor.last_tick + 1 - self.layout.rows))
 
     def follow(self) -> None:
-        """Scroll with the cursor where it comes near the edge, and to it where it is out of sight."""
+        """Scroll with the cursor near the edge, and to it when it is out of sight."""
         cursor, rows = self.editor.cursor, self.layout.rows
         moved, self._followed = cursor - self._followed, cursor
-        # With the cursor there, ``lowest`` to ``highest`` are the first ticks that leave room above and below it.
+        # The first visible tick must be from ``lowest`` to ``highest`` for room above and below the cursor.
         lowest, highest = cursor + 1 + rows // MARGIN - rows, cursor - rows // MARGIN
         if moved and not self.top <= cursor < self.top + rows:
             near = abs(moved) <= rows
@@ -62,7 +62,7 @@ class Roll(TasPart):
         self.scroll(self.top)
 
     def stay(self) -> None:
-        """Take the cursor's present tick as seen: no row moves under the mouse."""
+        """Do not scroll to the cursor: no row moves under the mouse."""
         self._followed = self.editor.cursor
 
     def choose_columns(self) -> None:
@@ -149,7 +149,7 @@ class RollMouse:
         self._doing = ""
 
     def update(self, real_ms: int) -> None:
-        """Scroll on while the pointer is beyond the upper or lower edge; the hint about a row stays true."""
+        """Scroll while the pointer is beyond the upper or lower edge, and update the hint about a row."""
         if self._row_hint and self._editor.hint == self._row_hint:
             self._tell(*self._at)
         if self._doing not in ("paint", "select"):
@@ -194,7 +194,7 @@ class RollMouse:
             self._select(column, tick)
 
     def _paint(self, column: Column, tick: int, *, lift: bool) -> None:
-        """Begin to paint: the key goes up where it is down, else down."""
+        """Begin to paint: release the key if it is down, else press it."""
         self._key = column.key
         self._down = not lift and not self._editor.track.keys_at(tick) & column.key
         self._doing, self._tick = "paint", tick

@@ -1,4 +1,4 @@
-"""The rows of the roll and their columns. A row that looks as before is not drawn again, wherever it is now."""
+"""The rows of the roll and their columns. An unchanged row is not drawn again, wherever it is now."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ BAR = 12.0  # width of the scroll bar
 
 
 class Column(NamedTuple):
-    """``width``: logical px; 0: what is left. ``decimals``: of a number. ``key``: that it shows.
+    """``width``: logical px; 0: the rest. ``decimals``: of a number. ``key``: the key shown.
 
-    Those with a ``meaning`` may be hidden.
+    Columns with a ``meaning`` may be hidden.
     """
 
     name: str
@@ -55,7 +55,7 @@ COLUMNS = (
 
 
 class Place(NamedTuple):
-    """A column in the window: its first px, and how many it has."""
+    """A column in the window: its first px, and its width in px."""
 
     column: Column
     left: int
@@ -64,7 +64,7 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True)
 class RollLayout:
-    """Where things are, px of the window. ``rows``: how many are seen; ``row``: the height of one."""
+    """Places in px of the window. ``rows``: the number visible; ``row``: the height of one."""
 
     heads: pygame.Rect
     body: pygame.Rect
@@ -74,11 +74,11 @@ class RollLayout:
     places: tuple[Place, ...]
 
     def row_at(self, y: int) -> int:
-        """The number of the row at a px, from the first that is seen: negative above it."""
+        """The number of the row at a px, from the first visible one: negative above it."""
         return (y - self.body.top) // self.row
 
     def column_at(self, x: int) -> Column:
-        """The column at a px; beside them the nearest one."""
+        """The column at a px; outside of all the nearest one."""
         return next((place.column for place in self.places if x < place.left + place.width), self.places[-1].column)
 
 
@@ -104,7 +104,7 @@ STATES = ("stand", "run", "skid", "jump", "fall", "slide", "dead", "won")
 
 
 class EventWord(NamedTuple):
-    """``rank``: the lower, the more important; ``chip``: the palette's role that it lies on; ``ink``: its own."""
+    """``rank``: the lower, the more important; ``chip``: background's role in the palette; ``ink``: the letters'."""
 
     rank: int
     word: str
@@ -144,14 +144,14 @@ Blit = tuple[pygame.Surface, tuple[int, int]]
 
 
 class Digits:
-    """The characters of numbers in one size and any colours. ``theme``: for which they are made."""
+    """The characters of numbers in one size and any colours. ``theme``: the one they are made for."""
 
     def __init__(self, theme: Theme, size: float) -> None:
         self.theme, self._size = theme, size
         self._pictures: dict[int, dict[str, tuple[pygame.Surface, float]]] = {}
         # Widths of texts are whole px; of many characters the mean is exact.
         widths = {char: (theme.width(char * 21, size) - theme.width(char, size)) / 20 for char in "0123456789.-"}
-        # Digits below each other are of one width.
+        # All digits have one width, so that columns align.
         widest = max(widths[char] for char in "0123456789")
         scale = theme.canvas.scale
         self._advance = {char: (widest if char.isdigit() else width) * scale for char, width in widths.items()}
@@ -174,15 +174,15 @@ class Digits:
 
 
 SIZE = 8.0  # size of the letters, logical px
-SHORTEST = 20.0  # room in which a name is worth beginning, logical px
+SHORTEST = 20.0  # least room for a name, logical px
 LONGEST = 6
 _KEY_LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
 
 
 class RowSheet:
-    """The rows that are seen as one picture. Tick k is at row k modulo their number: scrolling moves none.
+    """The visible rows as one picture. Tick k is at row k modulo their number: scrolling moves none.
 
-    ``mark``: the colour of the run that this one is compared to.
+    ``mark``: the colour of the compared run.
     """
 
     def __init__(self, theme: Theme, layout: RollLayout, mark: pygame.Color) -> None:
@@ -196,7 +196,7 @@ class RowSheet:
         self._lift = (layout.row - theme.lettering.rendered("0", SIZE, theme.palette.text).get_height() + 1) // 2
 
     def draw(self, surface: pygame.Surface, rows: Sequence[RowFacts]) -> int:
-        """Draw rows, one below the other, from the upper edge on; how many did not look as before."""
+        """Draw rows, one below the other, from the upper edge on; the number of changed ones."""
         layout = self.layout
         changed = [row for row in rows if self._drawn[row.tick % layout.rows] != row]
         for row in changed:
@@ -282,7 +282,7 @@ class RowSheet:
             self._blits.append((picture, (middle, y + self._lift)))
 
     def _difference(self, row: RowFacts, place: Place, left: int, y: int) -> None:
-        """At the right of a key's cell: a bar where the key is down in the other run only, a hollow one for ours."""
+        """At the right of a key's cell: a bar if the key is down only in the other run, hollow if only in ours."""
         px, height, fill = self.theme.canvas.px, self.layout.row, self._picture.fill
         wide = px(4)
         x = left + place.width - wide
@@ -317,7 +317,7 @@ class RowSheet:
             fill(ink, (x + width - thick, y + 1, thick, height - 1))
 
     def _events(self, row: RowFacts, left: int, width: int, y: int, ink: pygame.Color) -> None:
-        """What happened, what matters first, as far as there is room; the marker's name, with one event at most."""
+        """Events, the most important first, as far as there is room; the marker's name, with one event at most."""
         palette, gap, height = self.theme.palette, self.theme.canvas.px(2), self.layout.row
         x, right = left + gap + 1, left + width
         events = sorted(map(EVENTS.__getitem__, row.events.split())) if row.events else []
@@ -346,7 +346,7 @@ class RowSheet:
 
 
 def shortened(value: float, decimals: int) -> str:
-    """A number in at most six characters: with fewer decimals where it is long, "-" where that is not enough."""
+    """A number in at most six characters: with fewer decimals if it is long, "-" if that is not enough."""
     text = f"{value:.{decimals}f}"
     if len(text) > LONGEST:
         text = f"{value:.{max(0, decimals + LONGEST - len(text))}f}"

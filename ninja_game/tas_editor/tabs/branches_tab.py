@@ -1,4 +1,4 @@
-"""Branches: input tracks that are kept, by hand or when a result of a search is taken, as a tree."""
+"""Branches: input tracks kept by hand, or when a search result is used, as a tree."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LONGEST = 60  # characters of a name
 
 _INDENT, _DEEPEST = 9, 12
 _COLUMNS = (174, 112, 64)
-"""Where end, gold and the difference stand, px from the right of a row."""
+"""Places of end, gold and difference, px from the right of a row."""
 
 
 class BranchesTab(Tab):
@@ -149,7 +149,7 @@ class BranchesTab(Tab):
         theme.text(surface, words, right - _COLUMNS[2], y + 3, size=SMALL, bold=bool(ahead), colour=colour)
 
     def _difference(self, branch: Branch) -> tuple[str, int]:
-        """How many ticks a branch is shorter or longer than the run, as text."""
+        """By how many ticks a branch is shorter or longer than the run, as text."""
         end, outcome = self.editor.session.timeline.end
         if branch.track.inputs == self.editor.track.inputs:
             return "the same", 0

@@ -1,4 +1,4 @@
-"""The lead of the run over another one: a branch, the run as it was, or a run that was opened beside it."""
+"""The lead of the run over another one: a branch, its earlier state, or another opened run."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Choice
 
-PAUSE_MS = 300  # how long a run must stay as it is before it is compared
+PAUSE_MS = 300  # ms without an edit before a run is compared
 
-_COLUMNS = (256, 200, 144, 58)  # where ticks, lead and its change stand, px from the right of a row
+_COLUMNS = (256, 200, 144, 58)  # places of ticks, lead and its change, px from the right of a row
 _HEADS = ("Tick here", "Tick there", "Ahead + or behind -", "Since above")
 
 Pair = tuple[InputTrack, InputTrack]
@@ -65,7 +65,7 @@ class LeadTab(Tab):
         return [(name, track) for track, name in names.items()]
 
     def _against(self) -> InputTrack:
-        """The run that was chosen; without a choice the one beside, or as this one was opened."""
+        """The chosen run; by default the other one, or this one as it was opened."""
         editor = self.editor
         if editor.against is not None:
             return editor.against

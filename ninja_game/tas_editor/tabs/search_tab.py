@@ -1,4 +1,4 @@
-"""Searches in the selected ticks for keys that reach a goal, or bring more of something, and their results."""
+"""Searches in the selected ticks for keys that reach a goal or increase a measure, and their results."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice
 
-CLOSING_SECONDS = 0.5  # how long a search that is cancelled is waited for when the TAS editor is left
+CLOSING_SECONDS = 0.5  # longest wait for a cancelled search when the TAS editor is left
 
 COMPILING = (
     "Searches are loaded; the first time on a machine they are compiled, some minutes (`ninja-game compile` does it "
@@ -52,12 +52,12 @@ COMPILING = (
 )
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet."
-PATIENCE = 5.0  # seconds of a search after which pieces of its span are proposed
+PATIENCE = 5.0  # seconds of a search before pieces of its span are proposed
 FORGET = "Forget earlier"
 PIECES = "Nothing better so far. A click searches one of these:"
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
 
-LONGEST = 300  # characters of a formula that one can type
+LONGEST = 300  # characters of a formula
 LONGEST_TITLE = 30  # characters of it in the name of a branch
 
 EARLIEST, GREATEST, SMALLEST = "earliest", "greatest", "smallest"
@@ -73,7 +73,7 @@ _ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smalles
 _RESTS = (("end at the goal", False), ("then the rest", True))
 _NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
 _LEFT, _COLUMNS, _WIDTHS = 14, (228, 180, 120), (44, 58, 36)
-"""Where the cells of a result begin, px: the first from the left of a row, others from its right; their widths."""
+"""Starts of a result's cells, px: the first from the left of a row, others from its right; their widths."""
 _HEADS = ("Result", "Other from", "Ends at x, y", "Speed")
 _EXPLAINED = (
     "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "
@@ -86,11 +86,11 @@ Splits = tuple[InputTrack, tuple[Split, ...]]
 
 
 class SpanResults:
-    """Runs a task in the background, and puts results into the run, while nothing that they rely on has changed.
+    """Runs a task in the background, and puts results into the run, while the ticks before them are unchanged.
 
-    ``better``: the results that bring more than the run's own keys, best first; of those that go one way the best one.
-    While nothing has reached the goal, what comes nearest. ``every``: as of SpanSearch; None: search the whole run.
-    ``title``: what is searched, in a few words; ``stopped``: it did not end by itself. Raises what SpanSearch does.
+    ``better``: the results with more than the run's own keys, best first, one per route; before the goal is reached,
+    the nearest. ``every``: as of SpanSearch; None: search the whole run. ``title``: the search in a few words;
+    ``stopped``: it was cancelled. Raises as SpanSearch does.
     """
 
     def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int | None, title: str) -> None:
@@ -109,8 +109,8 @@ class SpanResults:
             if every is None
             else SpanSearch(task, method, jobs, every=every, memory=timeline.asked_memory)
         )
-        # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
-        # searched and those that results were put into.
+        # Beginnings of runs that results fit to, and in each the first tick that follows a result: of the searched run
+        # and of those that results were put into.
         whole = len(task.inputs) if task.rest else task.last
         self._fitting = [(task.inputs[:whole], (task.rest and task.behind) or task.last)]
         self.better: tuple[SpanResult, ...] = ()
@@ -138,9 +138,9 @@ class SpanResults:
 
     @property
     def behind(self) -> int | None:
-        """The first tick behind a result that is put into the run as it is now; None: it was changed, and none fits.
+        """The first tick behind a result in the present run; None: it has changed, and no result fits.
 
-        As with the rest of a run, what follows is what the run did after its own moment at the goal.
+        The ticks that follow are those that the run had after its own moment at the goal.
         """
         inputs = self.editor.track.inputs
         for begin, behind in reversed(self._fitting):
@@ -149,10 +149,10 @@ class SpanResults:
         return None
 
     def put(self, result: SpanResult) -> bool:
-        """Put a result into the run, as one edit; whether that was possible. Branches keep what was there, and it.
+        """Put a result into the run, as one edit; whether that was possible. Branches keep the earlier run, and it.
 
-        Into a run that was changed so that it does not fit, it is not put: that becomes as it was searched, with it.
-        Cursor and selection keep their ticks; behind the span they go with what follows it.
+        A run that has changed so that the result does not fit becomes the searched run with the result. Cursor and
+        selection keep their ticks; behind the span they move with the ticks that follow it.
         """
         editor, end = self.editor, self.task.first + result.ticks
         behind, track, taken = self.behind, editor.track, self._taken(result)
@@ -171,7 +171,7 @@ class SpanResults:
         if old:
             editor.app.notify("The run as it was searched, with this result. Undo, or Branches, has yours")
         self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
-        if not isinstance(self.search, RunSearch):  # of a whole run all ticks stay what they are
+        if not isinstance(self.search, RunSearch):  # a result for a whole run replaces all ticks
 
             def moved(tick: int) -> int:
                 return tick + end - behind if tick >= behind else min(tick, end - 1)
@@ -181,7 +181,7 @@ class SpanResults:
         return True
 
     def _whose(self, result: SpanResult) -> OtherRun | None:
-        """The run beside that a result is, just as it is."""
+        """The other run that equals a result, if any."""
         if result.own_route or not result.inputs:
             return None
         ticks, keys = len(result.inputs), with_press_bits(result.inputs)
@@ -189,7 +189,7 @@ class SpanResults:
         return next(same, None)
 
     def _like(self, result: SpanResult) -> str:
-        """The run beside whose way is nearest to that of a result, in words."""
+        """The other run whose route is nearest to that of a result, in words."""
 
         def apart(other: OtherRun) -> float:
             ticks = min(len(result.path), len(other.positions))
@@ -198,7 +198,7 @@ class SpanResults:
         return f"like {min(self._others, key=apart).name}"
 
     def _taken(self, result: SpanResult) -> Contributions:
-        """What found a result, and those whose routes may be in it."""
+        """The contributions to a result: the search, and the authors whose routes may be in it."""
         whose = self._whose(result)
         if whose is not None:
             return whose.made
@@ -207,14 +207,14 @@ class SpanResults:
         return sum((other.made for other in routes), Contributions(commands=(command,)))
 
     def _made(self, track: InputTrack, result: SpanResult, behind: int) -> InputTrack:
-        """The run with a result in it; with ``rest`` it is the run that reached the exit in the search."""
+        """The run with a result in it; with ``rest``, the run that reached the exit in the search."""
         first, keys = self.task.first, result.keys[: result.ticks].tolist()
-        if self.task.goal == "won":  # behind an exit nothing follows: keys there would take its claims from the run
+        if self.task.goal == "won":  # keys behind an exit would take the run's claims away
             inputs = track.inputs[:first] + result.inputs[first:]
             return InputTrack(inputs, moved_markers(self.editor.session.recording(), inputs))
         if not self.task.rest:
             return track.replaced(first, behind, keys)
-        end = int(min(result.score, len(result.inputs)))  # behind the exit, where that is reached, nothing follows
+        end = int(min(result.score, len(result.inputs)))  # no keys behind the exit, if it is reached
         made = track.replaced(first, behind, keys)
         return InputTrack(track.inputs[:first] + result.inputs[first:], made.markers).up_to(end)
 
@@ -238,7 +238,7 @@ class SpanResults:
         self._seen, own = results, self.search.own
         if own is not None:
             self._fitting[0] = self._fitting[0][0], self.task.first + own.ticks
-        # Of a whole run, what was found is what nothing beats.
+        # Results of a whole run are those that no other beats.
         before = () if isinstance(self.search, RunSearch) else self.better
         better = [
             run
@@ -258,7 +258,7 @@ class SpanResults:
         if self._others:
             whose = self._whose(result)
             route = "own route" if result.own_route else f"this is {whose.name}" if whose else self._like(result)
-            words = f"{words.removeprefix('exit in ')}, {route}"  # long names are cut, gold is not
+            words = f"{words.removeprefix('exit in ')}, {route}"  # long names are truncated, gold is not
         gain = "new" if result.missed_by is None else "a miss"
         if own is not None:
             more = own.score - result.score
@@ -291,7 +291,7 @@ class SpanResults:
 
 
 class PresetMenu(Menu):
-    """Its rows are low, and it lies over the roll, so that the run in the level is seen."""
+    """A menu with low rows over the roll, so that the run in the level stays visible."""
 
     row_height = 24
     veil = 40
@@ -365,7 +365,7 @@ class SearchTab(Tab):
     def commands(self) -> Commands:
         return {"search": self.ask}
 
-    # --- what is wanted ---
+    # # --- the task ---
 
     def ask(self) -> None:
         """Show this tab for the selected ticks, with the focus on the goal; without new ones it stays as it is."""
@@ -378,9 +378,9 @@ class SearchTab(Tab):
             self.use_selection()
 
     def use_selection(self) -> None:
-        """Search the selected ticks; where only one is, a second from there on.
+        """Search the selected ticks; if only one is selected, a second from there on.
 
-        A goal from the menu is made again for them; one that has ticks of its own, up to the exit, is left.
+        A goal from the menu is made again for them; one with its own ticks, up to the exit, stays.
         """
         first, last = self._taken = self.editor.selection
         second = min(first + TICKS_PER_SECOND, max(len(self.editor.track), last))
@@ -405,7 +405,7 @@ class SearchTab(Tab):
 
     @property
     def _is_from_menu(self) -> bool:
-        """Whether the fields are as a choice from the menu, or of a piece, has filled them."""
+        """Whether a choice from the menu, or of a piece, has filled the fields."""
         return self._preset is not None and (self.goal.text, self.measure.text) == self._preset[1][:2]
 
     def _fill(self, name: str, make: Callable[[SearchedSpan], SpanGoal], *, start: bool = False) -> None:
@@ -426,12 +426,12 @@ class SearchTab(Tab):
             self.start()
 
     def _typed(self, _: str) -> None:
-        """Leave the methods for the whole run: a goal was typed."""
+        """A goal was typed: no method for the whole run."""
         if self.method in IMPROVES:
             self.use_selection()
 
     def _put_method(self, method: str) -> None:
-        """Take a method; what is not the whole run any more is the selection."""
+        """Set a method; the span that is no longer the whole run becomes the selection."""
         left, self.method = self.method, method
         if left in IMPROVES and method not in IMPROVES:
             self.use_selection()
@@ -466,7 +466,7 @@ class SearchTab(Tab):
     # --- the search ---
 
     def start(self) -> None:
-        """Search; a search that is going on ends. What is wrong is reported."""
+        """Search; a running search ends. Errors are reported."""
         self._put_away()
         self.list.over = -1
         try:
@@ -503,7 +503,7 @@ class SearchTab(Tab):
         self._fill_list()
 
     def _put_away(self) -> None:
-        """End the search; what it has found is among the results of earlier ones."""
+        """End the search; its results join those of earlier ones."""
         if self.results is not None:
             self.results.close()
             found = [each for each in self.results.better if each.missed_by is None]
@@ -535,14 +535,14 @@ class SearchTab(Tab):
         over, rows = self.list.over, self._rows
         row = rows[over] if 0 <= over < len(rows) else None
         if row is None or isinstance(row, RunPiece) or row[0].is_in_run(row[1]):
-            return None  # of a result that was taken the change is what there is to be seen
+            return None  # a result in the run is visible as a change
         results, found = row
         return results.looked_at(found)
 
     def _propose_pieces(self, results: SpanResults) -> None:
-        """Once a search for something sooner has found nothing for a while: the pieces of its span.
+        """When a search for an earlier end has found nothing for a while, propose the pieces of its span.
 
-        They are those of the run as it is now.
+        They are those of the present run.
         """
         search, task, whole = results.search, results.task, self.method in IMPROVES
         late = search.ticks_run and (search.seconds > PATIENCE or not (results.running or results.stopped))
@@ -561,7 +561,7 @@ class SearchTab(Tab):
             self._splits.ask((track, session.recording()))  # in a thread: runs may be long
 
     def _put(self, index: int) -> None:
-        """Take a result, or search a piece; the others stay, for later."""
+        """Use a result, or search a piece; the others stay for later."""
         row = self._rows[index]
         if isinstance(row, RunPiece):
             kept = self._in_pieces, self._cut, self.pieces

@@ -1,4 +1,4 @@
-"""What the tabs below the level share: their place, their widgets, lists and fields in them."""
+"""The base of the tabs below the level: their place, widgets, lists and fields."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays
 
 SMALL = 9.0  # size of the text in lists and buttons, px
 ROW = 16  # height of a row of a list, px
-UNPLACED: Area = (0, 0, 0, 0)  # the area of widgets that their tab has not arranged yet
-_SHORT = 60  # longer lists of what is expected are left out of a line
+UNPLACED: Area = (0, 0, 0, 0)  # the area of widgets that are not arranged yet
+_SHORT = 60  # longer lists of expected words are left out of a line
 
 
 class Tab(TasPart):
@@ -33,7 +33,7 @@ class Tab(TasPart):
 
     @property
     def preview(self) -> OtherRun | None:
-        """The run that is looked at in it."""
+        """The run that it previews."""
         return None
 
     def place(self, area: Area) -> None:
@@ -138,7 +138,7 @@ class TabStrip(TasPart):
 class Rows(ListView):
     """A list in a tab: only a click chooses, the mouse over it does not. ``over``: the row under the mouse, or -1.
 
-    ``keeps``: the row that was chosen last is shown as such.
+    ``keeps``: the last chosen row is highlighted.
     """
 
     def __init__(
@@ -158,7 +158,7 @@ class Rows(ListView):
 
     @property
     def looked_at(self) -> int:
-        """The row under the mouse, else the one that was clicked last, or -1."""
+        """The row under the mouse, else the last clicked one, or -1."""
         return self.over if self.over >= 0 else self._clicked
 
     def draw_heads(
@@ -218,7 +218,7 @@ def put_in_a_row(x: float, y: float, buttons: Sequence[Button], widths: Sequence
 
 
 def what_is_wrong(error: NinjaGameError) -> str:
-    """An error as a line; of one in a formula with the column."""
+    """An error as a line; for an error in a formula with the column."""
     if isinstance(error, FormulaError) and error.column:
         message = f"Column {error.column}: {error.what}, {error.found}"
         return f"{message}; expected {error.expected}" if len(error.expected) < _SHORT else message

@@ -1,4 +1,4 @@
-"""The run as text, in step with the roll: a line for each span of the same keys, with a field to type another one."""
+"""The run as text, in step with the roll: a line for each span of equal keys, and a field to edit a line."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Ta
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
 
-LONGEST = 300  # characters of a line that is typed
+LONGEST = 300  # characters of a line
 _NAMED_END = re.compile(r'(?<=\s)#\s*([^"#]+)$')
 _WORD = re.compile(r'#"[^"]*"|\S+')
 
@@ -31,12 +31,12 @@ _WORD = re.compile(r'#"[^"]*"|\S+')
 def starts_of(track: InputTrack, unfolded: Span | None = None, kept: int = 0) -> NDArray[np.int64]:
     """The first ticks of a run's lines, in order; the last line is empty and begins behind the end.
 
-    ``unfolded``: the section whose lines are shown, of each other one the first; None: all. ``kept``: a tick with which
-    a line begins though its keys are those before.
+    ``unfolded``: the section whose lines are shown, of each other one the first; None: all. ``kept``: a tick that
+    begins a line though its keys are those before.
     """
     inputs = np.frombuffer(track.inputs, np.uint8)
     odd = inputs != np.frombuffer(with_press_bits(track.inputs), np.uint8)
-    # Keys that are down, and of a jump that no keyboard makes 16, and 8 where it is pressed.
+    # The keys that are down; 16 and 8 mark a jump that no keyboard makes, and its press.
     looks = inputs & np.uint8(KEYS_DOWN) | (odd * (inputs & np.uint8(JUMP_PRESSED) | np.uint8(16))).astype(np.uint8)
     named = [tick for tick, _ in track.markers]
     starts = np.unique([0, min(kept, len(inputs)), *(np.flatnonzero(looks[1:] != looks[:-1]) + 1), *named, len(inputs)])
@@ -47,7 +47,7 @@ def starts_of(track: InputTrack, unfolded: Span | None = None, kept: int = 0) ->
 
 
 def section_at(track: InputTrack, tick: int) -> Span:
-    """The ticks from a marker, or the start, to the next marker, or the end, that has a tick."""
+    """The ticks from a marker, or the start, to the next marker, or the end, around a tick."""
     bounds = sorted({0, *(at for at, _ in track.markers), len(track)})
     number = max(0, min(bisect_right(bounds, tick), len(bounds) - 1) - 1)
     return bounds[number], bounds[min(number + 1, len(bounds) - 1)]
@@ -56,8 +56,7 @@ def section_at(track: InputTrack, tick: int) -> Span:
 def text_of(track: InputTrack, first: int, last: int, *, celeste: bool) -> str:
     """The line of the ticks ``first`` … ``last`` - 1; a jump that no keyboard makes is in our notation in both.
 
-    >>> text_of(InputTrack(bytes([2, 2, 14, 6])), 2, 4, celeste=True)
-    '2,R,J'
+    >>> text_of(InputTrack(bytes([2, 2, 14, 6])), 2, 4, celeste=True) '2,R,J'
     """
     name = next((marker_word(name) for tick, name in track.markers if tick == first), "")
     if first == last:
@@ -85,7 +84,7 @@ def _named_in_line(typed: Inputs) -> Inputs:
 
 
 class TextTab(Tab):
-    """The lines; that of the cursor's tick stands in the field, and Enter puts what is typed there in its place."""
+    """The lines; the field holds that of the cursor's tick, and Enter replaces it."""
 
     name = "Text"
 
@@ -116,7 +115,7 @@ class TextTab(Tab):
         if self.editor.tab == self.name and seen != self._seen:
             self._seen, self._track = seen, self.editor.track
             self._unfolded = section_at(self._track, self.editor.cursor) if self.folded else None
-            # One types on behind what was typed last, also where the keys there are the same.
+            # Typing continues behind the last typed line, even if the keys there are equal.
             kept = self.editor.cursor if self.editor.cursor == self._typed_up_to else 0
             self._typed_up_to = kept or -1
             self.starts = starts_of(self._track, self._unfolded, kept)
@@ -135,7 +134,7 @@ class TextTab(Tab):
         return text_of(self._track, first, last, celeste=self.celeste)
 
     def _step(self, by: int) -> None:
-        """Go to the line above or below; what was typed is put in before."""
+        """Go to the line above or below; typed text is put in before."""
         index = self.list.index
         first, last = self.span(index)
         if self.field.text.strip() == self.text(index) or self.put():
@@ -156,7 +155,7 @@ class TextTab(Tab):
             try:
                 typed = _read(text)
             except FormatError:
-                # A text of several words, up to the line's end, is the name of what follows.
+                # A text of several words, up to the line's end, is the name of the ticks that follow.
                 if (named := _NAMED_END.sub(r'#"\1"', text)) == text:
                     raise
                 typed = _read(named)
@@ -180,7 +179,7 @@ class TextTab(Tab):
         return done
 
     def _go_on(self, tick: int) -> None:
-        """Go to the line behind what was typed; it is shown before the next key comes, which may be in no time."""
+        """Go to the line behind the typed one; it is shown before the next key, which may come at once."""
         self.editor.go(tick)
         self._typed_up_to = tick
         self.update(0)

@@ -1,4 +1,4 @@
-"""Watched values: what they are at the cursor's tick, their plots over the run, and the objects to choose from."""
+"""Watched values at the cursor's tick, their plots over the run, and the objects to choose from."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import RUN_COLOURS, Area, Palette, Theme, inside
 from ninja_game.ui.widgets import Button, Widget
 
-SHORTEST = 10.0  # ticks that are shown at least
+SHORTEST = 10.0  # least ticks shown
 _STEPS = (1, 2, 5, 10, 20, 40, 100, 200, 400, 1000, 2000, 4000, 10_000, 40_000)
 """Ticks between two numbers of the axis."""
 
@@ -80,7 +80,7 @@ class TickRange:
 
 
 def colour_of(number: int, palette: Palette) -> pygame.Color:
-    """The colour of a plot: on dark panels lighter, on light ones darker."""
+    """The colour of a plot: lighter on dark panels, darker on light ones."""
     dark = palette.panel.hsla[2] < 50
     return RUN_COLOURS[number % len(RUN_COLOURS)].lerp("white" if dark else "black", 0.4 if dark else 0.25)
 
@@ -88,7 +88,7 @@ def colour_of(number: int, palette: Palette) -> pygame.Color:
 def draw_lane(
     surface: pygame.Surface, theme: Theme, area: Area, window: TickRange, values: Values, colour: pygame.Color
 ) -> None:
-    """A value over ticks, float64 (ticks,), in the window; NaN leaves a gap. Its bounds stand at the left."""
+    """A value over ticks, float64 (ticks,), in the window; NaN leaves a gap. Its bounds are at the left."""
     canvas, palette = theme.canvas, theme.palette
     x, y, w, h = area
     canvas.fill_rect(surface, palette.background, *area)
@@ -139,7 +139,7 @@ WatchableObject = tuple[int, int, float, float]  # id, kind, x and y (px) of an 
 
 
 class ObjectChoice(MenuScreen):
-    """All objects. ``choose`` is called with a formula about the one that is chosen."""
+    """All objects. ``choose`` is called with a formula about the chosen one."""
 
     title = "Objects of this level"
     foot = "Enter proposes to watch an object; Esc goes back"
@@ -186,13 +186,13 @@ def proposal(id_: int, kind: int) -> str:
     return f"object_x({id_})" if KIND_OF[kind].moves else f"status({id_})"
 
 
-USUAL = ("speed", "vx", "vy")  # what is watched where nothing else is wanted
+USUAL = ("speed", "vx", "vy")  # watched by default
 LANES = 4  # values whose plot is shown at once
 
 
 @dataclass(eq=False)
 class Watched:
-    """A value that is watched. ``plotted``: its plot is shown; ``number``: of its colour."""
+    """A watched value. ``plotted``: its plot is shown; ``number``: of its colour."""
 
     watch: Watch
     number: int
@@ -201,7 +201,7 @@ class Watched:
 
 
 def watched_values(texts: Sequence[str]) -> Iterator[Watched]:
-    """Formulas as they were kept; those that cannot be read are left out."""
+    """Saved formulas; invalid ones are left out."""
     for number, text in enumerate(texts):
         with suppress(NinjaGameError):
             yield Watched(parse_watch(text), number, plotted=number < LANES)
@@ -216,9 +216,9 @@ def shown_value(watched: Watched, tick: int) -> str:
     return f"{value:.6g}"
 
 
-LONGEST = 200  # characters of a formula that one can type
+LONGEST = 200  # characters of a formula
 
-_STILL = 3.0  # the mouse that moves less, px, clicks
+_STILL = 3.0  # less movement of the mouse than this, px, is a click
 
 
 class ValuesTab(Tab):
@@ -275,7 +275,7 @@ class ValuesTab(Tab):
         ask_text(self.editor.app, "Watch a value", prompt, text, "Watch", self.add, LONGEST)
 
     def add(self, text: str) -> None:
-        """Watch a formula; an invalid one is reported and asked for again."""
+        """Watch a formula; an invalid one is reported and can be corrected."""
         try:
             watch = parse_watch(text)
             watch.values(self.editor.session.timeline)
@@ -298,7 +298,7 @@ class ValuesTab(Tab):
         self.list.fill(self.watched)
 
     def show_objects(self) -> None:
-        """The list of all objects; one that is chosen is proposed to be watched."""
+        """The list of all objects; the formula of a chosen one is proposed."""
         self.editor.app.push(ObjectChoice(self.editor.app, self.editor.session.timeline.objects, self.ask))
 
     def _toggle(self, index: int) -> None:
@@ -307,7 +307,7 @@ class ValuesTab(Tab):
         self._few_lanes(watched)
 
     def _few_lanes(self, latest: Watched) -> None:
-        """Where too many are plotted, the first other one goes."""
+        """If too many values are plotted, hide the first other one."""
         others = [watched for watched in self.watched if watched.plotted and watched is not latest]
         if latest.plotted and len(others) >= LANES:
             others[0].plotted = False

@@ -1,4 +1,4 @@
-"""Music: a loop in layers for each place, which come in with danger, speed and the open exit."""
+"""Music: a loop in layers for each place; layers fade in with danger, speed and the open exit."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ LAYERS = ("base", "danger", "speed", "exit")
 LAYERS_OF: dict[str, tuple[str, ...]] = {MENU: LAYERS[:1], **dict.fromkeys(BY_COLUMN, LAYERS)}
 
 FADE_MS = 350  # from one music to the next, each way
-FOLLOW_MS = 700  # a layer has gone 63 % of the way to its level
-NEAR = 120.0  # px within which danger is as high as it gets
-FAR = 420.0  # px from which on there is none
-FAST = 3.2  # px/tick at which the layer of speed is at its loudest; none at half of it
+FOLLOW_MS = 700  # until a layer has gone 63 % of the way to its level
+NEAR = 120.0  # px from a danger to the loudest layer
+FAR = 420.0  # px to where a danger is not heard
+FAST = 3.2  # px/tick with the loudest layer of speed; silent at half of it
 
 
 class MusicLevels(NamedTuple):
-    """How much of each layer is wanted, 0 to 1."""
+    """The level of each layer, 0 to 1."""
 
     base: float = 1.0
     danger: float = 0.0
@@ -45,12 +45,12 @@ CALM = MusicLevels()
 
 
 def affects_music(o: Object) -> bool:
-    """Whether an object may be a danger that hunts, or is an exit."""
+    """Whether an object may hunt the ninja, or is an exit."""
     return o.kind in (LAUNCHER, FLOOR_GUARD, DRONE, TURRET, EXIT)
 
 
 def music_levels(world: World, objects: Iterable[Object]) -> MusicLevels:
-    """The levels for a moment of play. ``objects``: those of the world that are ``affects_music``."""
+    """The levels for a moment of play. ``objects``: those of the world for which ``affects_music`` holds."""
     ninja = world.ninja
     danger, is_open = 0.0, 0.0
     for o in objects:
@@ -66,7 +66,7 @@ def music_levels(world: World, objects: Iterable[Object]) -> MusicLevels:
 class Music:
     """Plays one music at a time. ``folder``: of its files; ``first``: its first channel, one for each layer.
 
-    The layers start together, all of them, and only their volumes differ.
+    All layers start together; only their volumes differ.
     """
 
     def __init__(self, folder: Path, first: int) -> None:
@@ -80,7 +80,7 @@ class Music:
         self._readers: list[Thread] = []
 
     def update(self, name: str, volume: float, real_ms: int) -> None:
-        """Let time pass. ``name``: what is to be heard, "" as it is; ``volume``: a share."""
+        """Let time pass. ``name``: of the music, "" for the present one; ``volume``: a share."""
         if name == self.playing or not name:
             self._share = min(1.0, self._share + real_ms / FADE_MS)
         else:
@@ -93,18 +93,18 @@ class Music:
             pygame.mixer.Channel(self.first + layer).set_volume(volume * self._share * self._heard[layer])
 
     def silence(self) -> None:
-        """Stop at once; what is asked for next begins again."""
+        """Stop at once; the next music begins from its start."""
         for layer in range(len(LAYERS)):
             pygame.mixer.Channel(self.first + layer).stop()
         self.playing, self._share = "", 0.0
 
     def close(self) -> None:
-        """Wait until nothing is read."""
+        """Wait until all files are read."""
         for reader in self._readers:
             reader.join()
 
     def _change(self, name: str) -> None:
-        """Begin another music when it has been read; the one before is over."""
+        """Begin another music when it has been read; the one before ends."""
         if self._asked != name:
             self._asked, self._sounds = name, None
             reading = run_in_background(lambda: self._read(name), lambda _: None)

@@ -1,6 +1,6 @@
-"""Plays the sounds of each tick's events and of what lasts. A machine without sound is not an error.
+"""Plays the sounds of each tick's events and of lasting states. A machine without sound is not an error.
 
-Some sounds depend on the ones before: variants do not repeat, gold climbs, steps have the pace of a run.
+Some sounds depend on earlier ones: variants do not repeat, gold rises in pitch, steps have the pace of a run.
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ from ninja_game.sim.states import RUNNING
 from ninja_game.ui.audio.music import CALM, LAYERS, Music, affects_music, music_levels
 from ninja_game.ui.audio.table import CORPSE, GOLD, LOOPS, STEPS, Names, by_hardness, event_sound, has_loop, loop_levels
 
-RATE = 44_100  # samples a second, those of our files
-BUFFER = 512  # samples in the mixer's: 12 ms of delay
+RATE = 44_100  # samples per second of our files
+BUFFER = 512  # samples in the mixer's buffer: 12 ms of delay
 CHANNELS = 32
 LOUDEST = 99
-PAN = 0.35  # how much softer the far side gets for a sound at the stage's edge
+PAN = 0.35  # how much softer the far side is for a sound at the stage's edge
 
 CORPSE_PAUSE = 0.06  # seconds between two thuds of a corpse
 
 
 class AudioOutput:
-    """Plays what happens; this one is silent. Presentation only: it reads the world."""
+    """The interface of sound output; this class is silent. Presentation only: it reads the world."""
 
     def play_events(self, world: World) -> None:
-        """Called after every tick that is seen: its events, and loops by state and speed."""
+        """Called after every visible tick: its events, and loops by state and speed."""
 
     def corpse(self, speed: float) -> None:
         """A part of the corpse hit something at this speed, px/tick."""
@@ -45,19 +45,19 @@ class AudioOutput:
         """Play a sound of the menus once."""
 
     def music(self, name: str, real_ms: int) -> None:
-        """Called for every picture: which music is to be heard, "" the one that plays; ms since the last one."""
+        """Called for every picture: the name of the music, "" for the present one; ms since the last picture."""
 
     def set_volumes(self, volume: int, effects: int, loop_volume: int, music_volume: int) -> None:
-        """Take other volumes, 0 to 99."""
+        """Set other volumes, 0 to 99."""
 
     def quiet(self) -> None:
         """End all sounds but the music, which becomes calm."""
 
 
 class AudioPlayer(AudioOutput):
-    """Plays what happens. Volumes: 0 to 99; ``volume`` is of everything. Without a sound device it is silent.
+    """Plays the sounds. Volumes: 0 to 99; ``volume`` is the overall one. Without a sound device it is silent.
 
-    ``folder``: where the Ogg files are; missing ones are silent.
+    ``folder``: of the Ogg files; missing ones are silent.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -81,7 +81,7 @@ class AudioPlayer(AudioOutput):
         self._reader = run_in_background(self._read_all, lambda _: None) if self.works else None
 
     def play_events(self, world: World) -> None:
-        """After a tick: its events once each, and the loops of what goes on."""
+        """After a tick: each of its events once, and the loops of lasting states."""
         if not self.works or not self.volume:
             return
         if world is not self._world:
@@ -120,16 +120,16 @@ class AudioPlayer(AudioOutput):
                     pygame.mixer.Channel(number).stop()
 
     def close(self) -> None:
-        """Read nothing more. Done by ``pygame.quit`` and at the program's end, before the device is closed."""
+        """Stop reading. Called by ``pygame.quit`` and at the program's end, before the device is closed."""
         self._closed = True
         self._music.close()
         if self._reader:
             self._reader.join()
 
     def play(self, name: str, *, x: float = WORLD_WIDTH / 2, level: float = 1.0) -> None:
-        """Play a sound once at this share of its loudness, heard from ``x`` px of the stage."""
+        """Play a sound once at this share of its loudness, located at ``x`` px of the stage."""
         sound = self._sound(name)
-        # Not `find_channel`, which would give away the channels that the loops have reserved.
+        # Not `find_channel`, which would return the channels that the loops have reserved.
         channel = sound.play() if sound and self.volume else None
         if channel:
             side = max(-1.0, min(1.0, 2 * x / WORLD_WIDTH - 1)) if isfinite(x) else 0.0
@@ -145,7 +145,7 @@ class AudioPlayer(AudioOutput):
             self._music.silence()
 
     def _loop(self, name: str, level: float) -> None:
-        """Keep a loop going at this share of its loudness; 0 ends it. Each loop has a channel of its own."""
+        """Play a loop at this share of its loudness; 0 ends it. Each loop has its own channel."""
         channel = pygame.mixer.Channel([*LOOPS].index(name))
         if level <= 0:
             if channel.get_busy():
@@ -178,7 +178,7 @@ class AudioPlayer(AudioOutput):
 
 @contextmanager
 def _quiet_libraries() -> Iterator[None]:
-    """Nothing on stderr: where there is no sound card, the system's sound library complains there in many lines."""
+    """Silence stderr: without a sound card, the system's sound library writes many lines there."""
     kept = os.dup(2)
     silence = os.open(os.devnull, os.O_WRONLY)
     os.dup2(silence, 2)
@@ -202,9 +202,9 @@ def _open_mixer() -> bool:
     return True
 
 
-CHAIN_TICKS = 60  # gold within so many ticks after the piece before it climbs
+CHAIN_TICKS = 60  # between two pieces of gold of a chain, in which the pitch rises
 
-STRIDE = 32.4  # from one footstep to the next, px: half a cycle of the drawn legs (view/ninja/figure.py)
+STRIDE = 32.4  # px between two footsteps: half a cycle of the drawn legs (view/ninja/figure.py)
 
 
 class Variants:
@@ -221,14 +221,14 @@ class Variants:
 
 
 class GoldPitches:
-    """The pitch of each piece of gold: one higher in a chain, to the top; the lowest one after a pause or a restart."""
+    """The pitch of each piece of gold: it rises in a chain, and starts low after a pause or a restart."""
 
     def __init__(self, pitches: int) -> None:
         self.top = pitches - 1
         self._pitch, self._tick = -1, -1
 
     def next(self, tick: int) -> int:
-        """The pitch of gold that is taken in this tick, 0 and up."""
+        """The pitch of gold collected in this tick, from 0."""
         chained = self._pitch >= 0 and 0 <= tick - self._tick <= CHAIN_TICKS
         self._pitch = min(self._pitch + 1, self.top) if chained else 0
         self._tick = tick
@@ -242,7 +242,7 @@ class Footsteps:
         self._way = STRIDE / 2
 
     def loudness(self, ninja: Ninja) -> float:
-        """How loud the step of this tick is, a share by speed; 0: there is none. To be called every tick."""
+        """Loudness of the step of this tick, a share by speed; 0: no step. To be called every tick."""
         if ninja.state != RUNNING:
             self._way = STRIDE / 2
             return 0.0

@@ -1,4 +1,4 @@
-"""The sounds of the game: the files of each event, how loud they are, and the loops of lasting states."""
+"""The sounds of the game: the files and loudness of each event, and the loops of lasting states."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER, TURRET
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import Event, Ninja, World
 
-Names = tuple[str, ...]  # variants of a sound, of which one is chosen by chance, never the last one again
+Names = tuple[str, ...]  # variants of a sound, chosen at random, never the same twice in a row
 
 
 def variants(name: str, count: int) -> Names:
@@ -24,7 +24,7 @@ STEPS = variants("step", 5)
 
 LANDING = ((4.0, variants("land-hard", 3)), (2.0, variants("land-medium", 3)), (0.0, variants("land-soft", 3)))
 CORPSE = ((3.0, variants("corpse-hard", 3)), (2.0, variants("corpse-medium", 2)), (1.2, variants("corpse-soft", 2)))
-"""Slowest speed (px/tick) of each hardness, hardest first; of the ninja's feet, and of parts of a corpse."""
+"""Least speed (px/tick) of each hardness, hardest first; for the ninja's feet, and for parts of a corpse."""
 
 BY_EVENT: dict[int, Names] = {
     events.JUMPED: variants("jump", 4),
@@ -60,7 +60,7 @@ OTHER_DEATH = variants("death-bullet", 2)
 
 
 def by_hardness(table: tuple[tuple[float, Names], ...], speed: float) -> Names:
-    """The sounds of a hit at a speed, px/tick; none if it is slower than all."""
+    """The sounds of a hit at a speed, px/tick; none for a slower one."""
     return next((names for slowest, names in table if speed > slowest), ())
 
 
@@ -84,14 +84,14 @@ LOOPS: dict[str, Names] = {
     "laser-beam": ("laser-beam",),
     "guard": ("guard",),
 }
-"""Sounds that go on, with their variants. Each has a channel of its own."""
+"""Looped sounds, with their variants. Each has its own channel."""
 
 _LASTING = {
     LAUNCHER: (states.LAUNCHER_FLIGHT, "rocket-flight"),
     DRONE: (states.DRONE_FIRING, "laser-beam"),
     FLOOR_GUARD: (states.GUARD_CHASE, "guard"),
 }
-"""By kind: the routine that lasts, and its loop."""
+"""By kind: the lasting routine, and its loop."""
 
 
 def has_loop(o: Object) -> bool:
@@ -99,7 +99,7 @@ def has_loop(o: Object) -> bool:
 
 
 def loop_levels(world: World, machines: Iterable[Object]) -> dict[str, float]:
-    """How loud each loop is, 0 to 1. ``machines``: the launchers, floor guards and laser drones of the world."""
+    """Loudness of each loop, 0 to 1. ``machines``: the launchers, floor guards and laser drones of the world."""
     levels = dict.fromkeys(LOOPS, 0.0)
     ninja = world.ninja
     vx, vy = ninja.x - ninja.prev_x, ninja.y - ninja.prev_y
@@ -115,7 +115,7 @@ def loop_levels(world: World, machines: Iterable[Object]) -> dict[str, float]:
 
 
 def warning_of(o: Object) -> str:
-    """What an object's sounds warn of now: "rocket", "weapon", "chase", "turret"; "": nothing."""
+    """The danger that an object's sounds announce: "rocket", "weapon", "chase", "turret"; "": none."""
     kind, routine = o.kind, o.routine
     if kind == LAUNCHER and routine in (states.LAUNCHER_PREPARE, states.LAUNCHER_FLIGHT):
         return "rocket"

@@ -16,7 +16,7 @@ from ninja_game.ui.input.gamepad import Gamepads, pad_label
 from ninja_game.ui.input.keys import key_label, key_name, learn_label, scancode_named, scancode_of
 
 TAP_SECONDS = 0.15
-"""A move that went down and up between two ticks counts in the next one, if it is not older: longer than any tick."""
+"""A move pressed and released between two ticks counts in the next one, up to this age: longer than any tick."""
 
 Inputs = Mapping[str, tuple[str, ...]]  # names of inputs by action
 
@@ -24,13 +24,13 @@ TOUCH_LABELS = {
     "left": "Left", "right": "Right", "jump": "Jump", "confirm": "Jump", "back": "Back", "pause": "Pause",
     "retry": "Retry",
 }  # fmt: skip
-"""What the page's buttons on a touch screen are called, by action."""
+"""The names of the page's buttons on a touch screen, by action."""
 
 
 class Bindings:
-    """Which keys and pad inputs mean which actions: ``keys`` and ``pad``, by action.
+    """The keys and pad inputs of each action: ``keys`` and ``pad``, by action.
 
-    ``tap_to_run``: a press of left or right runs on until the next press of either.
+    ``tap_to_run``: a press of left or right lasts until the next press of either.
     """
 
     def __init__(self) -> None:
@@ -42,9 +42,9 @@ class Bindings:
         self.bind({}, {})
 
     def bind(self, keys: Inputs, pad: Inputs) -> None:
-        """Take what the player has changed, by action; the other actions have their defaults.
+        """Apply the player's changes, by action; the other actions have their defaults.
 
-        Unknown names are ignored, and stand in ``unknown``; an action that has only such keys keeps its defaults.
+        Unknown names are ignored and listed in ``unknown``; an action with only unknown keys keeps its defaults.
         """
         self.unknown = sorted({name for names in keys.values() for name in names if not scancode_named(name)})
         self.keys = {}
@@ -73,17 +73,17 @@ class Bindings:
         self._jump_choosing_pad = _jumps_and_chooses(self.pad, MENU_PAD)
 
     def poll(self) -> int:
-        """Read the devices: what is held right now, 1 left + 2 right + 4 jump.
+        """Read the devices: the sum of the held keys, 1 left + 2 right + 4 jump.
 
-        A tap of a move since the last poll counts as held, once. A second jump key beside one that is held is a new
-        press: the jump is let go for this once.
+        A tap of a move since the last poll counts as held, once. A second jump key beside a held one is a new press:
+        the jump counts as released this time.
         """
         pygame.event.pump()
         state = pygame.key.get_pressed()
         pads = self.pads.down
         bits = 0
         for bit, codes in self._move_keys:
-            # The tuple below is by scancode; the object's own indexing is by layout.
+            # The tuple below is indexed by scancode; the object's own indexing is by layout.
             if any(tuple.__getitem__(state, code) for code in codes):
                 bits |= bit
         for bit, names in self._move_pad:
@@ -99,18 +99,18 @@ class Bindings:
         return bits & JUMP_HELD | self._running if self.tap_to_run else bits
 
     def choosing(self, *, pads: bool = True) -> int:
-        """The jump bit while an input is down that both jumps and chooses: what it has just chosen is no jump."""
+        """The jump bit while an input for both jump and confirm is down: a confirmation is no jump."""
         state = pygame.key.get_pressed()
         down = any(tuple.__getitem__(state, code) for code in self._jump_choosing)
         return JUMP_HELD * bool(down or (pads and self.pads.down & self._jump_choosing_pad))
 
     def stop_running(self) -> None:
-        """Forget that a tap runs on, and taps that are to count."""
+        """Forget the running of ``tap_to_run``, and taps that have not counted yet."""
         self._running = 0
         self._taps.clear()
 
     def decode(self, event: pygame.Event) -> InputEvent:
-        """What an event means. Called once for each: pads, layout and taps of the jump key are followed."""
+        """The meaning of an event. To be called once for each: pads, layout and taps of the jump key are tracked."""
         if event.type in (pygame.KEYDOWN, pygame.KEYUP):
             return self._decode_key(event)
         changes = self.pads.changes(event)
@@ -141,7 +141,7 @@ class Bindings:
         return self._noted(InputEvent(event, pressed=actions, menu=menu, source=("keys", name)))
 
     def _noted(self, event: InputEvent) -> InputEvent:
-        """The event; the time of a press of a move is kept for the next tick, and a tap that runs on."""
+        """The event. Keeps the time of a press of a move for the next tick, and the running of ``tap_to_run``."""
         self._taps |= {bit: monotonic() for action, bit in MOVES if action in event.pressed}
         for action, bit in MOVES[:2]:
             if action in event.pressed:
@@ -149,7 +149,7 @@ class Bindings:
         return event
 
     def name(self, action: str) -> str:
-        """What to press for an action: on the screen or the pad if that was used last, else on the keyboard."""
+        """The input for an action: on the screen or the pad if that was used last, else on the keyboard."""
         if self.touched and action in TOUCH_LABELS:
             return TOUCH_LABELS[action]
         pad, keys = self.pad.get(action, ()), self.keys.get(action, ())
@@ -158,13 +158,13 @@ class Bindings:
         return key_label(keys[0]) if keys else pad_label(pad[0]) if pad else "(no key)"
 
     def all_names(self, action: str) -> tuple[str, str]:
-        """All that can be pressed for an action: on the keyboard, on a gamepad as most have it."""
+        """All inputs for an action: on the keyboard, on the usual gamepad."""
         buttons = [name for name in self.pad[action] if not name.startswith(("hat-", "axis-", "button-"))]
         return ", ".join(map(key_label, self.keys[action])), ", ".join(map(pad_label, buttons))
 
 
 def _jumps_and_chooses(inputs: Inputs, menu: Mapping[str, str]) -> set[str]:
-    """The names of inputs that jump and also choose, in play or in a menu."""
+    """The names of inputs that both jump and confirm, in play or in a menu."""
     chosen = {*inputs["confirm"], *(name for name, meaning in menu.items() if meaning == "confirm")}
     return {*inputs["jump"]} & chosen
 
@@ -182,7 +182,7 @@ class KeyAction(NamedTuple):
 
 
 def _read_actions() -> dict[str, KeyAction]:
-    """The actions of the bundled table, whose head says what its columns are."""
+    """The actions of the bundled table, whose head explains its columns."""
     return {
         name: KeyAction(where, label, tuple(keys.split()), tuple(" ".join(pad).split()))
         for name, where, label, keys, *pad in asset_rows("commands/game.txt")
@@ -192,7 +192,7 @@ def _read_actions() -> dict[str, KeyAction]:
 ACTIONS = _read_actions()
 
 PAGE_KEYS = {"slow": ("x",), "screenshot": ("f10",)}
-"""Keys in a page instead of those that the browser has its own use for: Ctrl with W, a jump, closes the tab."""
+"""Keys in a page instead of those that the browser uses itself: Ctrl with W, a jump, closes the tab."""
 
 ACTIONS |= {action: ACTIONS[action]._replace(keys=keys) for action, keys in in_page_or_not(PAGE_KEYS, {}).items()}
 
@@ -201,7 +201,7 @@ MENU_KEYS: dict[str, str] = {
     "space": "confirm", "escape": "back", "backspace": "back", "pageup": "page_up", "pagedown": "page_down",
     "home": "first", "end": "last", "delete": "delete",
 }  # fmt: skip
-"""Keys in menus; they cannot be rebound, so that nobody locks themselves out."""
+"""Keys in menus; they cannot be rebound, so that menus always work."""
 
 MENU_PAD: dict[str, str] = {
     "dpad-left": "left", "dpad-right": "right", "dpad-up": "up", "dpad-down": "down", "leftx-": "left",
@@ -213,10 +213,10 @@ MENU_PAD: dict[str, str] = {
 
 
 def bindable(action: str, name: str, in_menus: Mapping[str, str]) -> bool:
-    """Whether an input may mean an action: what works menus must not hide the game as well.
+    """Whether an action may have an input: keys of menus must not hide the game.
 
-    >>> [bindable("boss", name, MENU_KEYS) for name in ("return", "b")], bindable("boss", "b", MENU_PAD)
-    ([False, True], False)
+    >>> [bindable("boss", name, MENU_KEYS) for name in ("return", "b")], bindable("boss", "b", MENU_PAD) ([False, True],
+    False)
     """
     return ACTIONS[action].where != "everywhere" or name not in in_menus
 
@@ -225,9 +225,9 @@ def bindable(action: str, name: str, in_menus: Mapping[str, str]) -> bool:
 class InputEvent:
     """What an event presses and releases.
 
-    ``raw``: as SDL gave it. ``pressed``, ``released``: actions in play (``ACTIONS``). ``menu``,
-    ``menu_released``: what it means in menus (the values of ``MENU_KEYS``), "" if nothing. ``source``: the input that
-    it presses, ("keys", "x") or ("pad", "a"); None for any other event.
+    ``raw``: SDL's event. ``pressed``, ``released``: actions in play (``ACTIONS``). ``menu``, ``menu_released``: actions
+    in menus (the values of ``MENU_KEYS``), "" for none. ``source``: the pressed input, ("keys", "x") or ("pad", "a");
+    None for any other event.
     """
 
     raw: pygame.Event

@@ -1,7 +1,7 @@
 """Gamepads: buttons, sticks and triggers as names that can be bound. Pads may come and go at any time.
 
-Pads that SDL knows have the names of a standard pad (``a``, ``dpad-left``, ``leftx-``); others are read as plain
-joysticks (``button-3``, ``axis-0-``, ``hat-left``).
+Pads that SDL knows have the names of a standard pad (``a``, ``dpad-left``, ``leftx-``); others are read as joysticks
+(``button-3``, ``axis-0-``, ``hat-left``).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import pygame
 from ninja_game.player.settings import Settings
 
 RELEASE_SHARE = 0.8
-"""A stick counts as back at rest below this share of the dead zone, so that it does not flutter at its edge."""
+"""A stick is at rest again below this share of the dead zone, so that it does not flicker at its edge."""
 
 FULL_AXIS = 32767
 
@@ -38,7 +38,7 @@ Change = tuple[str, bool]  # an input's name, and whether it is down now
 
 
 class Gamepads:
-    """All pads together. ``dead_zone``: share of a stick's way that counts as rest. ``down``: the inputs held now."""
+    """All pads together. ``dead_zone``: share of a stick's range that counts as rest. ``down``: the held inputs."""
 
     def __init__(self) -> None:
         self.dead_zone = Settings.dead_zone

@@ -1,7 +1,7 @@
 """Keys by their place on the keyboard (scancode): names for files, labels for people.
 
-A binding is a place, so that a player with another layout keeps the same fingers. What is printed on that key is learnt
-from the layout: SDL tells it with every press.
+A binding is a place, so that a player with another layout uses the same fingers. The label of the key is read from the
+layout: SDL sends it with every press.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def key_name(scancode: int) -> str:
 
 
 def chord(event: pygame.Event) -> str:
-    """A key press by name, with ``ctrl+`` and ``shift+``. With Ctrl letters count by what is printed on the key."""
+    """A key press by name, with ``ctrl+`` and ``shift+``. With Ctrl, letters count by the key's label."""
     name = key_name(scancode_of(event))
     modifiers = getattr(event, "mod", 0)
     ctrl = "ctrl+" if modifiers & (pygame.KMOD_CTRL | pygame.KMOD_META) else ""
@@ -65,7 +65,7 @@ def chord(event: pygame.Event) -> str:
 
 
 def scancode_named(name: str) -> int | None:
-    """The key that a name means; None if none."""
+    """The scancode of a name; None for an unknown one."""
     unnamed = _UNNAMED.fullmatch(name)
     if unnamed:
         return int(unnamed[1]) if int(unnamed[1]) < SCANCODE_LIMIT else None
@@ -79,10 +79,9 @@ def learn_label(event: pygame.Event) -> None:
 
 
 def key_label(name: str) -> str:
-    """What to call a key when talking to the player.
+    """The label of a key, for the player.
 
-    >>> key_label("lshift"), key_label("kp_plus"), key_label("f5")
-    ('Shift', 'Keypad plus', 'F5')
+    >>> key_label("lshift"), key_label("kp_plus"), key_label("f5") ('Shift', 'Keypad plus', 'F5')
     """
     scancode = scancode_named(name)
     if scancode in _learnt:
@@ -101,22 +100,22 @@ def key_label_of(name: str) -> str:
 T = TypeVar("T")
 
 LONGEST_STEP_MS = 50
-"""More than this in one picture is a stall, which is not a long press: the release may be waiting behind it."""
+"""A longer picture is a stall and no long press: the release may wait in the queue."""
 
 
 class HeldKey(Generic[T]):
-    """A key that repeats while it is held. ``what``: what it does; None where none is held."""
+    """A key that repeats while it is held. ``what``: its action; None where none is held."""
 
     def __init__(self) -> None:
         self.what: T | None = None
         self._key = self._again_in = self._every = 0
 
     def begin(self, what: T, scancode: int = 0, *, first: int, every: int) -> None:
-        """The action was done and its key is down: it repeats after ``first`` ms, then every so many ms."""
+        """Its key is down after the first action, which repeats after ``first`` ms, then at the given interval."""
         self.what, self._key, self._again_in, self._every = what, scancode, first, every
 
     def end(self) -> None:
-        """Nothing repeats."""
+        """Stop repeating."""
         self.what = None
 
     def follow(self, event: pygame.Event) -> None:
@@ -124,7 +123,7 @@ class HeldKey(Generic[T]):
             self.end()
 
     def due(self, real_ms: int) -> list[T]:
-        """What is to be done after so much more real time, once for each time."""
+        """The repeated action, once for each time that it is due after that many ms more."""
         self._again_in -= min(real_ms, LONGEST_STEP_MS)
         actions = []
         while self.what is not None and self._again_in <= 0:

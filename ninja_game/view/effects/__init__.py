@@ -1,1 +1,1 @@
-"""Particles that events set off."""
+"""Particles for events."""

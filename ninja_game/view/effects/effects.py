@@ -1,4 +1,4 @@
-"""From events and states of the world to particles. Chance is of our own: the world never reads it."""
+"""From events and states of the world to particles, with random numbers that the world never reads."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from ninja_game.sim.memory.schema import Event, TileMap, World
 from ninja_game.sim.rules import FATAL_IMPACT, FLOOR_ALLOWANCE
 from ninja_game.view.effects.particles import Particle, Particles
 
-CONFETTI_FALL = 90.0  # px that a paper sails down at most
+CONFETTI_FALL = 90.0  # most px that a paper falls
 
 _CHARGED = {states.DRONE_PRE_FIRE, states.DRONE_FIRING}
 
 
 class Effects:
-    """Makes the particles of a view. ``gore``: whether blood is shown; without it deaths throw sparks of dust."""
+    """Makes the particles of a view. ``gore``: whether blood is shown; otherwise deaths make sparks."""
 
     def __init__(self, particles: Particles, rng: Random) -> None:
         self.particles = particles
@@ -34,7 +34,7 @@ class Effects:
         self.now = 0.0
 
     def on_tick(self, level: TileMap, world: World) -> None:
-        """What a tick throws up."""
+        """Make the particles of a tick."""
         self.now += 1.0
         self.particles.expire(self.now)
         for event in world.events[: world.event_count]:
@@ -87,7 +87,7 @@ class Effects:
         self.spread("smoke", x, y, 4, 18, life=40)
 
     def blood(self, x: float, y: float, dx: float, dy: float, count: int) -> None:
-        """Spurts along an impulse, each its own way."""
+        """Spurts along an impulse, each in a slightly different direction."""
         kind = "blood" if self.gore else "dust"
         for _ in range(count):
             share = self.rng.uniform(3, 6)
@@ -100,7 +100,7 @@ class Effects:
                 life=self.rng.uniform(22, 36),
             )
 
-    # --- what goes on while a state lasts ---
+    # # --- while a state lasts ---
 
     def _wall_and_floor(self, world: World) -> None:
         n = world.ninja
@@ -119,7 +119,7 @@ class Effects:
             self.add("dust", n.x - n.wall_x * 10, y, n.wall_x * 4, -vy * 3, life=32, size=0.7, rear=True)
 
     def _fall(self, world: World) -> None:
-        """Lines in the colour of danger trail behind who falls so fast that flat ground kills."""
+        """Lines in the colour of danger trail behind a ninja so fast that flat ground would kill it."""
         n = world.ninja
         if n.in_air and n.state != states.DEAD and n.y - n.prev_y > FATAL_IMPACT - FLOOR_ALLOWANCE:
             for side in (-1, 1):
@@ -139,7 +139,7 @@ class Effects:
 
 
 def _jumped(e: Effects, level: TileMap, world: World, event: Event) -> None:
-    # The event comes after the jump's displacement; the dust stays where the feet were.
+    # The event comes after the jump's displacement; the dust stays at the place before.
     x, y = event.x - event.dx * 11, event.y - event.dy * 12 + (3 if event.dy else 0)
     e.puffs(x, y, event.dx, event.dy, 20, 7)
 
@@ -166,7 +166,7 @@ def _won(e: Effects, level: TileMap, world: World, event: Event) -> None:
 
 
 def _free_way(level: TileMap, world: World, x: float, y: float, angle: float, far: float) -> tuple[float, float]:
-    """The end of a flight of this length; it stops before a wall."""
+    """The end of a path of this length, which stops before a wall."""
     dx, dy = cos(angle), sin(angle)
     stopped, to_x, to_y = ray_tiles(level, world, x, y, x + dx, y + dy)
     way = min(far, max(0.0, hypot(to_x - x, to_y - y) - 3)) if stopped else far
@@ -198,7 +198,7 @@ def _thud(e: Effects, level: TileMap, world: World, event: Event) -> None:
 
 
 def _line_of_fire(level: TileMap, world: World, event: Event) -> tuple[float, float]:
-    """Where a shot from an event's place in its direction ends: a tile, or the ninja on the way."""
+    """The end of a shot from an event's place in its direction: a tile, or the ninja before it."""
     hit, x, y = ray_tiles(level, world, event.x, event.y, event.x + event.dx, event.y + event.dy)
     return (x, y) if hit else (event.x + 30 * event.dx, event.y + 30 * event.dy)
 
@@ -232,4 +232,4 @@ REACTIONS: dict[int, Callable[[Effects, TileMap, World, Event], None]] = {
     ev.TURRET_FIRED: _turret_fired,
     ev.CHAINGUN_SHOT: _bullet,
 }
-"""What each event throws up; events without an entry are heard, not seen."""
+"""The particles of each event; other events have only a sound."""

@@ -1,4 +1,4 @@
-"""Particles: small pictures without physics that move along a line, change and go (presentation.md §5)."""
+"""Particles: small pictures without physics that move along a line, change and vanish (presentation.md §5)."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from ninja_game.view.sprites.drawing import DrawTarget, drawing
 from ninja_game.view.sprites.sketch import Sketch, star
 from ninja_game.view.sprites.static_sprites import gold_streak, lightning
 
-MOST = 100  # at most so many in front of the ninja and behind it; the oldest goes first
+MOST = 100  # most in front of the ninja, and behind it; the oldest is removed first
 
 
 @dataclass(slots=True)
 class Particle:
-    """A particle. (x, y): where it starts, px; (dx, dy): how far it goes in its life; ``fall``: px it sinks meanwhile.
+    """(x, y): start, px; (dx, dy): movement over its life; ``fall``: px that it sinks in that time.
 
     Times in ticks.
     """
@@ -48,14 +48,14 @@ class Particles:
         self.rear.clear()
 
     def add(self, particle: Particle, *, rear: bool = False) -> None:
-        """Show one more; of many only the share ``share_shown``."""
+        """Show one more; only the share ``share_shown`` of many."""
         self._count += self.share_shown
         if self._count >= 1.0:
             self._count -= 1.0
             (self.rear if rear else self.front).append(particle)
 
     def expire(self, now: float) -> None:
-        """Drop those whose life is over."""
+        """Drop particles whose life is over."""
         for layer in (self.front, self.rear):
             while layer and now - layer[0].born > layer[0].life:
                 layer.popleft()
@@ -131,14 +131,14 @@ def _muzzle(p: Particle, target: DrawTarget, t: float) -> None:
 
 
 def _halo(p: Particle, target: DrawTarget, t: float) -> None:
-    """A ring of light that widens and goes out."""
+    """A ring of light that widens and fades."""
     palette = target.palette
     colour = mixed(palette.exit_light, palette.background, t * t)
     target.disc(colour, p.x, p.y, 10 + 80 * p.size * (1 - (1 - t) ** 2), 5 * (1 - t))
 
 
 def _confetti(p: Particle, target: DrawTarget, t: float) -> None:
-    """A paper that is thrown up, turns and sails down."""
+    """A paper that flies up, turns and falls slowly."""
     x, y = _eased(p, t)
     turn, half = p.variant + 9 * t, 2.4 * p.size
     y += p.fall * t * t
@@ -175,12 +175,12 @@ PAINTERS: dict[str, Callable[[Particle, DrawTarget, float], None]] = {
     "halo": _halo,
     "confetti": _confetti,
 }
-"""How each kind is drawn."""
+"""The function that draws each kind."""
 
 
 @drawing(7)
 def puff(s: Sketch, p: Palette, role: str, step: int, variant: int) -> None:
-    """A cloudlet that widens. ``step`` 0…7."""
+    """A small cloud that widens. ``step`` 0…7."""
     r = 1.1 + 0.55 * step
     colour = mixed(getattr(p, role), p.background, step / 9)
     for x, y, share in (
@@ -192,7 +192,7 @@ def puff(s: Sketch, p: Palette, role: str, step: int, variant: int) -> None:
 
 @drawing(13)
 def fireball(s: Sketch, p: Palette, step: int, variant: int) -> None:
-    """A tongue of fire that swells and turns to smoke."""
+    """A tongue of fire that grows and turns to smoke."""
     r = 3.5 + 0.9 * step
     outer = (p.ember, p.ember, p.ember, p.ember, p.smoke, p.smoke, p.smoke, p.smoke)[step]
     inner = (p.bright, p.flame, p.flame, p.flame, p.ember, p.ember, p.smoke, p.smoke)[step]
@@ -203,7 +203,7 @@ def fireball(s: Sketch, p: Palette, step: int, variant: int) -> None:
 
 @drawing(26)
 def burst_star(s: Sketch, p: Palette, step: int) -> None:
-    """The flash of an explosion: a star that grows and goes hollow."""
+    """The flash of an explosion: a star that grows and becomes hollow."""
     r = 9 + 1.9 * step
     s.polygon(p.ember, star(9, r, r * 0.5, 13 * step))
     s.polygon(p.flame, star(9, r * 0.82, r * 0.4, 13 * step + 20))

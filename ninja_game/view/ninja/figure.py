@@ -16,7 +16,7 @@ FEET = 9.7  # px from the centre down to the floor
 
 
 class Pose(NamedTuple):
-    """Where the joints are. ``near`` limbs are drawn over the trunk, ``far`` ones behind it."""
+    """The places of the joints. ``near`` limbs are drawn over the trunk, ``far`` ones behind it."""
 
     head: Point
     shoulder: Point
@@ -40,7 +40,7 @@ class Pose(NamedTuple):
         return Pose(*((x * facing * c - y * s, x * facing * s + y * c) for x, y in self))
 
     def pressed(self, share: float) -> Pose:
-        """Pressed together towards the feet by a share of its height, and as much wider."""
+        """Compressed towards the feet by a share of its height, and as much wider."""
         return Pose(*((x * (1 + 0.6 * share), FEET - (FEET - y) * (1 - share)) for x, y in self))
 
     def moved(self, dx: float, dy: float) -> Pose:
@@ -56,7 +56,7 @@ def pose(
     far_foot: Point,
     head: Point | None = None,
 ) -> Pose:
-    """A pose; without a place for it the head goes on where the trunk ends."""
+    """A pose; by default the head continues the trunk."""
     if head is None:
         dx, dy = shoulder[0] - pelvis[0], shoulder[1] - pelvis[1]
         length = (dx * dx + dy * dy) ** 0.5 or 1.0
@@ -86,11 +86,11 @@ FALL = pose((-0.2, -4.0), (0.2, 1.4), (6.4, -9.4), (-6.6, -8.6), (4.6, 9.6), (-2
 """Falling fast: arms up, legs reaching down."""
 
 
-_LEAP_SPEED = 3.0  # speed upwards with which a jump from the floor begins at most, px/tick
+_LEAP_SPEED = 3.0  # greatest upward speed at the start of a jump from the floor, px/tick
 
 
 def air_pose(vy: float) -> Pose:
-    """The pose in the air for a vertical velocity in px/tick: 19 steps in the original, here without steps."""
+    """The pose in the air for a vertical velocity in px/tick: 19 steps in the original, continuous here."""
     if vy >= 0:
         return FLOAT.mixed(FALL, min(1.0, (vy / 2.5) ** 0.5))
     k = min(1.0, -vy / _LEAP_SPEED) * 2
@@ -100,10 +100,10 @@ def air_pose(vy: float) -> Pose:
 # --- running: one cycle is 64.8 px of travel ---
 
 CYCLE = 64.8
-_STANCE = 0.25  # share of a cycle in which a foot is on the ground; it then goes back as fast as the body goes on
+_STANCE = 0.25  # share of a cycle in which a foot is on the ground; it then moves back as fast as the body moves on
 _REACH = CYCLE * _STANCE / 2
 _SWING = ((-_REACH, 9.7), (-10.2, 5.0), (-6.6, 1.6), (0.6, 2.8), (6.4, 5.0), (9.0, 7.8), (_REACH, 9.7))
-"""The way of a foot through the air, from behind to the front."""
+"""The path of a foot through the air, from back to front."""
 
 
 def _foot(phase: float) -> Point:
@@ -199,7 +199,7 @@ DANCES = (
     Dance(((6, CROUCH, 0), (7, HANDSTAND, 0), (12, HANDSTAND, 0), (7, CROUCH, 0), (8, SIT, 0))),
     Dance(((5, ARMS_LEFT, 0), (5, ARMS_RIGHT, 0), (5, ARMS_LEFT, 0), (5, ARMS_RIGHT, 0), (6, FOLDED, 0))),
 )
-"""All dances; one is drawn at each landing."""
+"""All dances; one is drawn by lot at each landing."""
 
 
 # --- painting: tapering parts between the joints, a headband, and nothing else ---
@@ -218,7 +218,7 @@ def edge_of(colour: pygame.Color) -> pygame.Color:
 
 
 def bend(a: Point, b: Point, first: float, second: float, side: float) -> Point:
-    """The elbow or knee between two joints, for parts of those lengths; ``side`` 1 or -1: which way it bends."""
+    """The elbow or knee between two joints, for parts of those lengths; ``side`` 1 or -1: the side of the bend."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     distance = (dx * dx + dy * dy) ** 0.5
     if distance < 1e-6:
@@ -227,16 +227,16 @@ def bend(a: Point, b: Point, first: float, second: float, side: float) -> Point:
     along = (first * first - second * second + reach * reach) / (2 * reach)
     out = max(0.0, first * first - along * along) ** 0.5 * side
     ux, uy = dx / distance, dy / distance
-    # A limb that is pulled longer than its parts (the ragdoll) is stretched.
+    # A limb stretched beyond the length of its parts (the ragdoll) is straight.
     along *= distance / reach
     return a[0] + ux * along - uy * out, a[1] + uy * along + ux * out
 
 
-Limb = tuple[Sequence[Point], Sequence[float]]  # joints, and how wide it is at each
+Limb = tuple[Sequence[Point], Sequence[float]]  # joints, and the width at each
 
 
 def limbs_of(pose: Pose, facing: int) -> tuple[Limb, Limb, Limb, Limb]:
-    """The far leg and arm, the near leg and arm. ``facing``: which way knees bend."""
+    """The far leg and arm, the near leg and arm. ``facing``: the direction of bent knees."""
     shoulder, pelvis = pose.shoulder, pose.pelvis
     far = leg(pelvis, pose.far_foot, facing), arm(shoulder, pose.far_hand, facing)
     return *far, leg(pelvis, pose.near_foot, facing), arm(shoulder, pose.near_hand, facing)
@@ -269,7 +269,7 @@ def _paint_limbs(s: Sketch, colour: pygame.Color, far: pygame.Color, pose: Pose,
 
 
 def band_ends(head: Point, shoulder: Point) -> tuple[Point, Point]:
-    """Where a headband crosses the outline of a head that goes on where the neck ends: left and right of it."""
+    """Where a headband crosses the outline of a head above a neck: left and right."""
     ux, uy = head[0] - shoulder[0], head[1] - shoulder[1]
     length = (ux * ux + uy * uy) ** 0.5 or 1.0
     ux, uy = ux / length, uy / length
@@ -294,7 +294,7 @@ def ninja_sprite(
     scale: float, palette: Palette, pose: Pose, facing: int, velocity: Point, *,
     colour: pygame.Color, offset: Point = (0.0, 0.0), alpha: float = 1.0, banded: bool = True,
 ) -> Sprite:  # fmt: skip
-    """The figure in a pose about its centre. ``offset``: fraction of a px by which it lies beside its point."""
+    """The figure in a pose about its centre. ``offset``: fraction of a px between it and its point."""
     s = Sketch(scale, (-REACH, -REACH, REACH, REACH), fine=3)
     shown = pose.moved(offset[0] / scale, offset[1] / scale)
     paint_figure(s, palette, shown, facing, velocity, colour=colour, banded=banded)
@@ -304,7 +304,7 @@ def ninja_sprite(
 def paint_figure(
     s: Sketch, palette: Palette, shown: Pose, facing: int, velocity: Point, *, colour: pygame.Color, banded: bool = True
 ) -> None:
-    """Draw the figure into a sketch, ``REACH`` px to all sides, within an edge that stands out from it."""
+    """Draw the figure into a sketch, ``REACH`` px to all sides, with a contrasting edge."""
     far = mixed(colour, palette.background, 0.12)
     edge = edge_of(colour)
     limbs = limbs_of(shown, facing)

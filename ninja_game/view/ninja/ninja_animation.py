@@ -1,4 +1,4 @@
-"""How the ninja moves its limbs: follows the ticks and gives a pose for any moment (presentation.md §3)."""
+"""The ninja's animation: follows the ticks and gives a pose for any moment (presentation.md §3)."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from ninja_game.view.ninja.ragdoll import PELVIS, SHOULDER, TRUNK, Ragdoll
 from ninja_game.view.sprites.drawing import DrawTarget, is_near
 from ninja_game.view.sprites.sketch import Sketch
 
-_BLEND_TICKS = 3.0  # a new state's pose takes over from the old one in this many ticks
-SQUASH = 0.045  # how much a landing presses the figure together, for each px/tick
+_BLEND_TICKS = 3.0  # ticks of the transition to a new state's pose
+SQUASH = 0.045  # compression by a landing, for each px/tick
 MOST_SQUASH = 0.32
-SQUASH_KEPT = 0.72  # share that is left a tick later
-_BALANCE = 0.65  # share of a slope's angle by which a body on it holds itself upright
+SQUASH_KEPT = 0.72  # share of it that is left a tick later
+_BALANCE = 0.65  # share of a slope's angle by which a body on it stays upright
 _UPRIGHT = 0.9  # share of its rotation that a body in the air keeps each tick
 
 
 class NinjaAnimation:
-    """The ninja's figure between ticks. ``rng``: picks the dances, never read by the world.
+    """The ninja's figure between ticks. ``rng``: chooses the dances, never read by the world.
 
-    ``squashes``: whether a landing presses it together.
+    ``squashes``: whether a landing compresses it.
     """
 
     def __init__(self, world: World, rng: Random) -> None:
@@ -56,7 +56,7 @@ class NinjaAnimation:
         return degrees(atan2(n.floor_x, -n.floor_y)) if n.floor_x or n.floor_y else 0.0
 
     def _face(self, n: Ninja) -> None:
-        """Facing: the wall while sliding, else the way it moves."""
+        """Face the wall while sliding, else the direction of motion."""
         if n.state == SLIDING:
             self.facing = -1 if n.wall_x > 0 else 1
         elif abs(n.x - n.prev_x) > 1e-9:
@@ -100,7 +100,7 @@ class NinjaAnimation:
         return abs(vx * -n.floor_y + vy * n.floor_x) if n.floor_x or n.floor_y else abs(vx)
 
     def local_pose(self, fraction: float) -> Pose:
-        """The pose about the centre, facing right, unturned."""
+        """The pose about the centre, facing right, not rotated."""
         target = self._target(fraction)
         share = min(1.0, (self.since + fraction) / _BLEND_TICKS)
         return target if share >= 1.0 else self._from.mixed(target, share * share * (3 - 2 * share))
@@ -117,7 +117,7 @@ class NinjaAnimation:
         return {SKIDDING: figure.SKID, SLIDING: figure.SLIDE}.get(self.state, STAND)
 
     def pose(self, fraction: float) -> Pose:
-        """The pose about the centre, as it is seen."""
+        """The visible pose about the centre."""
         turn = floor = self.turn_before + (self.turn - self.turn_before) * fraction
         if self.state == CELEBRATING and self.dance >= 0:
             turn += DANCES[self.dance].at(self.since + fraction)[1] * self.facing
@@ -127,7 +127,7 @@ class NinjaAnimation:
         placed = pose.placed(self.facing, turn)
         if not floor:
             return placed
-        # The feet follow a slope; all above them stays nearly upright.
+        # The feet follow a slope; the body above them stays nearly upright.
         upright = pose.placed(self.facing, turn - _BALANCE * floor)
         return placed._replace(
             head=upright.head,
@@ -148,7 +148,7 @@ def draw_ninja(
     *,
     ghost: bool = False,
 ) -> None:
-    """The living ninja about a point; one can look through a ``ghost``, which has no headband."""
+    """The living ninja about a point; a ``ghost`` is transparent and has no headband."""
     if not is_near(*at):
         return
     px, py = target.canvas.exact(*at)
@@ -168,7 +168,7 @@ def draw_ninja(
 
 
 def draw_ragdoll(target: DrawTarget, doll: Ragdoll, fraction: float, colour: pygame.Color) -> None:
-    """The corpse: each limb where its stick is."""
+    """The corpse: each limb at its stick."""
     joints = [doll.joint(k, fraction) for k in range(len(doll.particles))]
     head = doll.head(fraction)
     if not doll.dismembered:

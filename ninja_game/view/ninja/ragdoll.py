@@ -1,4 +1,4 @@
-"""The corpse: Verlet particles and sticks, stepped once a tick (presentation.md §4). It leaves the world alone."""
+"""The corpse: Verlet particles and sticks, stepped once per tick (presentation.md §4). It never changes the world."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ TRUNK = 2
 
 
 class Box:
-    """A box with a centre that moves when it is pushed, px."""
+    """A box with a centre, px, which pushes move."""
 
     __slots__ = ("half", "x", "y")
 
@@ -60,7 +60,7 @@ class Box:
 
 
 class VerletParticle(Box):
-    """A joint of the corpse: a box with an old place (its velocity is the difference) and a drag."""
+    """A joint of the corpse: a box with its earlier place (the difference is the velocity) and a drag."""
 
     __slots__ = ("drag", "ox", "oy", "sx", "sy")
 
@@ -72,7 +72,7 @@ class VerletParticle(Box):
 
 
 Hit = Callable[[float, float, float, float], None]
-"""(x, y, speed into a surface, speed along it): the corpse touched something there."""
+"""(x, y, speed into a surface, speed along it): the corpse touched a surface there."""
 
 
 class Ragdoll:
@@ -95,9 +95,9 @@ class Ragdoll:
         self.dismembered = False
 
     def shove(self, cause: int, impulse: Point, hit_y: float, centre_y: float, *, whole: bool = False) -> None:
-        """The blow: everything is thrown, most of all the end that was hit. Falls have none.
+        """The impulse of the death: on all particles, most on those near the hit. Falls have none.
 
-        ``whole``: it stays in one piece, whatever killed it (reduced gore).
+        ``whole``: it stays in one piece after any death (reduced gore).
         """
         if cause != FALL:
             h = (hit_y - centre_y) / 10
@@ -113,7 +113,7 @@ class Ragdoll:
             self.dismember()
 
     def dismember(self) -> None:
-        """Limbs come off: each gets a particle of its own where it was joined."""
+        """Limbs come off: each gets its own particle at its joint."""
         if self.dismembered:
             return
         self.dismembered = True
@@ -132,7 +132,7 @@ class Ragdoll:
         self.sticks = sticks
 
     def step(self, level: TileMap, world: World) -> None:
-        """One tick: move, pull together, push out of what is solid."""
+        """One tick: move, pull together, push out of solid shapes."""
         for p in self.particles:
             p.sx, p.sy = p.x, p.y
             vx, vy = p.drag * (p.x - p.ox), p.drag * (p.y - p.oy) + GRAVITY
@@ -160,7 +160,7 @@ class Ragdoll:
             b.y -= dy * pull * (1 - stick.share)
 
     def _collide(self, level: TileMap, world: World, p: VerletParticle) -> None:
-        """At the end of the way, and for a fast particle at places before it."""
+        """At the end of the path, and for a fast particle at places before it."""
         vx, vy = p.x - p.sx, p.y - p.sy
         square = vx * vx + vy * vy
         stops = (1.0,) if square < 4 else (0.5, 1.0) if square < 36 else tuple(k / 6 for k in range(1, 7))
@@ -179,7 +179,7 @@ class Ragdoll:
                 break
 
     def _bounce(self, p: VerletParticle, vx: float, vy: float, nx: float, ny: float) -> Point:
-        """What is left of a velocity into and along a surface."""
+        """The velocity into and along a surface after a bounce."""
         into, along = vx * nx + vy * ny, -ny * vx + nx * vy
         if into >= 0:
             return vx, vy
@@ -188,12 +188,12 @@ class Ragdoll:
         return nx * into - ny * along, ny * into + nx * along
 
     def joint(self, k: int, fraction: float) -> Point:
-        """Where a particle is, between its last two places."""
+        """The place of a particle, between its last two places."""
         p = self.particles[k]
         return p.sx + (p.x - p.sx) * fraction, p.sy + (p.y - p.sy) * fraction
 
     def head(self, fraction: float) -> Point:
-        """The head goes on where the trunk ends."""
+        """The head continues the trunk."""
         (px, py), (sx, sy) = self.joint(PELVIS, fraction), self.joint(SHOULDER, fraction)
         dx, dy = sx - px, sy - py
         length = (dx * dx + dy * dy) ** 0.5 or 1.0
@@ -201,7 +201,7 @@ class Ragdoll:
 
 
 def object_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]:
-    """Normals of the objects that a box touches, and how hard (px/tick) they kick it; it is pushed out as they come."""
+    """Normals of the objects that a box touches, and the speed (px/tick) of their kick; each pushes it out at once."""
     for slot in range(1, world.id_count + 1):
         o = world.objects[slot]
         if o.kind in KICKS and abs(o.x - box.x) < 26 and abs(o.y - box.y) < 26:
@@ -225,7 +225,7 @@ def _square(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
     else:
         nx, ny = -1.0 if dx < 0 else 1.0, 0.0
         box.x += nx * ox
-    # Of a thwump only the side on which it falls is live.
+    # Only the side of a thwump's fall is live.
     yield nx, ny, KICKS[o.kind] if o.kind != kinds.THWUMP or (nx, ny) == (o.face_x, o.face_y) else 0.0
 
 
@@ -251,7 +251,7 @@ KICKS = {
     kinds.BOUNCE_BLOCK: 0.0, kinds.THWUMP: 4.0, kinds.LAUNCH_PAD: 6.0, kinds.ONE_WAY: 0.0, kinds.FLOOR_GUARD: 6.0,
     kinds.DRONE: 5.0,
 }  # fmt: skip
-"""How hard (px/tick) each kind that the corpse can touch kicks it."""
+"""Speed (px/tick) of the kick by each kind that the corpse can touch."""
 
 
 _BEHIND = {RIGHT: 1, DOWN: STRIDE, LEFT: -1, UP: -STRIDE}
@@ -259,7 +259,7 @@ _WAYS = tuple((cos(k * pi / 8), sin(k * pi / 8)) for k in range(16))
 
 
 def tile_push(level: TileMap, world: World, box: Box) -> list[tuple[float, float, float]]:
-    """As ``object_pushes``, of tiles and closed doors, which a box touches as a disc."""
+    """As ``object_pushes``, for tiles and closed doors, which a box touches as a disc."""
     x, y, half = box.x, box.y, box.half
     cell = cell_at(x, y)
     if not level.tiles[cell] and max(abs(x - CENTRE_X[cell]), abs(y - CENTRE_Y[cell])) < HALF - half:

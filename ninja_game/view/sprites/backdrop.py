@@ -1,4 +1,4 @@
-"""Everything that does not move, drawn once and mended where it changes; and the tiles, which cover what moves."""
+"""The still part of the picture, drawn once and repaired where it changes; and tiles, which hide moving objects."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ninja_game.view.sprites.tile_sheet import TileSheet
 
 
 class Backdrop:
-    """Scenery, light, static sprites and tiles of a level in one size, as far as they are seen.
+    """Scenery, light, static sprites and tiles of a level at one size, for the visible part.
 
     Px count from the upper left corner of the visible part of the stage.
     """
@@ -49,7 +49,7 @@ class Backdrop:
     def reset(self, world: World, animation: ObjectAnimation) -> list[pygame.Rect]:
         """Show another world, or moment, of this level; the px that changed."""
         self._moving.clear()
-        # Walls first, then what lies before them.
+        # Walls first, then the objects before them.
         front = {GOLD, MINE}
         order = sorted(animation.static_slots, key=lambda slot: world.objects[slot].kind in front)
         if order != self._order or not self._drawn:
@@ -76,7 +76,7 @@ class Backdrop:
         return changed
 
     def _place(self, slot: int, sprites: list[PlacedSprite]) -> pygame.Rect:
-        """Take down and put up the drawings of an object; the px that it covered and covers."""
+        """Replace the drawings of an object; the px that it covered and covers."""
         old = self._rects.pop(slot, None)
         blits = []
         rect: pygame.Rect | None = None
@@ -128,7 +128,7 @@ class Backdrop:
         self.picture.set_clip(None)
 
     def cover(self, surface: pygame.Surface, area: pygame.Rect, corner: tuple[int, int]) -> None:
-        """Redraw the foreground of an area over moving objects: tiles, then mines, so that no corner hides one."""
+        """Draw the foreground of an area again over moving objects: tiles, then mines, so that no corner hides one."""
         surface.blit(self.tiles, area.move(corner), area, pygame.BLEND_PREMULTIPLIED)
         for number in area.collidelistall(self._mine_places):
             place, part = self._mine_places[number], self._mine_places[number].clip(area)
@@ -137,7 +137,7 @@ class Backdrop:
                 surface.blit(sprite.surface, part.move(corner), inside, pygame.BLEND_PREMULTIPLIED)
 
     def update(self, world: World, animation: ObjectAnimation, fraction: float) -> list[pygame.Rect]:
-        """Mend what changed since the last picture; the px that did."""
+        """Repair what changed since the last picture; the px that changed."""
         self._moving |= animation.changed
         animation.changed.clear()
         mended = []

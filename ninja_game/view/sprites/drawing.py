@@ -14,13 +14,13 @@ from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.sketch import Sketch, Sprite
 
 Extent = tuple[float, float, float, float]
-"""How far a drawing reaches left, up, right and down from its point, logical px."""
+"""Reach of a drawing to the left, up, right and down from its point, logical px."""
 
 P = ParamSpec("P")
 
 
 class SpriteKey(NamedTuple):
-    """What tells one sprite from another. ``turn``: degrees clockwise; ``alpha``: 0 to 8 eighths.
+    """The identity of a sprite. ``turn``: degrees clockwise; ``alpha``: 0 to 8 eighths.
 
     The parameters are whole numbers or words: few enough to keep every sprite.
     """
@@ -35,7 +35,7 @@ class SpriteKey(NamedTuple):
         return SpriteKey(self.drawing, self.parameters, degrees, self.alpha)
 
     def faded(self, alpha: int) -> SpriteKey:
-        """This sprite, ``alpha`` eighths as solid."""
+        """This sprite with ``alpha`` eighths of its opacity."""
         return SpriteKey(self.drawing, self.parameters, self.turn, alpha)
 
 
@@ -52,7 +52,7 @@ class Drawing(Generic[P]):
 
 
 def drawing(*extent: float) -> Callable[[Callable[Concatenate[Sketch, Palette, P], None]], Drawing[P]]:
-    """Make a drawing of a function. One number as ``extent`` is a reach to all sides."""
+    """Make a drawing from a function. One number as ``extent`` is a reach to all sides."""
     reach = extent[0]
     box = (-reach, -reach, reach, reach) if len(extent) == 1 else (extent[0], extent[1], extent[2], extent[3])
     return lambda paint: Drawing(box, paint)
@@ -62,14 +62,14 @@ _FAR = 4000  # logical px beyond which nothing is drawn: some levels hold object
 
 
 def is_near(x: float, y: float) -> bool:
-    """Whether a point is worth drawing at: not far off, and a number."""
+    """Whether a point is a number and near enough to draw at."""
     return abs(x) < _FAR and abs(y) < _FAR
 
 
 class DrawTarget:
-    """A surface that shows the stage. ``covered``: px rectangles drawn so far in this picture.
+    """A surface with the stage. ``covered``: px rectangles drawn so far in this picture.
 
-    A rectangle within the one before, as a drone's eye, is not among them.
+    A rectangle within the one before, such as a drone's eye, is left out.
     """
 
     def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook) -> None:
@@ -88,11 +88,11 @@ class DrawTarget:
         self._put(self.book.sprite(key), x, y)
 
     def picture(self, sprite: Sprite, x: float, y: float) -> None:
-        """A drawing that is not in the book."""
+        """A drawing outside of the book."""
         self._put(sprite, x, y)
 
     def _put(self, sprite: Sprite, x: float, y: float) -> None:
-        # As is_near, Canvas.point and Sprite.blit have it: a hundred times a picture.
+        # Inlined is_near, Canvas.point and Sprite.blit: called a hundred times per picture.
         if -_FAR < x < _FAR and -_FAR < y < _FAR:
             (left, top), scale, covered = self.canvas.origin, self.canvas.scale, self.covered
             surface, ax, ay = sprite
@@ -102,8 +102,8 @@ class DrawTarget:
                 covered.append(rect)
 
     def line(self, colour: Colour, ax: float, ay: float, bx: float, by: float, width: float = 0) -> None:
-        """A straight line; without a width as thin as can be."""
-        # A sum, since it is not a number if one of them is none: levels may hold such places.
+        """A straight line; without a width as thin as possible."""
+        # The sum is NaN if any coordinate is: levels may hold such places.
         if abs(ax) + abs(ay) + abs(bx) + abs(by) < 4 * _FAR:
             a, b = self.canvas.exact(ax, ay), self.canvas.exact(bx, by)
             thick = max(1, round(width * self.canvas.scale))
@@ -136,10 +136,10 @@ class SpriteBook:
 
 
 shared_book = lru_cache(maxsize=8)(SpriteBook)
-"""The book of all levels that are shown at one scale in one palette."""
+"""Shared by all levels that are shown at one scale in one palette."""
 
 
 def _turned(extent: Extent) -> Extent:
-    """Room for a drawing turned by any angle."""
+    """The extent of a drawing that is turned by any angle."""
     reach = max((x * x + y * y) ** 0.5 for x in extent[::2] for y in extent[1::2])
     return -reach, -reach, reach, reach

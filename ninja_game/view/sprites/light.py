@@ -1,4 +1,4 @@
-"""Light around what opens and what kills: soft, still, part of the backdrop."""
+"""Light around exits, switches and dangers: soft, still, part of the backdrop."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ninja_game.ui.theme import Palette
 
 
 class LightStyle(NamedTuple):
-    """``role``: of the palette; ``reach``: logical px; ``strength``: how solid it is in its middle, 0…255."""
+    """``role``: of the palette; ``reach``: logical px; ``strength``: opacity in its middle, 0…255."""
 
     role: str
     reach: int
@@ -29,7 +29,7 @@ STYLES = {
     kinds.TURRET: LightStyle("turret", 26, 60),
     kinds.LAUNCHER: LightStyle("launcher", 26, 60),
 }
-"""By kind, until something changes."""
+"""By kind, for objects in their first state."""
 
 
 class Light(NamedTuple):
@@ -41,7 +41,7 @@ class Light(NamedTuple):
 
 
 def light_of(world: World, slot: int) -> Light | None:
-    """The light around an object as it is now."""
+    """The light around an object in its present state."""
     o = world.objects[slot]
     style = STYLES.get(o.kind)
     if style is None or (o.kind == kinds.MINE and o.exploded) or (o.kind == kinds.GOLD and o.taken):
@@ -59,10 +59,10 @@ _GRID = 25  # px of the sheet from which lights of all sizes are made
 
 @lru_cache(maxsize=64)
 def light_picture(style: LightStyle, scale: float, palette: Palette) -> pygame.Surface:
-    """A light, strongest in its middle. Nobody may draw on it."""
+    """A light, strongest in its middle. It is shared, so never draw on it."""
     reach = max(1, round(style.reach * scale))
     sheet = _sheet(getattr(palette, style.role)[:3]).copy()
-    # Made fainter as a whole, it is scaled as px in the page too, not as squares.
+    # Faded as a whole, so that the page scales it smoothly too.
     sheet.fill((255, 255, 255, style.strength), special_flags=pygame.BLEND_RGBA_MULT)
     return pygame.transform.smoothscale(sheet, (2 * reach + 1, 2 * reach + 1))
 

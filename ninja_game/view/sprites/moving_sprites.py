@@ -1,4 +1,4 @@
-"""Drawings of what moves: bounce blocks, thwumps, guards, drones, rockets."""
+"""Drawings of moving objects: bounce blocks, thwumps, guards, drones, rockets."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from ninja_game.view.sprites.static_sprites import crosshair
 
 @drawing(11)
 def bounce_block(s: Sketch, p: Palette, awake: int) -> None:
-    """A springy square: green, as all that springs."""
+    """A springy square, green like everything that springs."""
     s.framed_box(p.good, p.outline, -9.6, -9.6, 19.2, 19.2, 0.9)
     inner = mixed(p.light, p.bright, 0.3 + 0.3 * awake)
     s.framed_box(inner, p.outline, -6.2, -6.2, 12.4, 12.4, 0.8)
@@ -68,7 +68,7 @@ def floor_guard(s: Sketch, p: Palette, active: int, flicker: int) -> None:
 
 @drawing(-11, -17, 11, 11)
 def drone(s: Sketch, p: Palette, weapon: int, seeker: int, chasing: int, heat: int) -> None:
-    """A round shell without its eye. ``weapon``: 0 zap, 1 laser, 2 chaingun; ``heat`` 0…8: how far it is charged."""
+    """A round shell without its eye. ``weapon``: 0 zap, 1 laser, 2 chaingun; ``heat`` 0…8: its charge."""
     if seeker:
         s.stroke(p.outline, (0, -8), (0, -12.6), 1.4)
         s.disc(p.outline, 0, -13.4, 2.1)
@@ -143,7 +143,7 @@ def flame(s: Sketch, p: Palette, step: int) -> None:
 
 @drawing(11)
 def impact_burst(s: Sketch, p: Palette, step: int) -> None:
-    """Where a laser burns: a flickering star that grows over the shot."""
+    """The burning end of a laser: a flickering star that grows over the shot."""
     reach = 2.6 + 6.4 * step / 8
     for k in range(9):
         a = radians(40 * k + 17 * step)
@@ -153,13 +153,13 @@ def impact_burst(s: Sketch, p: Palette, step: int) -> None:
     s.disc(p.bright, 0, 0, reach * 0.16)
 
 
-_EYE_OUT = 4.5  # how far a drone's eye is off the centre, px
-_TURN_STEP = 15  # barrels and eyes turn in steps of so many degrees
+_EYE_OUT = 4.5  # distance of a drone's eye from the centre, px
+_TURN_STEP = 15  # barrels and eyes turn in steps of that many degrees
 _COOL_FRAMES = 60
 
 
 class MovingObject(NamedTuple):
-    """An object that moves: its slot, where it is drawn (px), and the moment, ``fraction`` of a tick after the last."""
+    """A moving object: its slot, its drawn place (px), and the moment, ``fraction`` of a tick after the last."""
 
     o: Object
     slot: int
@@ -169,12 +169,12 @@ class MovingObject(NamedTuple):
     fraction: float
 
     def step(self, frames: float) -> int:
-        """How far an animation of so many frames has come since the last change, 0…8."""
+        """Progress of an animation of that many frames since the last change, 0…8."""
         return self.animation.step(self.slot, self.fraction, frames)
 
 
 def draw_moving(target: DrawTarget, world: World, animation: ObjectAnimation, fraction: float) -> None:
-    """All objects that move, beams first so that they come out of their drones."""
+    """All moving objects, beams first so that they come out of their drones."""
     shown = [
         MovingObject(world.objects[s], s, *animation.place(s, fraction), animation, fraction)
         for s in animation.moving_slots
@@ -183,14 +183,14 @@ def draw_moving(target: DrawTarget, world: World, animation: ObjectAnimation, fr
         if m.o.kind == kinds.DRONE and m.o.weapon == states.WEAPON_LASER:
             _beam(target, m)
     for m in shown:
-        # A rocket that met its target point exactly is nowhere (not a number).
+        # The place of a rocket that met its target point exactly is not a number.
         if m.x == m.x and m.y == m.y:
             PAINTERS[m.o.kind](target, m)
 
 
 PULSE_TICKS = 60  # between two rings that leave a switch
 PULSE_FROM = 13.0  # radius of a ring at first, px
-PULSE_REACH = 12.0  # by which it grows in half of PULSE_TICKS, px
+PULSE_REACH = 12.0  # growth of a ring in half of PULSE_TICKS, px
 
 
 def draw_pulses(target: DrawTarget, world: World, animation: ObjectAnimation, fraction: float) -> None:
@@ -206,7 +206,7 @@ def draw_pulses(target: DrawTarget, world: World, animation: ObjectAnimation, fr
 def _thwump(target: DrawTarget, m: MovingObject) -> None:
     o = m.o
     mood = 0 if o.routine == states.THWUMP_REST else 1 if o.sign > 0 else 2
-    # Its face looks where it falls: drawn for a fall downwards.
+    # Its face looks in the direction of its fall: drawn for a fall downwards.
     turn = round(degrees(atan2(-o.face_x, o.face_y))) if o.face_x or o.face_y else 0
     target.sprite(thwump(mood, m.animation.tick // 3 % 2).turned(turn), m.x, m.y)
 
@@ -279,4 +279,4 @@ PAINTERS: dict[int, Callable[[DrawTarget, MovingObject], None]] = {
     kinds.LAUNCHER: _rocket,
     kinds.DRONE: _drone,
 }
-"""How each kind is drawn."""
+"""The function that draws each kind."""

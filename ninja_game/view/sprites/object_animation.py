@@ -1,4 +1,4 @@
-"""What the picture remembers of the objects between ticks: where they were, since when they are as they are.
+"""The picture's memory of the objects between ticks: their last places, and the ticks of their last changes.
 
 Reads the world after each tick and never writes to it.
 """
@@ -15,9 +15,9 @@ from ninja_game.sim.traces import place_of
 
 MOVING_KINDS = frozenset(kind.number for kind in kinds.KINDS if kind.moves)
 STATE_FIELDS = {kind.number: kind.used for kind in kinds.KINDS if kind.used} | {kinds.DRONE: "chasing"}
-"""The field that tells whether an object has changed for good or for a while, where a kind has one."""
+"""The field that holds a lasting or passing change of an object, for kinds with one."""
 LONG_AGO = -100_000
-_JUMP = 30.0  # px; an object that is farther away than this after a tick was relocated, it did not move
+_JUMP = 30.0  # px per tick; an object that moved farther was relocated
 _EYE_TURN = 0.66
 """Share of the remaining angle that a drone's eye turns in a tick (0.3 a picture at the classic 120 a second)."""
 _DIRECTIONS = (0.0, pi / 2, pi, -pi / 2)
@@ -26,7 +26,7 @@ Place = tuple[float, float]
 
 
 def state_of(world: World, o: Object) -> tuple[int, int, int]:
-    """What must change for an object to look different, apart from its place."""
+    """The part of an object's state that changes its look, apart from its place."""
     if o.kind == kinds.SWITCH:
         # An exit's switch has no state of its own: it is pressed when the exit is open.
         o = world.objects[o.partner]
@@ -62,7 +62,7 @@ class ObjectAnimation:
         self.ninja_now = self.ninja_before = (n.x, n.y)
 
     def on_tick(self, world: World) -> None:
-        """Take note of the world after a tick."""
+        """Update after a tick of the world."""
         self.tick += 1
         self.before, self.now = self.now, {}
         for slot in self.moving_slots:
@@ -100,7 +100,7 @@ class ObjectAnimation:
             del trail[0]
 
     def place(self, slot: int, fraction: float) -> Place:
-        """Where to draw an object, ``fraction`` of a tick after the last but one."""
+        """The drawn place of an object, ``fraction`` of a tick after the last but one."""
         now, before = self.now[slot], self.before[slot]
         if now == before:
             return now
@@ -118,12 +118,12 @@ class ObjectAnimation:
         return self.tick + fraction - 1 - self.since[slot]
 
     def step(self, slot: int, fraction: float, frames: float) -> int:
-        """How far an animation of so many frames (120 a second, 3 a tick) has come since the change, 0…8."""
+        """Progress of an animation of that many frames (120 a second, 3 a tick) since the change, 0…8."""
         return max(0, min(8, int(self.age(slot, fraction) * 3 / frames * 8)))
 
 
 def _eye_angle(world: World, o: Object) -> float:
-    """Where a drone looks, radians clockwise from the right: at its aim, or where it goes."""
+    """The direction of a drone's eye, radians clockwise from the right: to its target, or where it goes."""
     if o.routine != DRONE_MOVE:
         return atan2(world.ninja.y - o.y, world.ninja.x - o.x)
     return _DIRECTIONS[o.direction] if 0 <= o.direction <= 3 else pi / 2

@@ -9,22 +9,23 @@ from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.tile_sheet import TileSheet
 
 EDGES = (("bright", 2, 0, 120), ("outline", -3, 0, 80), ("bright", 8, 30, 88))
-"""What is left of the tiles in a colour when they are taken away: so much lower, or higher, and so soft, logical px;
-how strong it is. The last lights rock near its other edges too, so that it is darker in the depth of a mass."""
+"""Copies of the tiles in a colour, minus the tiles moved down or up and blurred by so much, logical px; their opacity.
+The last one also lights rock near its other edges, so that the inside of a mass is darker.
+"""
 
 GRAIN = {"bright": 13, "outline": 18}
-"""By how much the rock's marks of an ink differ from it, of 255 a channel: never enough to be taken for a thing."""
+"""Difference between the rock's marks and its ink, of 255 per channel: too small to look like an object."""
 
-SHADOW = 76  # its strength, of 255
-SHADOW_AT = (4, 6)  # where it falls, logical px
+SHADOW = 76  # opacity, of 255
+SHADOW_AT = (4, 6)  # offset of the shadow, logical px
 
 
 def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
-    """Draw the edges of a level's tiles on their sheet; what is behind, in their shadow."""
+    """Draw the edges of a level's tiles on their sheet, and their shadow on the sheet behind."""
     inks = {role: sheet.in_colour(getattr(palette, role)) for role in ("bright", "outline")}
     size = sheet.surface.size
     small = scenery_sheet(palette).copy()
-    # It is soft, since it is painted on the small sheet of the scenery.
+    # It is soft because it is painted on the small sheet of the scenery.
     shadow = pygame.transform.smoothscale(inks["outline"], small.get_size())
     if palette.scenery in GRAINS:
         _add_grain(sheet, palette, inks)
@@ -42,7 +43,7 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
         else:
             edge = taken.copy()
         edge.blit(taken, (0, step), special_flags=pygame.BLEND_RGBA_SUB)
-        # The tiles go on beyond the edge of the stage.
+        # The tiles continue beyond the edge of the stage.
         edge.fill((0, 0, 0, 0), (0, 0 if step > 0 else size[1] + step, size[0], abs(step)))
         edge.fill((strength,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
         sheet.surface.blit(edge, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
@@ -50,7 +51,7 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
 
 
 def _add_grain(sheet: TileSheet, palette: Palette, inks: dict[str, pygame.Surface]) -> None:
-    """Mark the rock: darker where it is dark on light, lighter where it is not, so that it keeps off the scenery."""
+    """Mark the rock: darker if it is dark on a light scenery, else lighter, so that it contrasts with the scenery."""
     role = "bright" if sum(palette.text[:3]) > sum(palette.background[:3]) else "outline"
     away = max(abs(ink - rock) for ink, rock in zip(getattr(palette, role)[:3], palette.tile[:3], strict=True))
     pattern = grain(palette, role)

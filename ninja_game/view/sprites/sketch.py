@@ -1,6 +1,6 @@
 """Small drawings: flat shapes in logical px, drawn four times as large and averaged down, so that every edge is smooth.
 
-The result is premultiplied by its alpha: averaging is only right that way, and SDL blends it faster.
+The result is premultiplied by its alpha: only then is averaging right, and SDL blends it faster.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ FINE = 4  # how many times larger the shapes are drawn
 
 
 class Sprite(NamedTuple):
-    """A finished drawing: premultiplied; (``ax``, ``ay``) is the px in it that lies on the drawn point."""
+    """A finished drawing: premultiplied; (``ax``, ``ay``): its px at the drawn point."""
 
     surface: pygame.Surface
     ax: int
     ay: int
 
     def blit(self, target: pygame.Surface, at: tuple[int, int]) -> pygame.Rect:
-        """Draw it with its point at a px; what was covered."""
+        """Draw it with its point at a px; the covered px."""
         surface, ax, ay = self
         return target.blit(surface, (at[0] - ax, at[1] - ay), None, pygame.BLEND_PREMULTIPLIED)
 
@@ -33,9 +33,9 @@ class Sprite(NamedTuple):
 class Sketch:
     """A sheet for one drawing about the point (0, 0).
 
-    ``extent``: how far it reaches left, up, right and down, logical px (the first two usually negative). ``turn``:
-    degrees clockwise by which everything is turned; ``fine``: how many times larger the shapes are drawn. ``grown``: by
-    how much strokes and discs are wider to all sides, px.
+    ``extent``: reach to the left, up, right and down, logical px (the first two usually negative). ``turn``: degrees
+    clockwise by which everything is turned; ``fine``: how many times larger the shapes are drawn. ``grown``: px by
+    which strokes and discs are wider to all sides.
     """
 
     def __init__(
@@ -83,15 +83,15 @@ class Sketch:
         self.limb(colour, points, [width] * len(points))
 
     def limb(self, colour: Colour, joints: Sequence[Point], widths: Sequence[float]) -> None:
-        """A line through joints, round at each and as wide as is said for it."""
-        # In the sheet's px at once: a figure has some fifty of these, and is drawn again for each picture.
+        """A line through joints, with a radius at each and round ends."""
+        # Directly in the sheet's px: a figure has some fifty of these, and is drawn again for each picture.
         zoom, cosine, sine = self._zoom, self._cos, self._sin
         left, top = self._ax * self._fine_by, self._ay * self._fine_by
         places = [(left + (x * cosine - y * sine) * zoom, top + (x * sine + y * cosine) * zoom) for x, y in joints]
         draw_limb(self._fine, colour, places, [(width / 2 + self.grown) * zoom for width in widths])
 
     def finish(self, alpha: float = 1.0) -> Sprite:
-        """The drawing, as solid as ``alpha`` (0…1)."""
+        """The drawing, with an opacity of ``alpha`` (0…1)."""
         surface = pygame.transform.smoothscale(self._fine, self._size)
         if alpha < 1.0:
             level = max(0, min(255, round(255 * alpha)))

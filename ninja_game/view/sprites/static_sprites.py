@@ -1,4 +1,4 @@
-"""Drawings of what stays in its place: exits, switches, doors, pads, one-ways, bases of weapons, gold, mines.
+"""Drawings of objects that stay in place: exits, switches, doors, pads, one-ways, bases of weapons, gold, mines.
 
 Parameters called ``step`` count from 0 (closed, resting) to 8 (open, done).
 """
@@ -41,7 +41,7 @@ def mine(s: Sketch, p: Palette) -> None:
 
 @drawing(13.5)
 def exit_door(s: Sketch, p: Palette, step: int) -> None:
-    """Two leaves before a lit doorway; they fold away to its sides, within its frame: beside it there may be rock."""
+    """Two leaves before a lit doorway; they fold to its sides, within its frame, since rock may be beside it."""
     wide = 12.1 - 8 * step / 8
     s.box(p.outline, -12.6, -12.6, 25.2, 25.2)
     s.box(p.exit if step else mixed(p.exit, p.outline, 0.35), -11.6, -11.6, 23.2, 23.2)
@@ -59,7 +59,7 @@ def exit_door(s: Sketch, p: Palette, step: int) -> None:
 
 @drawing(11)
 def exit_switch(s: Sketch, p: Palette, pressed: int) -> None:
-    """A plate in the exit's colour with a bright key: once it is pressed, a dark one with a tick on it."""
+    """A plate in the exit's colour with a bright key; a dark one with a tick mark once it is pressed."""
     s.framed_box(mixed(p.exit, p.outline, 0.5) if pressed else p.exit, p.outline, -9, -5.8, 18, 11.6)
     s.framed_box(mixed(p.exit, p.outline, 0.75) if pressed else p.exit_light, p.outline, -6, -2.9, 12, 5.8, 0.7)
     if pressed:
@@ -68,7 +68,7 @@ def exit_switch(s: Sketch, p: Palette, pressed: int) -> None:
 
 @drawing(14)
 def door(s: Sketch, p: Palette, mechanism: int, step: int) -> None:
-    """A bar across x = 0 from y -12 to 12; ``step``: how far its halves have shrunk into stubs."""
+    """A bar across x = 0 from y -12 to 12; ``step``: how far its halves have shrunk."""
     half = 12 - 9 * step / 8
     width, fill = ((1.5, p.dark), (2.4, p.lock), (3.2, p.trap))[mechanism]
     for side in (-1, 1):
@@ -112,7 +112,7 @@ def door_switch(s: Sketch, p: Palette, mechanism: int, used: int) -> None:
 
 @drawing(-9.5, -12, 9.5, 3)
 def launch_pad(s: Sketch, p: Palette, step: int) -> None:
-    """A spring plate lying on the surface at its point; ``step`` 8: just sprung, 0: settled. What springs is green."""
+    """A spring plate on the surface at its point; ``step`` 8: just sprung, 0: settled. What springs is green."""
     top = -5.8 - 4.5 * step / 8
     flash = mixed(p.good, p.bright, 0.7 * step / 8)
     s.polygon(p.dark, [(-5.5, 0), (5.5, 0), (4, top + 2.4), (-4, top + 2.4)])
@@ -126,7 +126,7 @@ def launch_pad(s: Sketch, p: Palette, step: int) -> None:
 
 @drawing(13)
 def one_way(s: Sketch, p: Palette) -> None:
-    """A bar on the side that carries, here the upper one; chevrons below it, where it lets through."""
+    """A bar on the solid side, here the upper one; chevrons below it show the open direction."""
     for top, width in ((-4.5, 2.0), (0.7, 1.2)):
         s.path(p.switch, [(-4, top + 3.4), (0, top), (4, top + 3.4)], width)
     s.framed_box(p.switch, p.outline, -12, -12, 24, 4.4, 0.9)
@@ -196,16 +196,16 @@ def lightning(s: Sketch, p: Palette, variant: int) -> None:
     s.path(p.spark, points, 1.0)
 
 
-PlacedSprite = tuple[SpriteKey, float, float]  # a drawing and where its point lies, px
+PlacedSprite = tuple[SpriteKey, float, float]  # a drawing and the place of its point, px
 
 _EXIT_FRAMES, _PAD_FRAMES, _LOCK_FRAMES, _TRAP_FRAMES = 30, 18, 18, 18
 _DOOR_OPENING, _DOOR_CLOSING, _AIM_FRAMES, _PREPARE_FRAMES = 15, 16, 15, 30
 LONGEST_FRAMES = 30
-SETTLED_TICKS = LONGEST_FRAMES / 3  # after so many ticks without change a static sprite stays the same
+SETTLED_TICKS = LONGEST_FRAMES / 3  # ticks without change after which a static sprite stays the same
 
 
 def static_sprites_of(world: World, slot: int, animation: ObjectAnimation, fraction: float) -> list[PlacedSprite]:
-    """The drawings of one object; [] if nothing of it is fixed to the walls, or it is gone."""
+    """The static drawings of one object; [] if it has none, or is gone."""
     o = world.objects[slot]
     kind = o.kind
     if kind == kinds.GOLD:
@@ -233,7 +233,7 @@ def static_sprites_of(world: World, slot: int, animation: ObjectAnimation, fract
 
 
 def _upright(face_x: float, face_y: float) -> int:
-    """Turn in degrees, by steps of 45, of a drawing whose upper side faces that way."""
+    """Degrees, in steps of 45, to turn a drawing with its upper side in that direction."""
     sign_x, sign_y = (face_x > 0) - (face_x < 0), (face_y > 0) - (face_y < 0)
     return round(degrees(atan2(sign_x, -sign_y)))
 
@@ -247,7 +247,7 @@ def _turret_step(o: Object, slot: int, animation: ObjectAnimation, fraction: flo
 
 
 def door_place(o: Object) -> tuple[float, float, int] | None:
-    """Middle of a door's bar, px, and its turn in degrees; None for a door that is nowhere."""
+    """Middle of a door's bar, px, and its turn in degrees; None for a door without edges."""
     if not o.edge_1:
         return None
     cell, side = divmod(o.edge_1, 4)
@@ -260,7 +260,7 @@ def _door_sprites(o: Object, slot: int, animation: ObjectAnimation, fraction: fl
     place = door_place(o)
     step = animation.step(slot, fraction, _door_frames(o))
     closed = o.switched == (o.mechanism == TRAP)
-    # A trap door cannot be seen until it is sprung.
+    # A trap door is invisible until it is sprung.
     if place and not (o.mechanism == TRAP and not o.switched):
         x, y, turn = place
         sprites.append((door(o.mechanism, 8 - step if closed else step).turned(turn), x, y))

@@ -20,13 +20,13 @@ from ninja_game.view.sprites.object_animation import ObjectAnimation
 
 
 def open_exit(world: World) -> None:
-    """Open the first exit of a world that is only looked at."""
+    """Open the first exit of a world that is only drawn."""
     for exit_ in [obj for obj in world.objects[1:] if obj.kind == EXIT][:1]:
         exit_.is_open = True
 
 
 def thumbnail(level: Level, palette: Palette, width: int, *, opened: bool = False) -> pygame.Surface:
-    """The level at its start, ``width`` px wide; only the tiles of one that cannot be played.
+    """The level at its start, ``width`` px wide; only the tiles if it cannot be played.
 
     ``opened``: with its first exit open.
     """

@@ -15,7 +15,7 @@ from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas
 from ninja_game.view.sprites.sketch import FINE
 
-TileKey = tuple[int, int, int, float, float]  # tile, size and place beside the px
+TileKey = tuple[int, int, int, float, float]  # tile, size, and offset from the px
 
 
 class TileSheet:
@@ -57,7 +57,7 @@ class TileSheet:
         return self.canvas.rect(24 * column, 24 * row, 24, 24).move(-self._corner[0], -self._corner[1])
 
     def draw(self, column: int, row: int, tile: int) -> None:
-        """Show a tile in a cell, in the place of what is there."""
+        """Draw a tile into a cell, replacing what was there."""
         bit = 1 << column
         filled, before = SHAPE[tile] != EMPTY, self._rows[row] & bit
         if not filled and not before:
@@ -89,9 +89,9 @@ class TileSheet:
             surface.blit(self.picture(key, colour), rect)
 
     def key(self, column: int, row: int, tile: int) -> TileKey:
-        """What tells the picture of a tile in a cell from others."""
+        """The identity of the picture of a tile in a cell."""
         rect, scale = self.cell(column, row), self.canvas.scale
-        # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
+        # Offset of the cell's true corner from its px: in eighths, so that few pictures are drawn.
         left, top = self._shift[0] + 24 * column * scale, self._shift[1] + 24 * row * scale
         return tile, *rect.size, round(8 * (left - rect.left)) / 8, round(8 * (top - rect.top)) / 8
 
@@ -99,8 +99,8 @@ class TileSheet:
         return tile_picture(key[0], key[1:3], tuple(colour), self.canvas.scale, key[3:])
 
     def on_tiles(self, areas: Iterable[pygame.Rect]) -> list[pygame.Rect]:
-        """Those areas of which any px may be a tile's."""
-        # Inlined, since a picture asks for a hundred.
+        """The areas with at least one px of a tile."""
+        # Inlined, since a picture has a hundred of them.
         (left, top), size, rows, rects = self._shift, 24 * self.canvas.scale, self._rows, []
         for area in areas:
             x, y, w, h = area
@@ -114,13 +114,13 @@ class TileSheet:
 
 
 def scrolled(surface: pygame.Surface, dx: int, dy: int) -> pygame.Rect:
-    """Move a picture by so many px; where it is then. Round that it is as it was."""
+    """Move a picture by a number of px; its new rectangle. The px around it stay."""
     surface.scroll(dx, dy)
     return surface.get_rect().clip(surface.get_rect(topleft=(dx, dy)))
 
 
 def around(inner: pygame.Rect, outer: pygame.Rect) -> list[pygame.Rect]:
-    """What a rectangle holds beside one within it, as rectangles that do not overlap."""
+    """A rectangle without one inside of it, as rectangles that do not overlap."""
     rows = [(outer.top, inner.top), (inner.bottom, outer.bottom)]
     columns = [(outer.left, inner.left), (inner.right, outer.right)]
     found = [pygame.Rect(outer.left, a, outer.width, b - a) for a, b in rows]
@@ -144,7 +144,7 @@ def outline(tile: int) -> list[Point]:
         return [(-H, -H), (H, -H), (H, H), (-H, H)]
     sx, sy = tiles.SIGN_X[tile], tiles.SIGN_Y[tile]
     if shape == tiles.HALF_TILE:
-        # The half against the open side: cut the square at its middle.
+        # The half against the open side: the square divided at its middle.
         left, right = (-H if sx >= 0 else 0.0), (H if sx <= 0 else 0.0)
         top, bottom = (-H if sy >= 0 else 0.0), (H if sy <= 0 else 0.0)
         return [(left, top), (right, top), (right, bottom), (left, bottom)]
@@ -158,7 +158,7 @@ def outline(tile: int) -> list[Point]:
             *(((about - about * 2 * sin(a)) * sx * H, (about - about * 2 * cos(a)) * sy * H) for a in quarter),
         ]
     points = [corner, (tiles.T_X[tile], tiles.T_Y[tile]), (tiles.S_X[tile], tiles.S_Y[tile])]
-    # The thick wedges reach a second corner of the cell, next to the end of the surface that is in a side's middle.
+    # The thick wedges reach a second corner of the cell, next to the end of the surface in a side's middle.
     if tiles.T_X[tile] == 0.0:
         points.insert(1, (-H * sx, H * sy))
     if tiles.S_Y[tile] == 0.0:
@@ -170,10 +170,10 @@ def outline(tile: int) -> list[Point]:
 def tile_picture(
     tile: int, size: tuple[int, int], colour: tuple[int, ...], scale: float = 0.0, shift: Point = (0.0, 0.0)
 ) -> pygame.Surface:
-    """A tile in a cell of that many px, premultiplied. Nobody may draw on it.
+    """A tile in a cell of that many px, premultiplied. It is shared, so never draw on it.
 
-    ``shift``: px by which the cell's true corner, at ``scale`` px per logical px, lies beside that of its px. Slopes
-    are drawn where they truly are, so that those of neighbouring cells form one line; other shapes fill the cell's px.
+    ``shift``: px from the cell's px to its true corner, at ``scale`` px per logical px. Slopes are drawn at their true
+    place, so that those of neighbouring cells form one line; other shapes fill the cell's px.
     """
     fine = pygame.Surface((size[0] * FINE, size[1] * FINE), pygame.SRCALPHA)
     # Drawing includes the px of the last corner: half a fine px less keeps the shape inside its cell.
@@ -194,7 +194,7 @@ _FITTED = {tiles.EMPTY, tiles.UNDEFINED, tiles.FULL, tiles.HALF_TILE, tiles.CONC
 
 
 def _overlong(tile: int) -> list[Point]:
-    """The outline of a slope that reaches beyond its cell, so that no side of the cell has a gap."""
+    """The outline of a slope extended beyond its cell, so that the cell's edges have no gap."""
     start, end = (tiles.T_X[tile], tiles.T_Y[tile]), (tiles.S_X[tile], tiles.S_Y[tile])
     dx, dy = end[0] - start[0], end[1] - start[1]
     longer = {start: (start[0] - dx / 12, start[1] - dy / 12), end: (end[0] + dx / 12, end[1] + dy / 12)}

@@ -1,4 +1,4 @@
-"""The runs of a folder, as chunks to verify. Nothing outside the folder is read, and nothing large."""
+"""The runs of a folder, as chunks to verify. Only files in the folder are read, and no large ones."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
 from ninja_game.sim.level import Level
 
-MOST_BYTES = 2**20  # size of a file: a hundred times a long run
+MOST_BYTES = 2**20  # of a file: a hundred times a long run
 
-SETTLED = 2 * 10**9  # nanoseconds after which a change shows in the time of a file
+SETTLED = 2 * 10**9  # nanoseconds until a file's time is certain to show a change
 
-MOST_RECORDS = 200  # recordings of one file with records of N
+MOST_RECORDS = 200  # recordings in one file with records of N
 
 
 @dataclass(frozen=True)
 class SentFile:
-    """A file of the folder by its path from there: its content, or why it is refused."""
+    """A file by its path in the folder: its content, or the reason for its refusal."""
 
     name: str
     data: bytes = field(default=b"", repr=False)
@@ -50,9 +50,10 @@ class SentFile:
 
 @dataclass(frozen=True)
 class Sent:
-    """A run, or what cannot be one, as a chunk with one result. ``replay``: where it is one of ours.
+    """A recording as a chunk with one result. ``replay``: for one in our format.
 
-    ``claimed``: the final tick that it claims, where it has inputs after that and is run to their end; else -1.
+    ``claimed``: the final tick that it claims, if there are inputs after that, which are then run to their end; else
+    -1.
     """
 
     chunk: Chunk
@@ -60,7 +61,7 @@ class Sent:
     claimed: int = -1
 
     def inputs(self, ticks: int) -> bytes:
-        """The inputs of its first ticks, where it is a run."""
+        """The inputs of its first ticks, if it is a run."""
         return (self.replay or parse_demo(self.chunk.records[0].demo)).playback(ticks)
 
 
@@ -73,23 +74,23 @@ def _parsed(text: str) -> tuple[Replay, int]:
 
 
 class RunFolder:
-    """A folder of runs. ``levels``: those that count, by digest; replays that hold no level are given theirs."""
+    """A folder of runs. ``levels``: the board's, by digest; they are given to replays without a level inside."""
 
     def __init__(self, folder: Path, levels: Mapping[str, Level]) -> None:
         self.folder = folder
         self.levels = levels
         self.known: dict[tuple[str, int], bytes] = {}
-        """Inputs of runs that were judged just now, by file and record."""
+        """Inputs of recently judged runs, by file and record."""
         self.drawn: dict[tuple[str, int], str] = {}
-        """Paths over the level of runs that were compared just now, as ``path_data``."""
+        """Paths over the level of recently compared runs, as ``path_data``."""
 
     def forget(self, key: tuple[str, int]) -> None:
-        """Keep no inputs and no path of a run whose pages are written: those of all would take much memory."""
+        """Drop the inputs and the path of a run whose pages are written: all of them would take much memory."""
         self.known.pop(key, None)
         self.drawn.pop(key, None)
 
     def files(self) -> Iterator[tuple[str, str]]:
-        """The paths of all files in the folder, and why one is left out; no link is followed."""
+        """The paths of all files in the folder, with the reason if one is left out; links are not followed."""
         above = len(self.folder.parts)
         for file in files_below(self.folder, follow_links=False):
             path, why = (file.path, file.why) if isinstance(file, Skipped) else (file, "")
@@ -106,19 +107,19 @@ class RunFolder:
             return SentFile(name, problem=reason(error))
 
     def stamp(self, name: str) -> list[int]:
-        """As ``stamp_of``; [] for a file so new that it may be changed again in the same moment."""
+        """As ``stamp_of``; [] for a file so new that a change in the same moment would not show."""
         now = stamp_of(f"{self.folder}/{name}")
         return now if now and time.time_ns() - max(now[1:3]) > SETTLED else []
 
     def recordings(self, file: SentFile) -> list[Sent]:
-        """What a file holds; one that is refused says why. Paths in replays are not followed."""
+        """The recordings of a file, or the reason for its refusal. Paths in replays are not followed."""
         name = file.name
         if file.problem:
             return [Sent(Chunk(name, problem=file.problem))]
         try:
             text = decoded(file.data, name)
             if is_replay(text):
-                # Without the name of a file nothing in it leads to another one.
+                # Without a file name no path in the file leads to another one.
                 parsed, claimed = _parsed(text)
                 whole = self._whole(parsed)
                 kept = whole is parsed and claimed < 0
@@ -138,7 +139,7 @@ class RunFolder:
         return [Sent(chunk) for chunk in chunks or [Chunk(name, text=text)]]
 
     def inputs(self, name: str, record: int, digest: str, ticks: int) -> bytes:
-        """The inputs of a run, read again. Raises FileError where its file is not as it was judged."""
+        """The inputs of a run, read again. Raises FileError if its file has changed since it was judged."""
         if (name, record) not in self.known:
             file = self.file(name)
             if file.digest != digest:
@@ -147,7 +148,7 @@ class RunFolder:
         return self.known[name, record]
 
     def _whole(self, parsed: Replay) -> Replay:
-        """The replay with its level inside, and no path. Raises ReplayError."""
+        """The replay with its level inside, without a path. Raises ReplayError."""
         if parsed.level is not None and not parsed.level_path:
             return parsed
         level = parsed.level or self.levels.get(parsed.level_digest)

@@ -1,4 +1,4 @@
-"""Copies: runs that are an earlier one of the level, as it was or with some keys changed."""
+"""Copies: runs that repeat an earlier one of the level, exactly or with some keys changed."""
 
 from __future__ import annotations
 
@@ -20,35 +20,36 @@ from ninja_game.web.pages.gallery import path_data
 from ninja_game.web.pages.memo import Memo, digest_of, program
 
 MOST_COMPARED = 1000
-"""Earlier runs of a level that a new one is compared with: the fastest, which are worth a copy."""
+"""Earlier runs of a level to compare a new one with: the fastest, the likeliest to be copied."""
 
 CHANGED = 0.65
-"""Ticks changed, added or left out for each stroke, up to which the inputs of two runs are the same: people who do the
-same move most strokes by several ticks (the table in docs/board.md)."""
+"""Most ticks changed, added or left out per stroke for the inputs of two runs to count as the same: people who do the
+same move differ in most strokes by several ticks (the table in docs/board.md).
+"""
 
-ON_PATH = 0.75  # share of a run's places on another's path, from which the paths are the same
+ON_PATH = 0.75  # least share of a run's places on another's path for the paths to count as the same
 
-FEWEST_STROKES = 8  # with fewer all runs take the same path
+FEWEST_STROKES = 8  # with fewer strokes all runs take the same path
 
 SAME_PRESSES = 0.45
-"""Share of an earlier run's presses and releases that a run has at the same ticks, from which it is a copy. Of 865
-honest pairs none has so many."""
+"""Least share of an earlier run's presses and releases at the same ticks for a copy. None of 865 honest pairs has it.
+"""
 
-FEWEST_PRESSES = 16  # with fewer they do not tell
-SHIFTED = 10  # ticks that all of them may be earlier or later
+FEWEST_PRESSES = 16  # least presses for a decision
+SHIFTED = 10  # ticks by which all of them may be earlier or later
 
 DOUBTFUL = ": doubtful, as its inputs are others, so it keeps its place"
 
-ALIGNED = 4  # earlier runs whose inputs are aligned with those of a new one: those with the most of its strokes
+ALIGNED = 4  # earlier runs whose inputs are aligned with a new one's: those with the most of its strokes
 
 
 @dataclass(frozen=True)
 class Course:
-    """The features by which runs are compared.
+    """The features for comparing runs.
 
     ``keys``: those down in each tick; ``strokes``: spans of the same keys, each as its number among equal ones, 2^20
     times its keys and 2^24 times its ticks; ``presses``: keys pressed and keys released, each as a bit of eight, plus
-    eight times its tick; ``places``: where the ninja was, in whole pixels, x + 10^6 y.
+    eight times its tick; ``places``: the ninja's places in whole pixels, x + 10^6 y.
     """
 
     keys: bytes
@@ -57,7 +58,7 @@ class Course:
     places: frozenset[float]
 
     def inputs_shared(self, other: Course) -> int:
-        """How many ticks have the inputs of the other's; 0 where too many have not."""
+        """The number of ticks with the other's inputs; 0 if too many differ."""
         changed = edit_distance(self.keys, other.keys)
         alike = changed <= CHANGED * max(len(self.strokes), len(other.strokes))
         return max(0, len(self.keys) - changed) if alike else 0
@@ -78,14 +79,14 @@ def course_of(inputs: bytes, run: RunResult) -> Course:
 
 
 class Common:
-    """Which courses have a feature, such as a place: a bit for each of the columns that courses are in."""
+    """The courses with a feature, such as a place: a bit for each of their columns."""
 
     def __init__(self) -> None:
         self._rows: dict[float, int] = {}
         self._bits = np.zeros((64, 1), np.uint8)
 
     def mark(self, features: Iterable[float], column: int, *, has: bool) -> None:
-        """Note that the course in a column has these features, or no longer has them."""
+        """Add these features to the course in a column, or remove them."""
         rows = [self._rows.setdefault(feature, len(self._rows)) for feature in features]
         high, wide = self._bits.shape
         if len(self._rows) > high or column // 8 >= wide:
@@ -98,7 +99,7 @@ class Common:
             self._bits[rows, column // 8] &= 255 - bit
 
     def counts(self, features: Iterable[float], columns: int) -> NDArray[np.int64]:
-        """How many of the features each of the first columns has."""
+        """The number of these features in each of the first columns."""
         rows = np.array([self._rows[feature] for feature in features if feature in self._rows], np.intp)
         bits = np.unpackbits(self._bits[rows, : (columns + 7) // 8], axis=1, count=columns, bitorder="little")
         # The narrow sum takes a third of the time.
@@ -107,9 +108,9 @@ class Common:
 
 
 class Courses:
-    """The courses of the ``most`` fastest earlier runs of a level, each in a column: a new one is compared with all.
+    """The courses of the ``most`` fastest earlier runs of a level, each in a column, to compare a new one with all.
 
-    ``numbers``: by column that of its run.
+    ``numbers``: the number of each column's run.
     """
 
     def __init__(self, most: int) -> None:
@@ -121,7 +122,7 @@ class Courses:
         self._strokes, self._presses, self._places = Common(), Common(), Common()
 
     def add(self, number: int, tick: int, course: Callable[[], Course]) -> None:
-        """A run by its number, higher than those before, and its time, unless all columns have faster ones."""
+        """Add a run by its number, higher than those before, and its time, unless all columns have faster ones."""
         column = len(self._slowest)
         if column == self._most:
             if self._slowest[0] > (-tick, -number, 0):
@@ -143,7 +144,7 @@ class Courses:
     def near(self, course: Course) -> Callable[[NDArray[np.bool_]], tuple[list[int], str, bool]]:
         """A function of columns: the numbers of the runs near a course, nearest first; what the first shares.
 
-        And whether its inputs say so: on a short level with one obvious way people share the path alone.
+        And whether the inputs are what is shared: on a short level with one obvious route people share only the path.
         """
         columns = len(self.numbers)
         places, presses = self._places.counts(course.places, columns), np.zeros(columns, np.int64)
@@ -168,7 +169,7 @@ class Courses:
                 said += f"{of[first]} presses and releases, are those of"
                 if pressed[first]:
                     return found, said, True
-            # Aligning is slow: only where nothing else tells.
+            # Aligning is slow: only where the other tests do not decide.
             strokes, ticks = self._strokes.counts(course.strokes, columns), len(course.keys)
             most = nlargest(ALIGNED, np.flatnonzero(chosen).tolist(), key=strokes.__getitem__)
             shared = [(-course.inputs_shared(self._courses[column]), int(self.numbers[column])) for column in most]
@@ -182,12 +183,11 @@ class Courses:
 
 
 def edit_distance(ours: bytes, theirs: bytes) -> int:
-    """How many ticks must be changed, added or left out to make one from the other.
+    """The least number of ticks to change, add or leave out to make one from the other.
 
     A column of differences is the bits of two numbers (Myers 1999, Hyyrö 2003).
 
-    >>> edit_distance(b"kitten", b"sitting"), edit_distance(b"", b"ab")
-    (3, 2)
+    >>> edit_distance(b"kitten", b"sitting"), edit_distance(b"", b"ab") (3, 2)
     """
     if not ours:
         return len(theirs)
@@ -207,10 +207,10 @@ def edit_distance(ours: bytes, theirs: bytes) -> int:
 
 
 def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run], list[Rejected]]:
-    """The runs without those that do what an earlier one does, and those; near copies of an earlier one are marked.
+    """The runs that are no copies, with near copies marked, and the copies.
 
-    Of the same runs by several players, taken in at one moment, nobody knows which was first: all stay, with a remark.
-    ``owners``: as of Ledger.
+    If several players sent the same run at one moment, nobody knows who was first: all stay, with a remark. ``owners``:
+    as of Ledger.
     """
     on_level: dict[str, list[Run]] = defaultdict(list)
     copies: list[Rejected] = []
@@ -242,10 +242,10 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
 
 
 def _remarked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Iterator[Run]:
-    """The runs of a level, in order, with a remark on each that is near to earlier ones of others alone.
+    """The runs of a level, in order, each with a remark if it is near to earlier ones by others alone.
 
-    Of two of one moment nobody knows which was first: the second has the remark, and is no near copy. ``together``:
-    what is said instead of those that are the same run.
+    Of two of one moment nobody knows which was first: the second has the remark, and is no near copy. ``together``: the
+    remark for those that are the same run.
     """
     if len({run.player for run in runs}) == 1:
         yield from runs
@@ -265,7 +265,7 @@ def _remarked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Itera
 
 
 class _Compared:
-    """The runs of a level that were compared so far. What is near to them is remembered, and not compared again."""
+    """The runs of a level that were compared so far, with cached results."""
 
     def __init__(self, level: str, memo: Memo) -> None:
         self._memo = memo
@@ -275,11 +275,11 @@ class _Compared:
         self._last: tuple[Key, Course] | None = None
 
     def _key_of(self, run: Run) -> str:
-        """A remark depends on the run, on all earlier runs of the level and their moments, and on nothing else."""
+        """A remark depends only on the run, and on all earlier runs of the level and their moments."""
         return sha256(f"{self._key} {run.digest} {run.record} {run.player}".encode("utf-8", "replace")).hexdigest()
 
     def begin_moment(self) -> None:
-        """All runs that were added are of earlier moments."""
+        """All runs added so far are of earlier moments."""
         self._key, self._earlier = digest_of([self._key]), len(self._runs)
 
     def add(self, run: Run) -> None:
@@ -287,9 +287,9 @@ class _Compared:
         self._runs.append(run)
 
     def near(self, run: Run) -> tuple[str, bool, bool]:
-        """Which run by another player a run is nearly, as a sentence, "" for none; if that is of an earlier moment.
+        """The run by another player that a run nearly copies, as a sentence, "" for none; whether of an earlier moment.
 
-        And whether its inputs say so, too.
+        And whether the inputs are what is shared.
         """
         noted = self._memo.recall(key := self._key_of(run))
         if not (isinstance(noted, list) and [*map(type, noted)] == [str, bool, bool]):
@@ -306,7 +306,7 @@ class _Compared:
         return noted[0], noted[1], noted[2]
 
     def _course(self, run: Run, *, new: bool = False) -> Course:
-        """What tells whether a run is near to others. ``new``: its page is made, and shows its path."""
+        """The features of a run. ``new``: its page is made, and shows its path."""
         if self._last is None or self._last[0] != run.key:
             inputs = run.inputs
             result = run_level(run.entry.named.level, inputs)
@@ -319,11 +319,10 @@ class _Compared:
 def _near_to_another(
     player: str, course: Course, earlier: Courses, players: Sequence[str], until_moment: int
 ) -> tuple[int, str, bool] | None:
-    """Which run by another player a run is nearest to, how, and whether its inputs say so.
+    """The nearest run by another player, what it shares, and whether that is the inputs.
 
-    Of those before the player's own first near one.
-
-    ``players``: of the earlier runs; the first ``until_moment`` of these, of earlier moments, go before the others.
+    Only runs before the player's own first near one count. ``players``: of the earlier runs; the first ``until_moment``
+    of these, of earlier moments, are preferred.
     """
     numbers = earlier.numbers
     own = np.array([players[number] == player for number in numbers.tolist()], bool)

@@ -1,4 +1,4 @@
-"""Judges a folder of runs: all are simulated again, copies found, players told apart."""
+"""Judges a folder of runs: simulates all, finds copies, tells players apart."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _TYPES = tuple(get_type_hints(Judged).values())
 
 
 class JudgedFile(NamedTuple):
-    """A file of the folder. ``sent``: what is simulated of it now; ``rows``: what it comes to."""
+    """A file of the folder. ``sent``: the runs to simulate now; ``rows``: its results."""
 
     name: str
     digest: str
@@ -58,10 +58,10 @@ def judge(
     memo: Memo | None = None,
     ledger: Ledger = NO_LEDGER,
 ) -> ValidatedRuns:
-    """Simulate every run below a folder again, on the levels that are shown. Raises OSError.
+    """Simulate every run below a folder again, on the board's levels. Raises OSError.
 
-    ``dates``: those of the board's ``ledger``; without it runs go by the names of their files. ``memo``: what was found
-    out before, of the same files, levels and rules; it is not simulated again.
+    ``dates``: those of the board's ``ledger``; without it runs are ordered by the names of their files. ``memo``:
+    earlier results for the same files, levels and rules, which are not simulated again.
     """
     memo = memo or Memo()
     sent = RunFolder(folder, {digest: entry.named.level for digest, entry in shown.entries.items()})
@@ -79,7 +79,7 @@ def judge(
             runs.append(_run(file, row, entry, sent, added))
     known = {(run.level, run.way, run.added) for run in runs}
     for number, run in enumerate(runs):
-        # A run that was withdrawn, or comes in another file, is still its player's.
+        # A run that was withdrawn, or is in another file now, still belongs to its player.
         owner = owners.get(way := (run.level, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
             runs[number] = replace(run, added=owner["added"], again=True)
@@ -98,7 +98,7 @@ def judge(
 
 
 def _episodes(runs: list[Run], counted: list[Run], shown: PublishedLevels) -> dict[str, list[list[Run]]]:
-    """By key the runs of whole episodes: every level's counts, or does what another run by the same player does."""
+    """By key the runs of whole episodes: every level's run counts, or repeats another run by the same player."""
     lengths = {episode.key: len(episode.levels) for episode in shown.levels.episodes.values()}
     ways = {(run.player, run.level, run.way): run for run in counted}
     files: dict[tuple[str, str], list[Run]] = defaultdict(list)
@@ -113,12 +113,12 @@ def _episodes(runs: list[Run], counted: list[Run], shown: PublishedLevels) -> di
 
 
 class _Judging:
-    """Judges the files of a folder; what the memo knows of them is not simulated again."""
+    """Judges the files of a folder, except those in the memo."""
 
     def __init__(self, folder: RunFolder, shown: PublishedLevels, memo: Memo) -> None:
         self._folder, self._shown, self._memo = folder, shown, memo
         self._episodes = {episode.key: episode.levels for episode in shown.levels.episodes.values()}
-        # Twice as long as a run can be that is in time.
+        # Twice as long as a run within the time can be.
         longest = [
             2 * (LIFETIME + GOLD_BONUS * sum(level.all_gold for level in levels)) * tick_cost(entry.named.level)
             for levels in [*self._episodes.values(), *([entry] for entry in shown.entries.values())]
@@ -129,7 +129,7 @@ class _Judging:
         self._waiting: deque[JudgedFile] = deque()
 
     def files(self, jobs: int | None) -> Iterator[JudgedFile]:
-        """All files, in order, simulated where the memo does not know them."""
+        """All files, in order, simulated unless the memo knows them."""
         levels, results = [entry.named for entry in self._shown.entries.values()], list[Result]()
         for result in verify_all(
             (),
@@ -156,14 +156,14 @@ class _Judging:
         yield from self._waiting
 
     def _chunks(self) -> Iterator[Chunk]:
-        """What is to be simulated; the files, those that the memo knows too, wait for their turn."""
+        """The chunks to simulate; the files, those in the memo too, wait in order."""
         for name, why in self._folder.files():
             self._waiting.append(file := self._file(name, why))
             yield from (sent.chunk for sent in file.sent)
 
     def _file(self, name: str, why: str) -> JudgedFile:
-        """A file as the memo knows it, else with what is sent in it. ``why``: it is left out."""
-        # The stamp comes first: a file that is changed after it is read again the next time.
+        """A file of the memo, else with the runs in it. ``why``: the reason if it is left out."""
+        # The stamp is taken first: a file that is changed after it is read again the next time.
         stamp = [] if why else self._folder.stamp(name)
         noted = self._memo.recall(name)
         context, seen, digest, rows = noted if isinstance(noted, list) and len(noted) == 4 else ("", [], "", [])
@@ -177,7 +177,7 @@ class _Judging:
         return JudgedFile(name, file.digest, stamp, self._folder.recordings(file), [])
 
     def _row(self, file: JudgedFile, sent: Sent, result: Result) -> Judged:
-        """The row of a recording; one that cannot be written as pages have it is unreadable."""
+        """The row of a recording; it is unreadable if pages cannot hold it."""
         row = _row(sent, result, self._folder)
         entry = self._shown.entries.get(row.level)
         if entry and not row.kind:
@@ -190,7 +190,7 @@ class _Judging:
 
 
 def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
-    """The recordings of a file as a memo has them; none where that is not what was noted there."""
+    """The recordings of a file in the memo; none if the entry is invalid."""
     with suppress(TypeError, ValueError):
         rows = [Judged(*row) for row in noted]
         for row in rows:
@@ -209,9 +209,9 @@ def _run(file: JudgedFile, row: Judged, entry: Entry, folder: RunFolder, added: 
 
 
 def _with_row(run: Run, owner: Mapping[str, Any], own: Mapping[str, Any]) -> Run:
-    """A run with what only its row of the ledger tells: it is confirmed, or near to one that may be gone.
+    """A run with what only its row of the ledger says: it is confirmed, or near to one that may be gone.
 
-    ``owner``: the row of who did it first; ``own``: that of its file, which is meant where several did it together.
+    ``owner``: the row of who did it first; ``own``: that of its file, which counts if several did it together.
     """
     row = own if own.get("way") == run.way else owner
     if row.get("confirmed") is True:
@@ -224,11 +224,11 @@ def _with_row(run: Run, owner: Mapping[str, Any], own: Mapping[str, Any]) -> Run
 def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     nameless = not isinstance(result, Unreadable) and folded(result.author) == UNNAMED
     if not isinstance(result, Unreadable) and (nameless or (not sent.replay and not result.made)):
-        # A record of N names who made the level, and nobody who played; one of ours says how it was made, too.
+        # A record of N names the level's author, not the player; a replay of ours also says how it was made.
         place = result.file + f", record {result.record}" * (result.record > 0 and not result.episode)
         result = replace(result, author=f"unknown ({place[-MOST_NAME // 2 :]})")
     if isinstance(result, Unreadable):
-        why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # which a board has not
+        why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # a board has no such option
         return Judged(sent.chunk.first, "unreadable", why)
     problems = [_worded(problem, result, sent) for problem in result.problems]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
@@ -249,7 +249,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
 
 
 def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
-    """A problem as the sender of a run reads it."""
+    """A problem in words for the sender of a run."""
     if problem.code == "not-strict" and result.practice and str(problem).startswith("practice"):
         return f"it was {result.made}: runs with such help do not count"
     if problem.code == "not-strict" and str(problem).startswith("complete"):
@@ -275,7 +275,7 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
 
 
 def _of_players(runs: list[Run], players: Players) -> list[Run]:
-    """The runs, each of the player that its author is."""
+    """The runs, each assigned to its author's player."""
     credited = []
     for run in runs:
         player, remark = players.meet(run.player)
@@ -285,10 +285,9 @@ def _of_players(runs: list[Run], players: Players) -> list[Run]:
 
 
 def _without_name(message: str, name: str) -> str:
-    """An error's message without the name of its file, which stands beside it.
+    """An error's message without the name of its file, which is shown beside it.
 
-    >>> _without_name("a.txt:3:1: not a header", "a.txt")
-    'line 3:1: not a header'
+    >>> _without_name("a.txt:3:1: not a header", "a.txt") 'line 3:1: not a header'
     """
     for prefix in (f"{name}:", f"{name!a}:"):
         message = message.removeprefix(prefix)

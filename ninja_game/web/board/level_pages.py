@@ -1,4 +1,4 @@
-"""The pages of levels and of runs; and what all pages of a board are made of: links, tables of any length, drawings."""
+"""The pages of levels and of runs, and the parts of all pages of a board: links, tables of any length, drawings."""
 
 from __future__ import annotations
 
@@ -58,13 +58,13 @@ from ninja_game.web.pages.gallery import (
 )
 from ninja_game.web.pages.memo import Memo, digest_of
 
-PER_PAGE = 100  # rows of a table that goes on on another page: a page has at most 100 KB
+PER_PAGE = 100  # rows of a table on one page: a page has at most 100 KB
 
 LONGEST_NAME = 40  # characters of a name in a table
 
 RUN_HEADS = ("Watch", "Made", "Gold", "Date", "Medal", "File")
 LESSER = {"No.", "Behind", "Better by", "Score", "With", "On", *RUN_HEADS[2:], *map(str.capitalize, MEDALS)}
-"""Heads of columns for which a narrow page has no room."""
+"""Heads of columns that a narrow page leaves out."""
 EPISODES = "episodes.html", "Episodes"
 LINKS = [
     ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), EPISODES,
@@ -73,32 +73,32 @@ LINKS = [
 
 FIRST = 10  # rows of a table
 TOGETHER = 5  # runs side by side
-PODIUM = 3  # places where it is said beside the name that nobody knows how a run was made
+PODIUM = 3  # places with a remark beside the name if it is unknown how a run was made
 NOT_SAID = "how it was made: not said"
-ENOUGH_SPLITS = 5  # with fewer the splits do not tell where time goes
-COARSE = 4  # each of so many ticks is compared place by place: all of them take a third of the time of a board
-LONGEST_ALIGNED = 8000  # ticks of a run; longer ones would take much memory
-MOST_SECONDS = 30 * TICKS_PER_SECOND  # a run of more has fewer rows, some seconds apart
-MOST_SPLITS = 60  # rows of splits; where there were more, gold is left out
+ENOUGH_SPLITS = 5  # with fewer, splits do not show where time is lost
+COARSE = 4  # one of so many ticks is compared place by place: all would take a third of the time of a board
+LONGEST_ALIGNED = 8000  # ticks of a run; longer ones would take too much memory
+MOST_SECONDS = 30 * TICKS_PER_SECOND  # a longer run has fewer rows, some seconds apart
+MOST_SPLITS = 60  # rows of splits; beyond it gold is left out
 
 RECORDS = "records"
 SPLITS = "splits"
 NEAR = "A run that is nearly somebody else's has no place, until the keeper of the board confirms it. "
 HOW_TO_CONFIRM = "The keeper confirms one with: ninja-game board FOLDER --json board.json --confirm FILE"
 
-# The chart, px, before it is fitted to the page.
+# The chart, px, before scaling to the page.
 WIDTH, HEIGHT, MARGIN = 640, 200, 12
-BESIDE, BELOW = 72, 28  # what the labels take
+BESIDE, BELOW = 72, 28  # room for the labels
 
 PLACE = "place-"  # the anchor of a numbered place in a picture
-MARK_APART = 14  # px from one number to the next, at least
+MARK_APART = 14  # least px between two numbers
 
 
 class LevelPages:
-    """A board that is written into ``out/board/``: its pages of levels and runs, and what all pages are made of.
+    """A board in ``out/board/``: its pages of levels and runs, and the parts of all its pages.
 
-    ``up``: the way from a page to that folder, "" or UP; ``address``: where ``out`` will be, if that is known;
-    ``around``: a digest of what stands on every page.
+    ``up``: the path from a page to that folder, "" or UP; ``address``: of ``out``, if it is known; ``around``: a digest
+    of the text on every page.
     """
 
     def __init__(
@@ -128,7 +128,7 @@ class LevelPages:
         *before: Content,
         cells: Callable[[Any], tuple[Content, ...]] = tuple,
     ) -> None:
-        """A table on as many pages as it takes. ``rows``: plain values, of which ``cells`` makes what is shown.
+        """A table on as many pages as it needs. ``rows``: plain values; ``cells`` makes their cells.
 
         Without heads each row is a card.
         """
@@ -153,20 +153,20 @@ class LevelPages:
             self.pages.make(file, [title, caption, heads, part, lead, more, links], content)
 
     def watch_link(self, runs: Sequence[Run], up: str, text: str = "Watch") -> Markup:
-        """A link that watches a run, the others as ghosts."""
+        """A link to watch a run, the others as ghosts."""
         address = watch_address(up + self.game, *(self.stems[run.key] for run in runs))
         said = f"{text}: {runs[0].player} on {runs[0].entry.title}"
         return tag("a", text, href=address, aria_label=said, class_="watch" if text == "Watch" else None)
 
     def run_link(self, run: Run, up: str, text: str = "") -> Markup:
-        """A link to the page of a run that says ``text``, such as its time; without one to its replay."""
+        """A link to the page of a run with the text ``text``, such as its time; by default to its replay."""
         address, label = f"{up}../{REPLAYS}/{self.stems[run.key]}", f"{run.player} on {run.entry.title}"
         if text:
             return tag("a", text, href=f"{address}.html", aria_label=f"{text}: {label}")
         return tag("a", "File", href=f"{address}.txt", download=True, aria_label=f"File: {label}")
 
     def behind(self, category: Category, row: Ranked, first: Ranked, word: str = "") -> str:
-        """By how much a run is behind the first, or what decides between the two. ``word``: behind a number."""
+        """By how much a run is behind the first, or the criterion that decides. ``word``: behind a number."""
         if not row.place or row is first:
             return ""
         if row.values == first.values:
@@ -174,7 +174,7 @@ class LevelPages:
         return category.difference(row.behind) + word if row.behind else category.decided(row.values, first.values)
 
     def write_run_page(self, run: Run, beside: Sequence[Run]) -> None:
-        """``beside``: the runs of the level that stand side by side."""
+        """``beside``: the runs of the level that are shown side by side."""
         stem, title = self.stems[run.key], f"{self.shown_name(run.player)} on {run.entry.title}"
         ranks, links = list[tuple[str, str]](), list[Markup]()
         for leaderboard, rows, number in self.ranking.places.get(run.key, ()):
@@ -203,7 +203,7 @@ class LevelPages:
         self.pages.make(f"{stem}.html", [title, facts, links, self.around], content, replay=True)
 
     def shown_name(self, player: str) -> str:
-        """A player's name in a table, and whose it is not where it looks like one that was there before."""
+        """A player's name in a table, with the earlier player whose name looks like it."""
         first = self.ranking.judged.alike.get(player)
         return shown_text(player, LONGEST_NAME) + (f" (not {shown_text(first, LONGEST_NAME)})" if first else "")
 
@@ -213,9 +213,9 @@ class LevelPages:
     def run_cells(
         self, run: Run, *results: Content, timed: bool = True, remark: str = "", mark: Content = None
     ) -> tuple[Content, ...]:
-        """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time.
+        """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is for the time.
 
-        ``remark``: what stands below the player's name, before the run's own; ``mark``: what stands before it.
+        ``remark``: below the player's name, before the run's own; ``mark``: before the name.
         """
         gold, linked = f"{run.gold} of {run.entry.all_gold}", self.run_link(run, UP, str(results[0]))
         medal = medal_mark(run.medal if timed else "")
@@ -231,7 +231,7 @@ class LevelPages:
         )
 
     def shown_value(self, category: Category, run: Run) -> str:
-        """The number that a run is ranked by, as text; "" where it is not of the category."""
+        """The number that ranks a run, as text; "" if it is not in the category."""
         values = self.ranking.values(category, run)
         return category.text(values[0]) if values else ""
 
@@ -268,7 +268,7 @@ class LevelPages:
             self.write_table(name, entry.title, caption, heads, ordered, tag("p", back), cells=cells)
 
     def _runs(self, entry: Entry) -> tuple[Content, Content, Content]:
-        """What leads to the tables, the paths of the first runs over the level, and all that stands below."""
+        """The links to the tables, the paths of the first runs over the level, and all sections below."""
         tables = self.ranking.tables.get(entry.digest, {})
         if not tables:
             return None, None, section("Runs", tag("p", "Nobody has passed this level here yet."))
@@ -304,7 +304,7 @@ class LevelPages:
         return joined(*top), drawn, joined(*shown, note, link, first, folded, beside)
 
     def _said_of(self, what: str, rows: Sequence[Ranked]) -> Content:
-        """What is said below a table of runs that are not in it, each once."""
+        """The remarks below a table about runs that are not in it, each once."""
         said = [
             f"{self.shown_name(run.player)} {seconds_text(run.tick)} with {run.gold} gold"
             for run in {row.run.key: row.run for row in rows[:FIRST]}.values()
@@ -312,7 +312,7 @@ class LevelPages:
         return tag("p", f"{what}: {', '.join(said)}.") if said else None
 
     def _leader(self, leaderboard: Leaderboard, best: Ranked, anchor: str) -> Markup:
-        """Who leads a table, and a link to it; none leads where all wait for confirmation."""
+        """The leader of a table, with a link; none if all runs wait for confirmation."""
         link = tag("a", self.leaderboard_name(leaderboard), href=f"#{anchor}")
         if best.place != 1:
             return tag("li", link, class_="card leader")
@@ -327,9 +327,9 @@ class LevelPages:
         marks: Mapping[Key, Content],
         anchor: str,
     ) -> Markup:
-        """A table of categories with the same runs in order.
+        """A table of categories with the same order of runs.
 
-        ``above``: remarks of tables above; ``marks``: colours of the runs in the picture.
+        ``above``: remarks in tables above; ``marks``: colours of the runs in the picture.
         """
         rows, categories = [], [category for _, category in leaderboards]
         timed = any(category.unit == FASTEST.unit for category in categories)
@@ -356,13 +356,13 @@ class LevelPages:
             (run.moment, self.player_link(run.player, UP), category.text(number), gain, self.watch_link([run], UP))
             for run, number, gain in zip(runs, numbers, better, strict=True)
         ]
-        # Records of one moment are one record.
+        # Several records of one moment count as one.
         moments = [datetime.fromisoformat(run.added).timestamp() if run.added else 0.0 for run in runs]
         start, end = (f"{category.text(numbers[at])} {runs[at].day}" for at in (0, -1))
         said = f"The record {moved} from {start} to {end} in {counted(len(runs) - 1, 'step')}"
         heights = [-number if category.rising else number for number in numbers]  # as they are shown
         named = [f"{self.shown_name(run.player)}: {row[2]} {run.day}" for run, row in zip(runs, rows, strict=True)]
-        # The first records of a level are often runs for gold: beside them no later step would be seen.
+        # The first records of a level are often runs for gold: their scale would hide all later steps.
         since = next(at for at, number in enumerate(numbers) if not category.far(number, numbers[-1]))
         points = list(zip(moments, heights, strict=True))[since:]
         days = runs[since].day, runs[-1].day
@@ -373,7 +373,7 @@ class LevelPages:
         return section(title, chart, ranked, anchor=anchor or None)
 
     def _side_by_side(self, category: Category, runs: Sequence[Run]) -> tuple[Markup, Content]:
-        """The paths of the first runs of a category; of several, races of any two of them, and their splits."""
+        """The paths of the first runs of a category; for several runs also links to races of two, and splits."""
         names = [self.shown_name(run.player) + ", assisted" * (run.ladder != PLAYED) for run in runs]
         if len(runs) == 1:
             return paths(UP + picture_name(runs[0].level), [(names[0], runs[0].path)]), None
@@ -408,7 +408,7 @@ class LevelPages:
 
 
 def _where_time_goes(names: Sequence[str], runs: Sequence[RunSplits]) -> list[Markup]:
-    """Where each run loses most on the first, and a table of how much later it is there at each of its seconds."""
+    """Where each run loses most to the first, and a table of its delay at each of the first run's seconds."""
     first, *others = runs
     if max(run.ticks for run in runs) > LONGEST_ALIGNED:
         return []
@@ -430,7 +430,7 @@ def _where_time_goes(names: Sequence[str], runs: Sequence[RunSplits]) -> list[Ma
 
 
 def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
-    """How many ticks later the other run is where ours is at each of these; None: it is not near there."""
+    """By how many ticks the other run is later at the places of these ticks; None: it is not near there."""
     partner = aligned(ours[::COARSE], theirs[::COARSE])
     leads: list[int | None] = []
     for tick in ticks:
@@ -441,7 +441,7 @@ def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequen
 
 
 def _split_rows(runs: Sequence[RunSplits]) -> list[SplitRow]:
-    """Rows of splits of the fastest run; gold that only others take is left out, all of it where it is too much."""
+    """Rows of splits of the fastest run; gold that only others take is left out, and all gold beyond MOST_SPLITS."""
     best = min(range(len(runs)), key=lambda number: runs[number].ticks)
     gold, rows = SPLIT_EVENTS[0], split_table(runs, runs[best])
     if len(rows) > MOST_SPLITS:
@@ -451,7 +451,7 @@ def _split_rows(runs: Sequence[RunSplits]) -> list[SplitRow]:
 
 
 def _cells(row: SplitRow) -> Iterator[str]:
-    """The first run's time, the fastest segment, and how much later the others are."""
+    """The first run's time, the fastest segment, and the delays of the others."""
     first, *others = row.ticks
     yield from ("" if ticks is None else seconds_text(ticks) for ticks in (first, row.best_segment))
     for tick in others:
@@ -468,7 +468,7 @@ def level_link(entry: Entry, up: str = "") -> Markup:
 
 
 def card(entry: Entry, *facts: Content) -> Markup:
-    """A level with its picture, which lead to it, and lines about it. For a page of the board's own folder."""
+    """A level with its picture, both links, and lines about it. For a page in the board's own folder."""
     image = tag(
         "img", src=picture_name(entry.digest), alt="", width=PICTURE_WIDTH, height=PICTURE_HEIGHT, loading="lazy"
     )
@@ -486,7 +486,7 @@ def made_text(run: Run) -> Markup:
 
 
 def signed(ticks: int) -> str:
-    """How much later, in seconds."""
+    """A delay in seconds, with its sign."""
     return ("-" if ticks < 0 else "+") + seconds_text(abs(ticks))
 
 
@@ -495,7 +495,7 @@ def _text(run: Run) -> str:
 
 
 def _stem(run: Run) -> str:
-    """The stem of the file in ``replays`` with a run: of all that the file holds."""
+    """The stem of the file in ``replays`` with a run, derived from the file's content."""
     author = run.entry.named.author
     held = run.digest, str(run.record), run.player, run.entry.title, author, run.made, run.co_authors, run.level
     return sha256("\0".join(held).encode("utf-8", "replace")).hexdigest()[:16]
@@ -508,9 +508,9 @@ def steps(
     days: tuple[str, str],
     said: str,
 ) -> Markup:
-    """A line that keeps each value until the next one: (moment, value) in order, with what each point is called.
+    """A line that keeps each value until the next one: (moment, value) in order, with a label for each point.
 
-    ``text``: of a value; ``days``: of the first and the last moment; ``said``: what the line says.
+    ``text``: of a value; ``days``: of the first and the last moment; ``said``: the line's text for screen readers.
     """
     x, y = np.array(points, np.float64).T
     low, high, floor = float(y.min()), float(y.max()), HEIGHT - BELOW
@@ -534,13 +534,13 @@ def steps(
 
 
 def _share(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Each value between the least one, 0, and the greatest, 1."""
+    """Each value scaled from the least one, 0, to the greatest, 1."""
     share: NDArray[np.float64] = (values - values.min()) / (np.ptp(values) or 1.0)
     return share
 
 
 def _marks(places: Sequence[tuple[float, float]]) -> Iterator[Markup]:
-    """Numbers at places; one that would cover an earlier one shows only while a link leads to it."""
+    """Numbers at places; one that would cover an earlier one shows only while a link to it is active."""
     shown: list[tuple[float, float]] = []
     for number, (x, y) in enumerate(places, 1):
         free = all(abs(x - left) > MARK_APART or abs(y - top) > MARK_APART for left, top in shown)
@@ -554,7 +554,7 @@ def _marks(places: Sequence[tuple[float, float]]) -> Iterator[Markup]:
 def paths(picture: str, runs: Sequence[tuple[str, str]], places: Sequence[tuple[float, float]] = ()) -> Markup:
     """Runs, each by name with its ``path_data``, over the picture of their level; the first on top.
 
-    ``places``: px, of what is numbered from 1.
+    ``places``: px of the marks, numbered from 1.
     """
     image = tag("image", href=picture, width=PICTURE_WIDTH, height=PICTURE_HEIGHT)
     lines = [

@@ -1,4 +1,4 @@
-"""The board's pages: what is new, players, levels, episodes, and what does not count."""
+"""The board's pages: news, players, levels, episodes, and runs that do not count."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ NEWEST = 30
 LEADING = 20
 CONTESTED = 8
 CARDS = 8  # of the newest records; older ones are rows
-MOST_OF_A_MOMENT = 5  # records that come in at one moment and have a row each
+MOST_OF_A_MOMENT = 5  # records of one moment that have a row each
 
 Piece = tuple[str, str, Content]  # of a page: anchor, title, content
 
@@ -63,7 +63,7 @@ BY_LEVELS = "By levels led in all categories together, then by levels passed"
 
 
 def check_site(out: Path, folder: Path) -> None:
-    """Raise FileError where the pages in ``out`` would be written into the folder of runs, or around it."""
+    """Raise FileError if the pages in ``out`` would be written into the folder of runs, or around it."""
     for written in (out / BOARD, out / REPLAYS):
         if is_in(written, folder) or is_in(folder, written):
             what = f"the pages would be written into {written.name!r}, and the runs are read there"
@@ -71,13 +71,13 @@ def check_site(out: Path, folder: Path) -> None:
 
 
 def check_ledger(data: Path, folder: Path) -> None:
-    """Raise FileError where the ledger would be read as a run the next time."""
+    """Raise FileError if the next time the ledger would be read as a run."""
     if is_in(data, folder) and data.name.lower().endswith(SUFFIXES):
         raise FileError("the board would be read as a run", str(data), hint="choose a name that ends in .json")
 
 
 def is_in(path: Path, folder: Path) -> bool:
-    """Whether a path, of something that may not be there yet, is a folder or leads into it; links are followed."""
+    """Whether a path, which need not exist yet, is a folder or leads into it; links are followed."""
     place = path.resolve()
     return folder.exists() and any(parent.exists() and parent.samefile(folder) for parent in (place, *place.parents))
 
@@ -92,8 +92,8 @@ EPISODE_HEADS = ("Place", "Player", "Sum", "Score", "Levels", "Watch")
 class BoardPages(LevelPages):
     """Writes the pages of a ranking into ``out/board/``, and its runs into ``out/replays/``.
 
-    ``game``: name of the page with the game in ``out``; ``memo``: of earlier pages in ``out``. Raises FileError where
-    ``out/board`` holds something else.
+    ``game``: name of the page with the game in ``out``; ``memo``: of earlier pages in ``out``. Raises FileError if
+    ``out/board`` holds other files.
     """
 
     def write(self) -> None:
@@ -106,7 +106,7 @@ class BoardPages(LevelPages):
             self.pages.write(EPISODES[0], page(EPISODES[1], tag("p", EPISODE_NUMBERS), *episodes, links=self.links))
         self.pages.write("index.html", self._first())
         self.pages.write(FEED, self._feed())
-        # Last of all: where the disk is full, the pages of an earlier time are all there.
+        # Last: if the disk is full, the earlier pages are still complete.
         for folder in ("players", "levels", "pictures"):
             self.pages.clear(folder)
         self.pages.finish()
@@ -145,7 +145,7 @@ class BoardPages(LevelPages):
         return page("Board", lead, said, leads, *contents, links=self.links, current="index.html")
 
     def _newest(self, record: Record) -> Markup:
-        """A record with its level."""
+        """The card of a record with its level."""
         run, link = record.run, self.player_link(record.run.player)
         achieved = (
             joined(tag("span", name), " ", tag("b", result), " ", tag("span", gain))
@@ -159,7 +159,7 @@ class BoardPages(LevelPages):
             yield [*group]
 
     def _of_a_moment(self, records: Sequence[Record]) -> list[tuple[Content, ...]]:
-        """A row for each of the records that came in at one moment; one for all where they are many."""
+        """A row for each record of one moment; a single row for many of them."""
         moment = records[0].run.moment
         if len(records) <= MOST_OF_A_MOMENT:
             return [
@@ -178,7 +178,7 @@ class BoardPages(LevelPages):
         return [(where, "", counted(len(players), "player"), _together(records), moment)]
 
     def _achieved(self, record: Record) -> Iterator[tuple[str, str, str]]:
-        """The categories of a record, its result in each, and by how much it is better."""
+        """The categories of a record, its result in each, and the gain."""
         for category, amount in record.before.items():
             result = category.measured(self.ranking.number(category, record.run))
             gain = "first" if amount is None else f"better by {category.gain(amount)}"
@@ -209,11 +209,11 @@ class BoardPages(LevelPages):
         return [("contested", "Most contested levels", cards(caption, found))] if found else []
 
     def _of_both(self) -> str:
-        """What a caption says where there are two ladders."""
+        """A caption's addition if there are two ladders."""
         return "; runs and players are those of both ladders" * (len(self.ranking.ladders) > 1)
 
     def _best(self, digest: str) -> list[Content]:
-        """The best number and its player in the first category of each ladder, where somebody has one."""
+        """The best number and its player in the first category of each ladder with runs."""
         found: list[Content] = []
         for ladder in self.ranking.ladders:
             if first := next(iter(self._placed(digest, ladder)), None):
@@ -235,7 +235,7 @@ class BoardPages(LevelPages):
         return '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(feed, "unicode") + "\n"
 
     def _news(self) -> Iterator[tuple[str, str, str, str, str]]:
-        """Entries of the feed: title, what it is known by, date, author, page."""
+        """Entries of the feed: title, id, date, author, page."""
         for records in self._moments():
             date = records[0].run.added
             if date and len(records) > MOST_OF_A_MOMENT:
@@ -253,7 +253,7 @@ class BoardPages(LevelPages):
         return ["Player", "Levels", "Runs", *names, *map(str.capitalize, MEDALS)]
 
     def _players_of(self, ladder: str) -> str:
-        """The title of a list of players; the ladder only where there are two."""
+        """The title of a list of players, with the ladder if there are two."""
         return f"Players, {ladder}" if len(self.ranking.ladders) > 1 else "Players"
 
     def _standing(self, row: Standing) -> tuple[Content, ...]:
@@ -286,7 +286,7 @@ class BoardPages(LevelPages):
                 self.write_table(f"{name}-records", player, "Records held, then those lost", heads, records, back)
 
     def _records(self) -> tuple[dict[str, list[tuple[Content, ...]]], dict[str, list[tuple[Content, ...]]]]:
-        """By player the rows of the records that are held, and of those that were lost."""
+        """By player the rows of records held, and of records lost."""
         held: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         lost: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         for (level, part), runs in self.ranking.history.items():
@@ -321,7 +321,7 @@ class BoardPages(LevelPages):
         self.write_table(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
 
     def _places(self, run: Run) -> list[str]:
-        """Its place in each category, and how far behind it is."""
+        """Its place in each category, and its distance from the first."""
         places = []
         for part, rows, number in self.ranking.places.get(run.key, ()):
             if place := rows[number].place:
@@ -329,7 +329,7 @@ class BoardPages(LevelPages):
                 places.append(f"{self.leaderboard_name(part)}: {place}" + f", {late}" * bool(late))
         return places
 
-    # --- levels, episodes, and what does not count ---
+    # # --- levels, episodes, and runs that do not count ---
 
     def _levels(self) -> None:
         rows = [(card(entry, self._counts(digest), *self._best(digest)),) for digest, entry in self.entries.items()]
@@ -337,12 +337,12 @@ class BoardPages(LevelPages):
         self.write_table("levels", "Levels", caption, (), rows)
 
     def _placed(self, digest: str, ladder: str) -> list[Ranked]:
-        """The runs with a place in the first category of a ladder, without those far behind."""
+        """The runs with a place in the first category of a ladder, except those far behind."""
         table = self.ranking.tables.get(digest, {}).get((ladder, self.main), [])
         return [each for each in table if each.place and not self.main.far(each.values[0], table[0].values[0])]
 
     def _counts(self, digest: str) -> str:
-        """How many runs a level has, and of how many players, in all ladders and categories."""
+        """The numbers of a level's runs and players, over all ladders and categories."""
         runs = self.ranking.by_level.get(digest, [])
         players = {run.player for run in runs}
         return f"{counted(len(runs), 'run')} by {counted(len(players), 'player')}" if runs else "no run yet"
@@ -354,7 +354,7 @@ class BoardPages(LevelPages):
         for number, episode in sorted(self.ranking.shown.levels.episodes.items()):
             tables = []
             for part, (what, ranked) in product(parts, kinds):
-                # A sum of scores has the 90 s of each level in it; the order is the same.
+                # A sum of scores contains the 90 s of each level; the order is the same.
                 ranks_score = part[1].unit == HIGHEST.unit
                 rows = [
                     (
@@ -422,7 +422,7 @@ def _together(records: Sequence[Record]) -> str:
 
 
 def _sums(ladder: str, category: str, each: Standing) -> Markup:
-    """What a player has reached in a ladder, ranks in a category."""
+    """A player's sums in a ladder, and ranks in a category."""
     facts: list[tuple[str, Content]] = [("Runs", each.runs), ("Levels", each.levels)]
     if each.ranks:
         facts += [
@@ -435,7 +435,7 @@ def _sums(ladder: str, category: str, each: Standing) -> Markup:
 
 
 def _about(element: ET.Element, title: str, name: str, date: str) -> None:
-    """What Atom demands of a feed and of its entries."""
+    """The elements that Atom demands of a feed and of its entries."""
     ET.SubElement(element, "id").text = f"urn:uuid:{uuid5(NAMESPACE_OID, f'ninja-game board {name}')}"
     ET.SubElement(element, "title").text = shown_text(title)
     ET.SubElement(element, "updated").text = date or "1970-01-01T00:00:00Z"

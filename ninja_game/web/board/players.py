@@ -1,4 +1,4 @@
-"""Who a run belongs to: names as people read them, and names that only look like another one."""
+"""The player of a run: names as people read them, and names that only look like another one."""
 
 from __future__ import annotations
 
@@ -16,33 +16,31 @@ _LATIN = str.maketrans(
     "АВЕЅЈКМНОРСТУХԚԜаеѕјкмнорстухһԁԛԝѵΑΒΕΖΗΚΜΝΟΡΤΥΧαεκνορτυχӀӏІіΙιıIi1|0",  # noqa: RUF001
     "ABESJKMHOPCTYXQWaesjkmhopctyxhdqwvABEZHKMNOPTYXaekvoptuxlllllllllllo",
 )
-"""Letters that look like a Latin one: Cyrillic, Greek, and those that a font draws alike."""
+"""Letters that look like a Latin one: Cyrillic, Greek, and others that fonts draw alike."""
 
 _LATIN_FORM = re.compile(r"LATIN LETTER SMALL CAPITAL ([A-Z])|LATIN SMALL LETTER (ALPHA|DOTLESS J|SCRIPT G)")
 """Names of Latin letters with the shape of a plain one."""
 
 _WRITTEN_TOGETHER = frozenset({"CJK", "HIRAGANA", "KATAKANA", "KATAKANA-HIRAGANA", "HANGUL", "BOPOMOFO", "LATIN"})
-"""Scripts that may stand in one word: none of their letters look like those of another."""
+"""Scripts that may be mixed in one word: none of their letters look alike."""
 
 _DRAWN_AS_LATIN = frozenset({"LISU", "CHEROKEE", "COPTIC", "OSMANYA", "DESERET"})
-"""Scripts with so many letters like Latin ones that a whole word of them reads as one of those."""
+"""Scripts with so many letters like Latin ones that a whole word can look Latin."""
 
 
 def player_named(author: str) -> str:
-    """An author's name in one line, as it was typed; no longer than a name may be: some letters stand for many.
+    """An author's name in one line, as typed, truncated to the longest name: some characters expand to many.
 
-    >>> player_named("  Ann "), player_named("")
-    ('Ann', 'unnamed')
+    >>> player_named(" Ann "), player_named("") ('Ann', 'unnamed')
     """
     return " ".join(unicodedata.normalize("NFKC", author).split())[:MOST_NAME].rstrip() or UNNAMED
 
 
 @lru_cache(4096)
 def folded(player: str) -> str:
-    r"""A name as people read it: without case, and without characters that are not seen.
+    r"""A name as people read it: without case, and without invisible characters.
 
-    >>> folded("Ann") == folded("ANN") == folded("a\u200bnn") == folded("\uff21nn")
-    True
+    >>> folded("Ann") == folded("ANN") == folded("a\u200bnn") == folded("\uff21nn") True
     """
     folds = unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", player).casefold())
     seen = "".join(letter for letter in folds if unicodedata.category(letter) != "Cf")
@@ -51,10 +49,9 @@ def folded(player: str) -> str:
 
 @lru_cache(4096)
 def look(player: str) -> str:
-    r"""What a name looks like: equal for names that a reader may take for one another.
+    r"""A name by its look: equal for names that a reader may confuse.
 
-    >>> look("\u0410nn") == look("Ann") == look("\u00c1nn"), look("Bill") == look("Bi\u04c0I")
-    (True, True)
+    >>> look("\u0410nn") == look("Ann") == look("\u00c1nn"), look("Bill") == look("Bi\u04c0I") (True, True)
     """
     letters = unicodedata.normalize("NFKD", player)
     plain = "".join(_plain(letter) for letter in letters if not unicodedata.category(letter).startswith("M"))
@@ -62,14 +59,14 @@ def look(player: str) -> str:
 
 
 def _plain(letter: str) -> str:
-    """A letter with the shape of a plain Latin one as that."""
+    """The plain Latin letter with the same shape, if any."""
     form = _LATIN_FORM.fullmatch(unicodedata.name(letter, ""))
     return (form[1] or form[2].split()[-1][0]) if form else letter
 
 
 @lru_cache(4096)
 def mixed_word(player: str) -> bool:
-    """Whether a word of a name has letters of scripts that look alike, or of one that looks like Latin."""
+    """Whether a word of a name mixes scripts that look alike, or is of one that looks like Latin."""
     for word in player_named(player).split():
         letters = [letter for letter in word if letter.isalpha() and unicodedata.category(letter) != "Lm"]
         scripts = {unicodedata.name(letter, "").partition(" ")[0] for letter in letters}
@@ -80,15 +77,15 @@ def mixed_word(player: str) -> bool:
 
 @dataclass
 class Players:
-    """All players met so far, each under the name as it was typed first."""
+    """All players so far, each under the name as it was typed first."""
 
     alike: dict[str, str] = field(default_factory=dict)
-    """By player the one who came first, and whose name looks like theirs."""
+    """By player the earlier one with a similar name."""
     _names: dict[str, str] = field(default_factory=dict)
     _looks: dict[str, str] = field(default_factory=dict)
 
     def meet(self, author: str) -> tuple[str, str]:
-        """Who an author is, and a remark where the name may be taken for that of somebody who came first."""
+        """The player of an author, and a remark if the name looks like that of an earlier player."""
         name = folded(author)
         player = self._names.setdefault(name, name if name == UNNAMED else player_named(author))
         first = self._looks.setdefault(look(player), player)

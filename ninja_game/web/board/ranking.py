@@ -17,14 +17,14 @@ from ninja_game.web.board.rules import USUAL, Category
 from ninja_game.web.board.runs import PLAYED, Key, Run, ValidatedRuns
 from ninja_game.web.pages.gallery import PublishedLevels
 
-Leaderboard = tuple[str, Category]  # a ladder and a category: runs are ranked within them
+Leaderboard = tuple[str, Category]  # a ladder and a category, within which runs are ranked
 
 WEEK = timedelta(days=7)
 
 
 @dataclass(frozen=True)
 class Ranked:
-    """A run with its place, and what it is ranked by. Equal runs share one; a near copy has none, 0.
+    """A run with its place and its numbers. Equal runs share a place; a near copy has 0.
 
     ``behind``: by how much its first number is worse than the first run's.
     """
@@ -39,7 +39,7 @@ class Ranked:
 class Record:
     """A run that was the best of its level when it was added.
 
-    ``before``: by category, how much better its first number is; None where it was the first run.
+    ``before``: by category the improvement of its first number; None if it was the first run.
     """
 
     run: Run
@@ -50,8 +50,8 @@ class Record:
 class Standing:
     """A player's sums in a ladder. ``medals``: levels by best medal; ``records``: levels led, by category.
 
-    ``ranks``: places of the best runs in the first category; ``behind``: by what share each is slower than the best,
-    unless it is far behind.
+    ``ranks``: places of the best runs in the first category; ``behind``: the share by which each is slower than the
+    best, unless it is far behind.
     """
 
     player: str
@@ -64,7 +64,7 @@ class Standing:
 
 
 class Ranking:
-    """Everything that the pages tell of the runs of a folder."""
+    """All rankings for the pages of a folder."""
 
     def __init__(self, judged: ValidatedRuns, shown: PublishedLevels, categories: Sequence[Category] = USUAL) -> None:
         self.judged = judged
@@ -79,17 +79,17 @@ class Ranking:
         }
 
     def values(self, category: Category, run: Run) -> tuple[float, ...] | None:
-        """What a run is ranked by; None where it is not of the category."""
+        """The numbers that rank a run; None if it is not in the category."""
         return self._values[category][run.key]
 
     def number(self, category: Category, run: Run) -> float:
-        """The first of ``values``: what is shown of a run that is of the category."""
+        """The first of ``values``, the one shown, for a run in the category."""
         return (self.values(category, run) or (0.0,))[0]
 
     def _table(self, runs: Iterable[Run], category: Category) -> list[Ranked]:
-        """The best run of each player, in order; of equal ones of a player the one that came first.
+        """The best run of each player, in order; of equal ones the earliest.
 
-        Near copies that nobody has confirmed come after all others, and after the player's own runs.
+        Near copies without confirmation come after all others, and after the player's own runs.
         """
         valued = [(bool(run.near), values, run) for run in runs if (values := self.values(category, run)) is not None]
         best: dict[str, tuple[bool, tuple[float, ...], Run]] = {}
@@ -104,7 +104,7 @@ class Ranking:
 
     @cached_property
     def tables(self) -> dict[str, dict[Leaderboard, list[Ranked]]]:
-        """All tables that have a run, by level, then by ladder and category."""
+        """All tables with runs, by level, then by ladder and category."""
         of_levels: dict[str, dict[Leaderboard, list[Ranked]]] = {}
         for level, runs in self.by_level.items():
             ladders: dict[str, list[Run]] = defaultdict(list)
@@ -119,7 +119,7 @@ class Ranking:
         return of_levels
 
     def waiting(self, level: str, leaderboard: Leaderboard, table: Sequence[Ranked]) -> list[Ranked]:
-        """Near copies that nobody has confirmed, and that are better than the run of their player in the table."""
+        """Near copies without confirmation that are better than their player's run in the table."""
         ladder, category = leaderboard
         best = {row.run.player: row for row in table if row.run.ladder == ladder}
         near_copies = []
@@ -130,9 +130,9 @@ class Ranking:
         return near_copies
 
     def side_by_side(self, level: str, most: int) -> tuple[Category, list[Run]]:
-        """The first category that a level has runs in, and the first of them: of both ladders in turn, played first.
+        """The first category of a level with runs, and its first runs: of both ladders in turn, played ones first.
 
-        Without those that are far behind: they go another way.
+        Those that are far behind are left out: they take another route.
         """
         tables = self.tables[level]
         category = next(other for other in self.categories if any((ladder, other) in tables for ladder in self.ladders))
@@ -144,7 +144,7 @@ class Ranking:
 
     @cached_property
     def places(self) -> dict[Key, list[tuple[Leaderboard, list[Ranked], int]]]:
-        """By run the tables that it is in, and in which row."""
+        """By run its tables, and its row in each."""
         rows_of: dict[Key, list[tuple[Leaderboard, list[Ranked], int]]] = defaultdict(list)
         for tables in self.tables.values():
             for leaderboard, table in tables.items():
@@ -154,17 +154,17 @@ class Ranking:
 
     @cached_property
     def ladders(self) -> list[str]:
-        """The ladders that have runs, the one of played runs first, and always there."""
+        """The ladders with runs; the one of played runs is first, and always there."""
         return sorted({PLAYED} | {run.ladder for run in self.judged.runs}, key=lambda ladder: ladder != PLAYED)
 
     def leaderboard_name(self, leaderboard: Leaderboard) -> str:
-        """What a ladder's category is called; the ladder only where there are two."""
+        """The name of a ladder's category, with the ladder only if there are two."""
         ladder, category = leaderboard
         return f"{category.name}, {ladder}" if len(self.ladders) > 1 else category.name
 
     @cached_property
     def history(self) -> dict[tuple[str, Leaderboard], list[Run]]:
-        """By level, ladder and category the runs that were its record, the first one first; of one moment the last."""
+        """By level, ladder and category all records, in order; of one moment only the last."""
         by_board: dict[tuple[str, Leaderboard], list[Run]] = defaultdict(list)
         for run in self.judged.runs:
             for category in self.categories:
@@ -188,7 +188,7 @@ class Ranking:
 
     @cached_property
     def standings(self) -> dict[str, list[Standing]]:
-        """By ladder all players, who leads most levels first."""
+        """By ladder all players, most levels led first."""
         players_of: dict[str, dict[str, Standing]] = {ladder: {} for ladder in self.ladders}
         for run in self.judged.runs:
             players_of[run.ladder].setdefault(run.player, Standing(run.player)).runs += 1
@@ -211,7 +211,7 @@ class Ranking:
         }
 
     def episode(self, episode: Episode, leaderboard: Leaderboard) -> list[tuple[str, float, Sequence[Run]]]:
-        """Who has passed every level of an episode: player, sum of the best numbers, and the runs; the best first."""
+        """The players who passed every level of an episode: player, sum of the best numbers, and the runs, in order."""
         tables = [
             {row.run.player: row for row in self.tables.get(entry.digest, {}).get(leaderboard, ())}
             for entry in episode.levels
@@ -224,7 +224,7 @@ class Ranking:
         return sorted(totals, key=itemgetter(1, 0))
 
     def whole(self, episode: Episode, leaderboard: Leaderboard) -> list[tuple[str, float, Sequence[Run]]]:
-        """The same of each player's best recording of the whole episode; with an assisted run in it, it is assisted."""
+        """The same for each player's best recording of the whole episode; one assisted run makes it assisted."""
         ladder, category = leaderboard
         best: dict[str, tuple[str, float, Sequence[Run]]] = {}
         for runs in self.judged.episodes.get(episode.key, ()):
@@ -237,7 +237,7 @@ class Ranking:
 
     @cached_property
     def beaten(self) -> Counter[str]:
-        """By level how often its records were beaten; empty where all runs came in together."""
+        """By level how often its records were beaten; empty if all runs came at one moment."""
         beaten = Counter[str]()
         for (level, _), runs in self.history.items():
             beaten[level] += len(runs) - 1
@@ -245,23 +245,23 @@ class Ranking:
 
     @cached_property
     def contested(self) -> list[str]:
-        """The levels by how often their records were beaten, else those with a second by how close it is."""
+        """The levels by how often their records were beaten, else those with a second run by how close it is."""
         players = {level: len({run.player for run in runs}) for level, runs in self.by_level.items()}
         close = {digest: 0.0 if self.beaten else self._close(digest) for digest in self.by_level}
         close_levels = [level for level in self.by_level if close[level] < inf]
         return sorted(close_levels, key=lambda level: (-self.beaten[level], close[level], -players[level]))
 
     def _close(self, level: str) -> float:
-        """By how much the second played run is behind in the first category."""
+        """The distance of the second played run in the first category."""
         placed = [row for row in self.tables[level].get((PLAYED, self.categories[0]), ()) if row.place]
         return placed[1].behind if len(placed) > 1 else inf
 
     @cached_property
     def level_of_the_week(self) -> tuple[str, int, int] | None:
-        """The level that most players sent runs of in the seven days up to the newest run; of equal ones most runs.
+        """The level with runs by most players in the seven days up to the newest run; then by most runs.
 
-        With how many players, at least two, and runs. None without two dates: it depends on the ledger alone, never on
-        a clock.
+        And the numbers of players, at least two, and of runs. None without two dates: it depends only on the ledger,
+        never on a clock.
         """
         dated = [(datetime.fromisoformat(run.added), run) for run in self.judged.runs if run.added]
         week: dict[str, list[Run]] = defaultdict(list)

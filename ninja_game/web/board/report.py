@@ -1,4 +1,4 @@
-"""The board as data, which is its ledger too, and what a change of the folder does to it: for a repository's checks."""
+"""The board as data, also used as its ledger, and the effects of a change of the folder, for a repository's checks."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ _FIELDS: dict[str, dict[str, type]] = {
     "decisions": {"level": str, "way": str, "file": str, "player": str, "what": str, "reason": str, "added": str},
 }  # fmt: skip
 
-_KEPT = {"near": str, "confirmed": bool}  # what a row may have, and keeps after the run is withdrawn
+_KEPT = {"near": str, "confirmed": bool}  # optional fields of a row, kept after the run is withdrawn
 
 
 def _run_data(run: Run) -> dict[str, Any]:
@@ -58,10 +58,10 @@ def _run_data(run: Run) -> dict[str, Any]:
 
 
 def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
-    """A board as JSON, a run a line, so that a difference of two reads well; only its dates depend on time.
+    """A board as JSON, a run per line, so that differences read well; only its dates depend on time.
 
-    ``before``: its ledger; a run there whose file does not count or cannot be read now keeps its way and date, and one
-    that counted once stays its player's.
+    ``before``: its ledger; a run there whose file does not count or cannot be read now keeps its positions' digest and
+    date, and one that has counted stays its player's.
     """
     data = {"runs": [_run_data(run) for run in sorted(judged.runs, key=lambda run: run.key)]}
     counted = {run.key for run in judged.runs}
@@ -91,7 +91,7 @@ def read_board(path: Path, now: datetime) -> Ledger:
             found = f"version {str(data['version'])[:20]}"
             hint = "to start again, remove it: all runs get one date then, and go by the names of their files"
             raise FormatError("a board of another version", str(path), found=found, expected=str(VERSION), hint=hint)
-        for part in ("withdrawn", "decisions"):  # which ledgers did not have at first
+        for part in ("withdrawn", "decisions"):  # absent in early ledgers
             data.setdefault(part, [])
         runs, rejected, withdrawn, decided = (_rows(path, key, data[key], now) for key in _FIELDS)
         return Ledger(runs, rejected, withdrawn, {_decided(row): row for row in decided.values()})
@@ -100,7 +100,7 @@ def read_board(path: Path, now: datetime) -> Ledger:
 
 
 def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> Rows:
-    """The rows of a part of a board by their first two fields. Raises FormatError for one that is not as written."""
+    """The rows of a part of a board by their first two fields. Raises FormatError for an invalid one."""
     first, second, *_ = _FIELDS[part]
     if not isinstance(rows, list):
         raise FormatError(f"{part!r} is of the wrong type", str(path), expected="a list of rows")
@@ -124,13 +124,13 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
 
 
 def _decided(row: Mapping[str, Any]) -> tuple[str, ...]:
-    """What a decision is of: level, way and player."""
+    """The run that a decision is about: level, way and player."""
     return row["level"], row["way"], folded(row["player"])
 
 
 @lru_cache(4096)
 def _is_date(text: str, now: datetime) -> bool:
-    """Whether a text is a date in the form of DATE, not in the future."""
+    """Whether a text is a date in the format DATE, not in the future."""
     try:
         date = datetime.strptime(text, DATE).replace(tzinfo=UTC)
     except ValueError:
@@ -146,9 +146,9 @@ def moderate(
     decisions: Sequence[tuple[str, str]],
     reason: str,
 ) -> bool:
-    """Write into a ledger what its keeper decides of the runs of files; whether anything is decided.
+    """Write the keeper's decisions on the runs of files into a ledger; whether there are any.
 
-    ``confirm``: files with near copies that are none; ``decisions``: files, and which of DECISIONS. Raises
+    ``confirm``: files of near copies that are in fact none; ``decisions``: files, and one of DECISIONS. Raises
     ArgumentError for a file without such runs, and for a reason that is too long, or missing where a run is rejected.
     """
     if len(reason) > LONGEST_REASON or (not reason and any(what == REJECTED for _, what in decisions)):
@@ -166,9 +166,9 @@ def moderate(
 
 
 def _decidable(ledger: Ledger, judged: ValidatedRuns) -> list[dict[str, Any]]:
-    """A row for each run that may be decided on: what its file holds now, not what lay there once.
+    """A row for each run to decide on: for its file's present content, not an earlier one.
 
-    Of a file that is not there any more its rows of the ledger.
+    For a deleted file its rows of the ledger.
     """
     known = {(row["way"], folded(row["player"])): row for row in ledger.decisions.values()}
     rejected = [(each.file, known.get((each.way, folded(each.player)))) for each in judged.rejected]
@@ -178,7 +178,7 @@ def _decidable(ledger: Ledger, judged: ValidatedRuns) -> list[dict[str, Any]]:
 
 
 def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -> list[dict[str, Any]]:
-    """The rows of a file. Raises ArgumentError, with those that there are, for none."""
+    """The rows of a file. Raises ArgumentError, with the files that have some, for none."""
     if of_file := [row for row in rows if row["file"] == name]:
         return of_file
     files = ", ".join(dict.fromkeys(plain(row["file"]) for row in rows[:10])) or "none"
@@ -186,7 +186,7 @@ def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -
 
 
 def read_dates(path: Path, now: datetime) -> dict[str, str]:
-    """Dates by file, of rows FILE,DATE, below a head or none. Raises FormatError with the row, FileError, OSError."""
+    """Dates by file, from rows FILE,DATE, with or without a head. Raises FormatError, FileError, OSError."""
     dates: dict[str, str] = {}
     for number, row in enumerate(read_utf8(path).splitlines(), 1):
         file, _, day = map(str.strip, row.rpartition(","))
@@ -201,9 +201,9 @@ def read_dates(path: Path, now: datetime) -> dict[str, str]:
 
 
 def dates_of(before: Ledger, now: datetime, dates_by_file: Mapping[str, str]) -> Dates:
-    """The dates of a ledger. A run that it does not have, or not with this path, is added now.
+    """The dates of a ledger. A run that is new to it, or has another path, is added now.
 
-    ``dates_by_file``: dates that take the place of the ledger's.
+    ``dates_by_file``: dates that replace the ledger's.
     """
     for row in before.runs.values():
         row["added"] = dates_by_file.get(row["file"], row["added"])
@@ -219,7 +219,7 @@ def dates_of(before: Ledger, now: datetime, dates_by_file: Mapping[str, str]) ->
 
 
 def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
-    """What is different from the board before: whether it may be, and a line about it."""
+    """Each difference from the board before: whether it is allowed, and a line about it."""
     runs, rejected, *_ = before
     now = {run.key: _run_data(run) for run in ranking.judged.runs}
     for run in sorted(ranking.judged.runs, key=lambda run: run.key):
@@ -239,7 +239,7 @@ def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
 
 
 def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
-    """A line for each run of a ledger whose file is not there any more, with who is first on its level now."""
+    """A line for each run of a ledger whose file is gone, with the present leader of its level."""
     judged = ranking.judged
     here = {run.key for run in judged.runs} | {(item.file, item.record) for item in judged.rejected + judged.again}
     for key, row in sorted(before.runs.items()):
@@ -271,7 +271,7 @@ def _place(key: Key) -> str:
 
 
 def plain(text: str) -> str:
-    """An untrusted text in a line of a report, which may stand in Markdown between fences."""
+    """An untrusted text in a line of a report, safe in Markdown between fences."""
     return shown_text(text, 300).replace("`", "'")
 
 

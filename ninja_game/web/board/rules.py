@@ -1,4 +1,4 @@
-"""What runs are ranked by: categories as the text ``board.toml`` states them."""
+"""The ranking rules: the categories of a ``board.toml``."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ NAMES: dict[str, Callable[[Run], float]] = {
     "ticks": lambda run: run.tick, "gold": lambda run: run.gold, "score": lambda run: run.score,
     "all_gold": lambda run: run.entry.all_gold, "jumps": lambda run: run.jumps, "presses": lambda run: run.presses,
 }  # fmt: skip
-"""What formulas may say of a run: ticks to the exit, gold, score (ticks), gold of the level, jumps, keys pressed."""
+"""The values of a run for formulas: ticks to the exit, gold, score (ticks), gold of the level, jumps, keys pressed."""
 
 MOST_BYTES = 2**20  # of a ``board.toml``
 MOST_CATEGORIES = 12
-MOST_RANKS = 4  # formulas that rank a category
+MOST_RANKS = 4  # most formulas that rank a category
 LONGEST_NAME = 40
 FAR = 5 * TICKS_PER_SECOND
 
@@ -36,7 +36,7 @@ _WORSE = {
     "ticks": "slower", "gold": "more gold", "-gold": "less gold", "-score": "lower score", "jumps": "more jumps",
     "presses": "more presses",
 }  # fmt: skip
-"""What is worse about a run by a formula."""
+"""The words for a run that is worse by a formula."""
 _ARGUMENTS = dict.fromkeys(NAMES, 0)
 
 
@@ -44,7 +44,7 @@ _ARGUMENTS = dict.fromkeys(NAMES, 0)
 class Category:
     """Runs for which ``when`` holds (all, if it is ""), by the numbers ``rank``, the least first.
 
-    ``episodes``: whether the first number is added up over the levels of an episode.
+    ``episodes``: the first number is added up over the levels of an episode.
     """
 
     name: str
@@ -60,7 +60,7 @@ class Category:
         object.__setattr__(self, "_truth", parse_truth(self.when or "0 == 0", _ARGUMENTS, ()))
 
     def values(self, runs: Sequence[Run]) -> list[tuple[float, ...] | None]:
-        """What each run is ranked by, the smaller the better; None for a run that is not of the category."""
+        """The numbers that rank each run, the smaller the better; None for a run outside of the category."""
         view = {name: _all(np.array([value(run) for run in runs], np.float64)) for name, value in NAMES.items()}
         with np.errstate(all="ignore"):
             columns = [np.broadcast_to(number.value(view), len(runs)) for number in (self._truth, *self._numbers)]
@@ -70,21 +70,21 @@ class Category:
 
     @cached_property
     def rising(self) -> bool:
-        """Whether the greatest is first: a minus stands before all of its first formula."""
+        """Whether the greatest is first: its first formula begins with a minus."""
         return bool(re.fullmatch("-[^-+]+", self.rank[0].strip()))
 
     @property
     def _shown(self) -> str:
-        """What its first number is of, without the sign by which the greatest is first."""
+        """Its first formula, without the minus for greatest first."""
         return self.rank[0].strip()[self.rising :].strip()
 
     @property
     def unit(self) -> str:
-        """What its first number is called above a table."""
+        """The name of its first number above a table."""
         return {"ticks": "Time", "score": "Score"}.get(self._shown, "Value")
 
     def text(self, value: float) -> str:
-        """Its first number as people read it."""
+        """Its first number for people."""
         return self.difference(-value if self.rising else value)
 
     def measured(self, value: float) -> str:
@@ -98,7 +98,7 @@ class Category:
         return {"1 presses": "1 press", "1 jumps": "1 jump"}.get(text, text)
 
     def decided(self, values: Sequence[float], best: Sequence[float]) -> str:
-        """What decides against a run whose first number is the best one's.
+        """The criterion that decides against a run with the best first number.
 
         >>> FASTEST.decided((40, -3), (40, -5)), Category("A", ("gold", "presses + jumps")).decided((0, 3), (0, 2))
         ('same time, less gold', 'same value, by presses + jumps')
@@ -107,24 +107,22 @@ class Category:
         return f"same {self.unit.lower()}, {_WORSE.get(rank, f'by {rank}')}"
 
     def difference(self, amount: float) -> str:
-        """By how much a first number is better, as people read it."""
+        """The improvement of a first number, for people."""
         if self.unit == "Value":
             return f"{amount:g}"
         return "-" * (amount < 0) + seconds_text(round(abs(amount)))
 
     def far(self, value: float, first: float) -> bool:
-        """Whether a time is so much slower than the first that its run was after something else, such as gold.
+        """Whether a time is so much slower than the first that its run had another aim, such as gold.
 
-        >>> FASTEST.far(900, 344), FASTEST.far(60, 23), HIGHEST.far(900, 344)
-        (True, False, False)
+        >>> FASTEST.far(900, 344), FASTEST.far(60, 23), HIGHEST.far(900, 344) (True, False, False)
         """
         return self.unit == "Time" and value > max(2 * first, first + FAR)
 
     def gain(self, amount: float) -> str:
-        """By how much a first number is better than that of the record before, or by what else where it is equal.
+        """The improvement over the record before, or the deciding criterion if the first numbers are equal.
 
-        >>> FASTEST.gain(5), FASTEST.gain(0)
-        ('0.125', 'gold')
+        >>> FASTEST.gain(5), FASTEST.gain(0) ('0.125', 'gold')
         """
         return self.difference(amount) if amount else ", ".join(rank.strip(" -") for rank in self.rank[1:])
 
@@ -136,11 +134,11 @@ def _all(values: Values) -> Callable[[], Values]:
 FASTEST = Category("Fastest", ("ticks", "-gold"), episodes=True)
 HIGHEST = Category("Highest score", ("-score", "ticks"))
 USUAL = (FASTEST, HIGHEST)
-"""The categories where no text states any: the time to the exit, and the score with gold (game.md §1.3)."""
+"""The default categories: the time to the exit, and the score with gold (game.md §1.3)."""
 
 
 def read_categories(path: Path) -> tuple[Category, ...]:
-    """The categories that a text states. Raises FormatError with what is wrong where, FileError, OSError."""
+    """The categories of a text. Raises FormatError with the place and the problem, FileError, OSError."""
     file = str(path)
     text = read_utf8(path, MOST_BYTES)
     try:

@@ -17,17 +17,17 @@ from ninja_game.web.pages.gallery import path_data
 Key = tuple[str, int]  # a run's file, as a path in the folder, and its record there
 
 Dates = Callable[[Key, str], str]
-"""When the board first took in a run, by its key and way: UTC as in 2026-01-31T12:00:00Z, "" where nobody knows."""
+"""When the board first had a run, by its key and way: UTC as in 2026-01-31T12:00:00Z, "" if unknown."""
 
 Rows = dict[tuple[str, Any], dict[str, Any]]
 
 PLAYED = "played"
 ASSISTED = "assisted"
-"""The two ladders; a run of which nobody says how it was made is on the first one."""
+"""The two ladders; a run of unknown making is on the first one."""
 
 REJECTED = "rejected"
 DECISIONS = (REJECTED, PLAYED, ASSISTED)
-"""What the keeper of a board decides of a run: it does not count, or the ladder that it is moved to."""
+"""The decisions of a board's keeper on a run: it does not count, or it is on the named ladder."""
 
 KINDS = {
     "moderated": ("by the keeper", "Rejected by the keeper", "Rejected by the keeper"),
@@ -36,14 +36,14 @@ KINDS = {
     "refused": ("refused", "Runs that do not count", "Does not count"),
     "unreadable": ("unreadable", "Files that are not runs", "Not a run"),
 }
-"""Why a run does not count: in a line of a report, and on a page, of several and of one."""
+"""Reasons why a run does not count: in a line of a report, and on a page, of several and of one."""
 
-OWN = "own"  # what a level of an episode is that its player has sent before
+OWN = "own"  # a level of an episode that its player has sent before
 
 
 @dataclass(frozen=True)
 class Judged:
-    """What a recording of a file comes to, as plain values that can be remembered.
+    """The result of a recording, as plain values that can be cached.
 
     ``kind``: "" for a run that counts, else as in Rejected, with ``why``; ``level``: its digest; ``way``: digest of the
     ninja's positions; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
@@ -67,10 +67,10 @@ class Judged:
 
 
 class Ledger(NamedTuple):
-    """What a board knew before: ``runs`` and what was ``rejected`` by file and record.
+    """Earlier facts about a board: ``runs`` and ``rejected`` by file and record.
 
-    ``withdrawn``: by level and way the runs that counted once, and are not there now or do not count; ``decisions``:
-    what the keeper of the board says of a run, and why, by its level, way and player, folded.
+    ``withdrawn``: by level and way the runs that counted once, and are gone now or do not count; ``decisions``: the
+    keeper's on runs, with reasons, by level, way and folded player.
     """
 
     runs: Rows
@@ -89,11 +89,11 @@ NO_LEDGER = Ledger({}, {}, {}, {})
 
 @dataclass(frozen=True, kw_only=True)
 class Run(Judged):
-    """A run that counts, as the simulation says: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
+    """A run that counts, with the simulation's results: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
 
-    ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``remark``: what a reader should know;
-    ``near``: which run it nearly copies, a sentence, until it is ``confirmed``: it leads no table; ``again``: it was
-    withdrawn, and is the first of its moment; ``digest``: of its file.
+    ``file``: path in the folder, ``record`` in it; ``added``: as of Dates; ``remark``: for readers; ``near``: the run
+    that it nearly copies, a sentence; until it is ``confirmed`` it leads no table; ``again``: it was withdrawn, and is
+    the first of its moment; ``digest``: of its file.
     """
 
     file: str
@@ -113,7 +113,7 @@ class Run(Judged):
 
     @property
     def order(self) -> tuple[str, bool, bool, Key]:
-        """Its place in time: the first one owns what it does. A level of an episode comes after single runs."""
+        """Its place in time: the earliest run owns its inputs. A level of an episode comes after single runs."""
         return self.added, not self.again, bool(self.episode), self.key
 
     @property
@@ -123,13 +123,13 @@ class Run(Judged):
 
     @property
     def moment(self) -> str:
-        """The date of ``added`` with the time of day, where that is known."""
+        """The date of ``added`` with the time of day, if that is known."""
         time = self.added[11:16]
         return self.day if time in ("", "00:00") else f"{self.day} {time} UTC"
 
     @property
     def ladder(self) -> str:
-        """Where it is ranked."""
+        """The ladder that ranks it."""
         return ASSISTED if self.assisted else PLAYED
 
     @cached_property
@@ -139,7 +139,7 @@ class Run(Judged):
 
     @property
     def inputs(self) -> bytes:
-        """Its inputs, read again. Raises FileError where the file was changed since."""
+        """Its inputs, read again. Raises FileError if the file has changed since."""
         return self.folder.inputs(self.file, self.record, self.digest, self.tick + 1)
 
     @property
@@ -151,7 +151,7 @@ class Run(Judged):
         return drawn[self.key]
 
     def decided(self, row: Mapping[str, Any]) -> Run | Rejected:
-        """What the keeper makes of it by a row of the ledger's decisions."""
+        """The run after the keeper's decision in a row of the ledger."""
         said = f"by the keeper on {row['added'][:10]}" + f": {row['reason']}" * bool(row["reason"])
         if row["what"] == REJECTED:
             way = self.entry.title, self.way, self.added
@@ -161,7 +161,7 @@ class Run(Judged):
 
     @property
     def replay(self) -> Replay:
-        """Its ``inputs``, and what the simulation says."""
+        """Its ``inputs``, with the results of the simulation."""
         named = self.entry.named
         return Replay(
             self.inputs, self.tick, "exit", self.gold, name=self.entry.title, author=self.player,
@@ -190,11 +190,11 @@ class Rejected:
 
 @dataclass(frozen=True)
 class ValidatedRuns:
-    """All of a folder: ``runs`` in the order in which they were added, ``rejected`` by file.
+    """All runs of a folder: ``runs`` in the order in which they were added, ``rejected`` by file.
 
-    ``again``: levels of episodes that do what an earlier run by the same player does, of kind OWN: neither of the two;
-    ``episodes``: by key the runs of whole episodes, each a run for each of its levels; ``alike``: by player who was
-    there before and has a name that looks like theirs.
+    ``again``: levels of episodes that repeat an earlier run by the same player, of kind OWN: neither of the two;
+    ``episodes``: by key the runs of whole episodes, each a run for each of its levels; ``alike``: by player the earlier
+    one with a similar name.
     """
 
     runs: tuple[Run, ...]

@@ -13,7 +13,7 @@ from ninja_game.play.app import App, build_app
 from ninja_game.play.main import first_screen
 
 LONG = 0.02
-"""A turn whose events and ticks take so many seconds, that which opens a level say, leaves the picture to the next."""
+"""A turn whose events and ticks take so many seconds, as one that opens a level, leaves the picture to the next."""
 
 
 class _Game:
@@ -48,12 +48,12 @@ def app() -> App:
 
 
 def resume() -> None:
-    """Go on after a time without turns: it does not count."""
+    """Continue after a time without turns, which does not count."""
     _Game.last = _Game.due = float(LINK.page.ticks())
 
 
 def turn(now: float) -> bool:
-    """One picture at a time in ms, if one is due; whether the game goes on."""
+    """Draw the picture that is due at a time in ms, if any; whether the game goes on."""
     app = _Game.app
     if _Game.late:
         _Game.late = False

@@ -1,9 +1,9 @@
-"""The documents as pages of the site: every Markdown file of the project, and the source files that they lead to.
+"""The documents as pages of the site: every Markdown file of the project, and the source files that they link to.
 
-Markdown stays what it is elsewhere too. A picture ``lab-NAME.png`` becomes the figure of that name, alive at a touch;
-a paragraph of links to functions that begins with "Code:" shows their sources; one that begins with **Answer.** opens
-at a click; Python marked "try" can be changed and run. Links to files that are missing (a wheel holds fewer documents
-than a checkout) become plain text.
+The Markdown is the same as elsewhere. A picture ``lab-NAME.png`` becomes the figure of that name, live at a touch; a
+paragraph of links to functions that begins with "Code:" shows their sources; one that begins with **Answer.** opens at
+a click; Python marked "try" can be changed and run. Links to missing files (a wheel holds fewer documents than a
+checkout) become plain text.
 """
 
 from __future__ import annotations
@@ -30,20 +30,19 @@ from ninja_game.web.pages import frame
 from ninja_game.web.pages.frame import GAME, HOME, NAVIGATION, SEARCH, Content, Markup, joined, tag
 
 FILM = "pictures/ninja-game.webp"  # of the first page
-STILL = "pictures/ninja-game.png"  # for who wants no motion
+STILL = "pictures/ninja-game.png"  # for readers who want no motion
 
 FIGURES_SCRIPT = "app-folder/figures.js"  # where the build puts what makes figures move
 
-LAB = "lab-"  # how the name of a figure's picture begins
+LAB = "lab-"  # the beginning of the name of a figure's picture
 
 LEFT_OUT = (".", "build/", "dist/")  # folders whose Markdown is not the project's, or not meant for readers
 
 
 def slug(heading: str) -> str:
-    """The anchor that a heading gets: lower case, no punctuation, blanks as hyphens.
+    """The anchor of a heading: lower case, no punctuation, spaces as hyphens.
 
-    >>> slug("Nine cells: a `loose` grid")
-    'nine-cells-a-loose-grid'
+    >>> slug("Nine cells: a `loose` grid") 'nine-cells-a-loose-grid'
     """
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
@@ -143,7 +142,7 @@ class Documents:
         return [tag("nav", *links, class_="near", aria_label="Chapters")]
 
     def _index_words(self, page_name: str, title: str, tokens: list[Token]) -> None:
-        """Let a page be found by its words, each of its parts by itself."""
+        """Add the words of a page to the search, each of its parts by itself."""
         parts: list[tuple[str, str, list[str]]] = [("", "", [])]
         for at, token in enumerate(tokens):
             if token.type == "heading_open" and token.tag in ("h2", "h3"):
@@ -159,7 +158,7 @@ class Documents:
             self.searched.append(Markup(entry.replace("<li", f'<li data-words="{escape(words.casefold())}"', 1)))
 
     def _rewrite_links(self, name: str, tokens: list[Token]) -> bool:
-        """Turn links, pictures and paragraphs into what they are in the site; whether a figure is among them."""
+        """Rewrite links, pictures and paragraphs for the site; whether a figure is among them."""
         has_pictures = False
         for at, token in enumerate(tokens):
             opened = ""
@@ -179,7 +178,7 @@ class Documents:
         return has_pictures
 
     def _address(self, link: str, name: str) -> str:
-        """Where a link of a document leads in the site; "" for what is not here."""
+        """The target of a document's link in the site; "" for a file that is not in it."""
         target, _, anchor = link.partition("#")
         if "://" in link or not target:
             return link
@@ -198,14 +197,14 @@ class Documents:
         return way + (anchor and f"#{anchor}")
 
     def _copy_picture(self, whole: Path, path: str, name: str) -> str:
-        """The address of a picture, which comes along."""
+        """The address of a picture, which is copied into the site."""
         if not whole.is_file():
             return ""
         self.files[path] = whole.read_bytes()
         return relpath(path, Path(page_of(name)).parent.as_posix())
 
     def _picture(self, image: Token, name: str) -> bool:
-        """Turn a picture into one of the site; whether it is a figure."""
+        """Rewrite a picture for the site; whether it is a figure."""
         path = normpath(f"{Path(name).parent.as_posix()}/{image.attrs['src']}")
         whole, alt = data_folder("docs").parent / path, image.content
         up = "../" * page_of(name).count("/")
@@ -230,7 +229,7 @@ class Documents:
         return figure in FIGURES
 
     def _figure(self, figure: str, palette: str) -> str:
-        """The name of the still picture of a figure, drawn by the very code that moves it."""
+        """The name of the still picture of a figure, drawn by the code that animates it."""
         name = f"lab/{figure}-{palette}.png"
         if name not in self.files:
             self.files[name] = png_of(figure_picture(figure, scale=2.0, palette=palette))
@@ -257,7 +256,7 @@ def _split_title(tokens: list[Token], name: str) -> tuple[str, list[Token]]:
 
 
 def _plain(token: Token) -> str:
-    """The text of a token without marks."""
+    """The text of a token without markup."""
     if token.type == "fence":
         return token.content
     return "".join(" " if part.type == "softbreak" else part.content for part in token.children or ())
@@ -292,9 +291,9 @@ def _film(path: Path) -> dict[str, bytes]:
 def _replace_paragraph(
     before: Token, token: Token, after: Token, links: Iterable[tuple[str, str]], folder: Path
 ) -> None:
-    """Turn a paragraph of sources or an answer into what opens at a click, and one of a picture into the picture.
+    """Turn a paragraph of sources or an answer into a part that opens at a click; of a picture into that.
 
-    ``links``: those in it, as they are written, seen from ``folder``, and where they lead in the site.
+    ``links``: those in it, as written, relative to ``folder``, and their targets in the site.
     """
     children = token.children or []
     if len(children) == 1 and children[0].type == "html_inline":
@@ -315,7 +314,7 @@ def _replace_paragraph(
 
 
 def _function(folder: Path, link: str, address: str) -> Markup:
-    """The source of a function, and where it stands in its file."""
+    """The source of a function, and its place in the file."""
     path, _, name = link.partition("#")
     source = normpath((folder / path).as_posix())
     text = (PACKAGE.parent / source).read_text("utf-8")
@@ -326,9 +325,9 @@ def _function(folder: Path, link: str, address: str) -> Markup:
 
 
 def _highlighted(text: str, lang: str, about: str = "") -> str:
-    """A piece of code as HTML, Python in colours; each line has an anchor where ``lang`` is a path.
+    """A piece of code as HTML, Python in colours; each line has an anchor if ``lang`` is a path.
 
-    ``about``: what else a fence says; "try" adds what figures.js makes a program of the reader's of.
+    ``about``: the rest of a fence's first line; "try" adds an element that figures.js makes a runnable program.
     """
     python = lang.split(" ", maxsplit=1)[0].endswith(("python", "py"))
     shape = HtmlFormatter(cssclass="code", lineanchors="L" if "/" in lang else "")

@@ -1,4 +1,4 @@
-"""What all static pages share: escaped HTML, the frame, headings in the game's own letters, the folder they fill."""
+"""The parts of all static pages: escaped HTML, the frame, headings in the game's own letters, their folder."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ LONGEST = 400  # characters of a text that are shown
 _EMPTY = frozenset({"img", "input", "link", "meta", "source"})  # elements without an end tag
 
 _ADDRESS = re.compile(r"(?:https?://[\w.:-]+/)?(?!//)[\w./#=&,-]*")
-"""Where a page may lead: a file of its site, a page with the game, a fragment; no scheme that runs anything."""
+"""Where a page may link: a file of its site, a page with the game, a fragment; no scheme that runs anything."""
 
 
 class Markup(str):
-    """HTML that is whole and escaped. Only ``tag`` and ``joined`` make it."""
+    """HTML that is complete and escaped. Only ``tag`` and ``joined`` make it."""
 
     __slots__ = ()
 
@@ -36,10 +36,9 @@ Content: TypeAlias = Markup | str | int | None
 
 
 def joined(*contents: Content) -> Markup:
-    """Contents one after the other; plain texts become data, None nothing.
+    """Contents one after the other; plain texts are escaped, None is left out.
 
-    >>> joined("a < b", None, 7)
-    'a &lt; b7'
+    >>> joined("a < b", None, 7) 'a &lt; b7'
     """
     present = filter(lambda content: content is not None, contents)
     return Markup("".join(c if isinstance(c, Markup) else escape(shown_text(str(c), LONGEST)) for c in present))
@@ -48,10 +47,10 @@ def joined(*contents: Content) -> Markup:
 def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None) -> Markup:
     """An element. ``attributes``: names with _ for - and without one at their end; True: without value; None: left out.
 
-    Raises ValueError for an address that is none of ours.
+    Raises ValueError for an address outside of the site.
 
-    >>> tag("a", "<b>", href="levels/1.html", class_="x", data_name='"', hidden=True)
-    '<a href="levels/1.html" class="x" data-name="&quot;" hidden>&lt;b&gt;</a>'
+    >>> tag("a", "<b>", href="levels/1.html", class_="x", data_name='"', hidden=True) '<a href="levels/1.html" class="x"
+    data-name="&quot;" hidden>&lt;b&gt;</a>'
     """
     parts = [name]
     for key, value in attributes.items():
@@ -81,32 +80,32 @@ NAVIGATION = (
     (HOME, "Home"), ("learn/index.html", "Learn"), (GAME, "Play"), ("docs/making-levels.html", "Make"),
     ("gallery/index.html", "Compete"), ("docs/index.html", "Reference"), (SEARCH, "Search"),
 )  # fmt: skip
-"""Pages in the folder of a site, and what leads to its parts."""
+"""Pages in the folder of a site, and the names of their links."""
 
 STYLE = "style.css"
 SCRIPT = "search.js"
 ICON = "icon.png"
 REPLAYS = "replays"  # the folder of a site with the replays that pages lead to
-MARK = ".ninja-game-pages"  # a file in a folder of pages, which says that they may be replaced
+MARK = ".ninja-game-pages"  # a file in a folder of pages: it marks them as replaceable
 
 _INK_ROLES = (
     "background", "tile", "text", "on_tile", "panel", "panel_edge", "accent", "good", "bad", "gold", "gold_light",
     "ninja", "switch",
 )  # fmt: skip
-_FAINT = 0.35  # how far small text goes from the palette's ink to its faint one: enough contrast for small letters
-_FRAME = 0.4  # how much darker than a tile the frame round a page is: letters stand on it
+_FAINT = 0.35  # share between the palette's ink and its faint one for small text: enough contrast
+_FRAME = 0.4  # how much darker than a tile the frame of a page is, on which letters stand
 _ICON_SIZE = 64
 _LONGEST_HEADING = 30
 _LONGEST_LINE = 24  # characters of a cell that stay in one line
 _LONGEST_HEAD = 20  # letters in the first row
 _NUMBER = re.compile(r"(?:<[^>]*>)*[-+]?\d[\d.,]*(?: of \d+| s)?(?:<[^>]*>)*")
-"""A cell with a number, which stands at the right: one below the other they are compared at a glance."""
+"""A cell with a number, which is aligned to the right for comparison."""
 
 
 class Pages:
-    """The folder ``name`` of a site, with pages. Raises FileError where it holds something that was not made here.
+    """The folder ``name`` of a site, with pages. Raises FileError if it holds files that were not made here.
 
-    ``memo``: of the same site; what it says was made, and lies there as it was written, is not made again.
+    ``memo``: of the same site; pages in it that are unchanged on the disk are not made again.
     """
 
     def __init__(self, site: Path, name: str, memo: Memo | None = None) -> None:
@@ -124,14 +123,14 @@ class Pages:
         self.write(ICON, page_icon())
 
     def write(self, name: str, content: str | bytes, *, replay: bool = False) -> None:
-        """A file of the folder, or below it; what was there is replaced: pages can always be made again.
+        """Write a file in the folder, or below it, over an earlier one: pages can always be made again.
 
-        ``replay``: instead of the site's folder of replays, to which pages lead.
+        ``replay``: in the site's folder of replays instead.
         """
         self._site.write(self._place(name, replay=replay), content)
 
     def make(self, name: str, data: object, content: Callable[[], str | bytes], *, replay: bool = False) -> None:
-        """A file as ``write``, unless it lies there as it was made of the same plain values."""
+        """As ``write``, unless the file is there already, made from the same plain values."""
         digest = f"{program()} {data}" if isinstance(data, str) else digest_of([program(), data])
         place = self._place(name, replay=replay)
         file = f"{self._site.root}/{place}"
@@ -146,14 +145,14 @@ class Pages:
         return f"{self.folder.name}/{name}"
 
     def finish(self) -> None:
-        """Remove what this memo's earlier pages had and these have not, and keep the memo."""
+        """Remove files that this memo's earlier pages had and these have not, and save the memo."""
         for name in self._memo.forgotten:
             if leads_below(name) and name.startswith((f"{self.folder.name}/", f"{REPLAYS}/")):
                 self._site.remove(name)
         self._memo.save()
 
     def clear(self, below: str) -> None:
-        """Remove the pages of an earlier time from a folder of it: all that were not written now."""
+        """Remove all earlier pages from one of its folders, except those written now."""
         now = {name.removeprefix(f"{below}/") for name in self._written if name.startswith(f"{below}/")}
         self._site.remove_others(f"{self.folder.name}/{below}", now)
 
@@ -171,11 +170,10 @@ def page(
     picture: str = "",
     about: str = "",
 ) -> str:
-    """A whole page. ``up``: the way to the folder of the pages; ``links``: addresses and names that stand above.
+    """A whole page. ``up``: the path to the folder of the pages; ``links``: addresses and names at its top.
 
-    ``current``: the address of the link that leads to the page itself; ``figures``: that of the script for figures;
-    ``picture``: that of what shows the page where somebody names it, whole where the site's own is known; ``about``:
-    what is said of it there.
+    ``current``: the address of the page's own link; ``figures``: of the script for figures; ``picture``: of the preview
+    where somebody shares a link, complete if the site's own is known; ``about``: the text beside it.
     """
     description = shown_text(about, LONGEST) or DESCRIPTION
     shown = {"og:title": shown_text(title), "og:description": description, "og:type": "website", "og:image": picture}
@@ -207,7 +205,7 @@ def page(
 
 
 def heading(text: str) -> Markup:
-    """The heading of a page in the game's own letters; plain where they are not enough."""
+    """The heading of a page in the game's own letters, or plain if letters are missing."""
     shown = shown_text(text)
     glyphs = [glyph(character) for character in shown]
     if not 0 < len(shown) <= _LONGEST_HEADING or None in glyphs:
@@ -237,7 +235,7 @@ def page_icon() -> bytes:
 
 
 def colours() -> str:
-    """The palettes as custom properties: the classic one, and the dark one for who prefers it."""
+    """The palettes as custom properties: the classic one, and the dark one for readers who prefer it."""
     dark = f"@media (prefers-color-scheme: dark) {{ {_root(PALETTES['dark'])} }}"
     return f"{_root(PALETTES['classic'])}\n{dark}"
 
@@ -260,7 +258,7 @@ def definitions(pairs: Iterable[tuple[str, Content]]) -> Markup:
 def table(
     caption: str, heads: Iterable[str], rows: Iterable[Iterable[Content]], lesser: Collection[str] = ()
 ) -> Markup:
-    """A table with its caption, of the columns with something in them; it scrolls by itself where it is too wide.
+    """A table with its caption, without empty columns; it scrolls by itself if it is too wide.
 
     ``lesser``: heads of columns that a narrow page leaves out.
     """

@@ -76,7 +76,7 @@ def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:
             try:
                 (certificates[kind],) = parse_replays(pack.files.text(name), level=entry.named.level)
             except NinjaGameError:
-                # `levels lint` reports what is wrong with it; the page leaves it out.
+                # `levels lint` reports its problem; the page leaves it out.
                 continue
     return certificates
 
@@ -90,7 +90,7 @@ def picture_name(digest: str) -> str:
 
 
 def picture(level: Level, width: int = PICTURE_WIDTH) -> bytes:
-    """The level as a PNG, as the game draws it; colours are reduced, so that it is small."""
+    """The level as a PNG, as the game draws it, with reduced colours for a small file."""
     from PIL import Image
 
     _keep_freed_memory()
@@ -103,22 +103,22 @@ def picture(level: Level, width: int = PICTURE_WIDTH) -> bytes:
 
 @cache
 def _keep_freed_memory() -> None:
-    """Keep what is freed: glibc gives back all beyond twice the largest piece freed so far, of 32 MiB at most.
+    """Keep freed memory: glibc returns all beyond twice the largest freed piece so far, of 32 MiB at most.
 
-    To get it again for each surface took a third of a picture's time.
+    Allocating it again for each surface took a third of a picture's time.
     """
     bytearray(31 << 20)
 
 
 def shared_text(replay: Replay, level: Level) -> str:
-    """A replay as the page fetches it: its level inside, no path, no waypoints, nothing that is only claimed."""
+    """A replay for the page: its level inside, no path, no waypoints, no unverified claims."""
     return write_replay(
         replace(replay, level=level, level_path="", level_record=0, level_digest="", digest="", waypoints=())
     )
 
 
 def watch_address(game: str, *stems: str) -> str:
-    """Where runs are watched: ``game`` is the address of the page with the game."""
+    """The address for watching runs: ``game`` is the address of the page with the game."""
     return game + write_watch(stems)
 
 
@@ -142,10 +142,10 @@ def level_page(
     top: Content = None,
     drawn: Content = None,
 ) -> str:
-    """The page of a level. ``certificates``: stems of the replays that it leads to and their ticks, by what they are.
+    """The page of a level. ``certificates``: stems of its replays and their ticks, by kind.
 
-    ``game``: address of the page with the game, as seen from this one; ``more``: what stands below; ``site``: the
-    address of the folder of pages, where it is known; ``top``: what stands above; ``drawn``: instead of its picture.
+    ``game``: address of the page with the game, relative to this one; ``more``: the part below; ``site``: the address
+    of the folder of pages, if it is known; ``top``: the part above; ``drawn``: instead of its picture.
     """
     runs = [
         (
@@ -180,10 +180,10 @@ def run_page(
     entry: Entry, stem: str, title: str, facts: Links, folder: str, game: str, links: Links, site: str,
     drawn: Content = None, more: Content = None,
 ) -> str:  # fmt: skip
-    """The small page of a run, in the folder of its replay: what a link to it shows in a chat, and what leads to it.
+    """The small page of a run, beside it in ``replays``: the preview of its link in a chat, and links to it.
 
-    ``folder``: of the pages with the level's; ``game``, ``links``: as seen from their first one; ``site``: as above;
-    ``drawn``: its path over the level; ``more``: what stands below the facts.
+    ``folder``: of the pages with the level's; ``game``, ``links``: relative to their first one; ``site``: as above;
+    ``drawn``: its path over the level; ``more``: the part below the facts.
     """
     place = f"../{folder}/"
     facts = [*((name, text) for name, text in facts if text), ("Author of the level", entry.named.author or "unknown")]
@@ -201,15 +201,14 @@ def run_page(
     return frame.page(title, shown, up=place, links=links, picture=picture, about=about)
 
 
-MOST_POINTS = 400  # of a path that is drawn
-NEAREST = 4.0  # px between two of them, at least
+MOST_POINTS = 400  # of a drawn path
+NEAREST = 4.0  # least px between two of them
 
 
 def path_data(positions: NDArray[np.float64]) -> str:
-    """A path in whole px, without points that are near to the one before.
+    """A path in whole px, without points near the one before.
 
-    >>> path_data(np.array([[24.2, 36.0], [25.0, 36.0], [40.0, 30.0]]))
-    'M24 36l16-6'
+    >>> path_data(np.array([[24.2, 36.0], [25.0, 36.0], [40.0, 30.0]])) 'M24 36l16-6'
     """
     whole = positions.round().astype(int)
     length = float(np.hypot(*np.diff(positions, axis=0).T).sum())
@@ -235,7 +234,7 @@ def level_image(entry: Entry, up: str = "", *, lazy: bool = False) -> Markup:
 
 
 def _play(entry: Entry, game: str) -> Content:
-    """A link that plays the level; none for a level that fits into no link."""
+    """A link to play the level; none if the level does not fit into a link."""
     named = entry.named
     try:
         link = level_link(named.level, **headers_of(named) | {"name": entry.title})
@@ -259,12 +258,12 @@ def _pars(pars: Pars) -> Markup:
 
 
 def place_mark(place: int) -> Content:
-    """A place; the first three stand out."""
+    """A place; the first three are highlighted."""
     return tag("span", place, class_=f"place {MEDALS[place]}") if 0 < place < len(MEDALS) else place or ""
 
 
 def medal_mark(medal: str) -> Content:
-    """A small mark for a medal, "" for none; known by its letter, not only by its colour."""
+    """A small mark for a medal, "" for none; its letter tells it as well as its colour."""
     return tag("span", medal[0].upper(), class_=f"medal {medal}", title=medal) if medal in MEDALS else joined()
 
 
@@ -276,7 +275,7 @@ LONGEST_NAME = 60  # characters of a name in the list
 def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Path:
     """Write ``out/gallery/`` and the certificates into ``out/replays/``; the gallery's first page.
 
-    ``address``: where ``out`` will be, if that is known. Raises FileError where ``out/gallery`` holds something else.
+    ``address``: of ``out``, if it is known. Raises FileError if ``out/gallery`` holds other files.
     """
     pages = Pages(out, FOLDER)
     whole = (out / frame.HOME).is_file()
@@ -290,8 +289,8 @@ def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Pa
 def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, links: Links, site: str) -> None:
     """Write pictures, level pages and their list into a folder of pages.
 
-    ``game``: address of the page with the game, as seen from the list; ``name``: file of the list; ``links``: what
-    stands above every page, addresses as seen from the list; ``site``: the address of the folder, if it is known.
+    ``game``: address of the page with the game, relative to the list; ``name``: file of the list; ``links``: at the top
+    of every page, relative to the list; ``site``: the address of the folder, if it is known.
     """
     near = (*links, (name, "Levels"))
     deeper = [(f"../{address}", title) for address, title in near]
@@ -308,13 +307,13 @@ def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, lin
             pages.write(f"{stem}.html", run, replay=True)
         pages.write(page_name(digest), level_page(entry, certificates, f"../{game}", deeper, site=site))
     pages.write(name, frame.page("Levels", *_list(shown), links=links))
-    # Last of all: if the disk is full, the earlier pages are still complete.
+    # Last: if the disk is full, the earlier pages are still complete.
     pages.clear("levels")
     pages.clear("pictures")
 
 
 def _list(shown: PublishedLevels) -> list[Content]:
-    """The list of levels with its search, which only a script makes visible."""
+    """The list of levels with its search, which a script makes visible."""
     count = len(shown.entries)
     lead = f"{shown.name}{f' by {shown.author}' if shown.author else ''}: {counted(count, 'level')}."
     cards = tag("ul", *(_card(entry, place) for place, entry in enumerate(shown.entries.values())), class_="cards")
@@ -328,7 +327,7 @@ def _episodes(shown: PublishedLevels) -> Mapping[str, str]:
 
 
 def search(episodes: Mapping[str, str]) -> Markup:
-    """The search above a list; without a script it does not show."""
+    """The search above a list; hidden without a script."""
     options = [tag("option", name, value=value) for value, name in SORT_ORDERS]
     chosen = [tag("option", name, value=value) for value, name in episodes.items()]
     select = tag("label", "Episode ", tag("select", tag("option", "all", value=""), *chosen, name="episode"))

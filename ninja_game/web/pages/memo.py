@@ -1,4 +1,4 @@
-"""Results that one command keeps for the next, in the user's own cache folder and nowhere else."""
+"""Results that one command caches for the next, only in the user's own cache folder."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def digest_of(data: object) -> str:
 
 @cache
 def program() -> str:
-    """Digest of all that cached results depend on: the code of the package and the templates of pages."""
+    """Digest of everything that cached results depend on: the package's code and the templates of pages."""
     here = Path(__file__).parent
     files = sorted({*here.parents[1].rglob("*.py"), *here.glob("*.*")})
     return digest_of([sha256(file.read_bytes()).hexdigest() for file in files])
 
 
 class Memo:
-    """A cache of plain values by key; what is neither recalled nor noted is dropped by ``save``.
+    """A cache of plain values by key; ``save`` drops entries that were neither recalled nor noted.
 
     ``path``: of its file, None: nothing is kept; a missing or broken one is empty. ``again``: recall nothing from it.
     """
@@ -46,7 +46,7 @@ class Memo:
             pass
 
     def recall(self, key: str) -> Any:
-        """What was noted under a key, None for nothing."""
+        """The value noted under a key, None for nothing."""
         if key not in self._now and key in self._before and not self.again:
             self._now[key] = self._before[key]
         return self._now.get(key)
@@ -56,11 +56,11 @@ class Memo:
 
     @property
     def forgotten(self) -> set[str]:
-        """Keys that nobody has asked for, or noted, this time."""
+        """Keys that were neither recalled nor noted this time."""
         return self._before.keys() - self._now.keys()
 
     def save(self) -> None:
-        """Write it where it was. Raises FileError, OSError."""
+        """Write it to its file. Raises FileError, OSError."""
         if self.path and self._now != self._before:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(self.path, json.dumps(self._now))

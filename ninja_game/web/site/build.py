@@ -1,4 +1,4 @@
-"""Builds the folder of the site, and serves it: the page, Pyodide, the game as one archive, icons, licences."""
+"""Builds and serves the folder of the site: the page, Pyodide, the game as one archive, icons, licences."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ from ninja_game.web.site import game_archive as archive
 MARK = "ninja-game-site.json"  # marks a folder that the build wrote, with the names of the files in it
 
 ICONS = {"icons/64.png": (64, 1 / 6), "icons/192.png": (192, 1 / 6), "icons/512.png": (512, 1 / 6)}
-MASKABLE = "icons/maskable-512.png"  # an icon that systems cut to their own shape: nothing of it is in the corners
+MASKABLE = "icons/maskable-512.png"  # an icon that systems crop to their own shape: its corners are empty
 
 LARGE = ("pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "game.tar.gz")
-"""What the page fetches with progress and keeps itself; the service worker keeps the rest."""
+"""Files that the page fetches with progress and caches itself; the service worker caches the rest."""
 
 TEMPLATES = (GAME, "sw.js")  # files of the page that name the version; they lie above the versioned folder
 
-FOLDER = "app-folder"  # what templates and documents call the folder of the version
+FOLDER = "app-folder"  # the name of the version's folder in templates and documents
 
 _OF_PAGES = ("style.css", "search.js", "icon.png")
 PAGES = (
@@ -38,15 +38,15 @@ PAGES = (
     *(f"{folder}/{name}" for folder in ("docs", "gallery") for name in _OF_PAGES),
     "gallery/index.html",
 )
-"""What is kept for visits without a network beside the game, *Learn* and the gallery; others as they are visited."""
+"""Pages cached for visits without a network, beside the game, *Learn* and the gallery; others once they are visited."""
 
 
 def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") -> dict[str, bytes]:
-    """Write the site into the folder ``out``, new, empty, or a site of ours; its files by name.
+    """Write the site into the folder ``out``, new, empty, or an earlier site; its files by name.
 
-    ``pyodide``: a folder with the files of its npm package; None gets it by npm into the folder ``cache``.
-    ``address``: where the site will be, if that is known: previews of links name their pictures by it.
-    Raises FileError for a folder with other things in it, NinjaGameError where Pyodide cannot be had; OSError.
+    ``pyodide``: a folder with the files of its npm package; None fetches it by npm into the folder ``cache``.
+    ``address``: of the site, if it is known: previews of links name their pictures by it. Raises FileError for a folder
+    with other files, NinjaGameError if Pyodide is not available; OSError.
     """
     before = _own_files(out)
     python = archive.pyodide_files(pyodide, cache)
@@ -72,7 +72,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") 
 
 
 def _own_files(out: Path) -> set[str]:
-    """What an earlier build has written there. Raises FileError for a folder that is not ours."""
+    """The files of an earlier build. Raises FileError for a folder that is not ours."""
     if not out.exists() or (out.is_dir() and all(map(_of_pages, out.iterdir()))):
         return set()
     hint = "name a new folder, or remove that one yourself"
@@ -86,7 +86,7 @@ def _own_files(out: Path) -> set[str]:
 
 
 def _of_pages(path: Path) -> bool:
-    """Whether a board, or a gallery, was written there, or the replays beside one."""
+    """Whether a file belongs to a board or a gallery, or the replays beside one."""
     return (path / PAGES_MARK).is_file() or (path.name == REPLAYS and any(path.parent.glob(f"*/{PAGES_MARK}")))
 
 
@@ -111,7 +111,7 @@ def _licences() -> dict[str, bytes]:
 
 
 def _music() -> dict[str, bytes]:
-    """The layers of the music, which the page fetches when they are to be heard."""
+    """The layers of the music, which the page fetches before they are played."""
     folder = data_folder("assets") / "sounds" / "music"
     return {f"music/{path.name}": path.read_bytes() for path in sorted(folder.glob("*.ogg"))}
 
@@ -119,9 +119,9 @@ def _music() -> dict[str, bytes]:
 def _stamped(
     app: dict[str, bytes], icons: dict[str, bytes], about: dict[str, str], documents: dict[str, bytes], address: str
 ) -> dict[str, bytes]:
-    """What the page is made of: ``app`` in a folder with a digest in its name, so that no two versions are ever mixed.
+    """The page's files: ``app`` in a folder with a digest in its name, so that two versions never mix.
 
-    Above it icons, the manifest, and what knows the version. ``about``: Pyodide's.
+    Above it icons, the manifest, and the files that name the version. ``about``: Pyodide's.
     """
     above = icons | {"manifest.webmanifest": json.dumps(_manifest(), indent=1).encode()}
     parts = sorted((app | above).items())
@@ -132,7 +132,7 @@ def _stamped(
     app["build.js"] = f"export const build = {json.dumps(build)};\n".encode()
     files = {f"{folder}/{name}": content for name, content in app.items()} | above
     small = sorted(name for name in files if not name.endswith(LARGE))
-    # Without pyodide.asm.mjs: where that comes before all else, Chromium's start hangs.
+    # Without pyodide.asm.mjs: if that is loaded first, Chromium's start hangs.
     modules = [name for name in files if name.endswith((".js", "/pyodide.mjs")) and "figures" not in name]
     taught = sorted(name for name in documents if name.startswith(("learn/", "lab/")))
     large = sorted({*files} - {*small})
@@ -178,23 +178,23 @@ TYPES = {
     ".gz": "application/gzip",
     ".ogg": "audio/ogg",
 }
-"""What a browser insists on, whatever this system says."""
+"""Types that browsers demand, whatever this system's table says."""
 
 
 class _Handler(SimpleHTTPRequestHandler):
-    """Files alone, no lists of folders; a browser asks each time whether it has the newest."""
+    """Serves files, no lists of folders; a browser asks each time whether it has the newest."""
 
     protocol_version = "HTTP/1.1"
     extensions_map = SimpleHTTPRequestHandler.extensions_map | TYPES
 
     def end_headers(self) -> None:
-        """Add what all answers have in common."""
+        """Add the headers of all answers."""
         self.send_header("Cache-Control", "no-cache")
         self.send_header("X-Content-Type-Options", "nosniff")
         super().end_headers()
 
     def send_head(self) -> Any:
-        """The file that is asked for; 404 for one behind a link to elsewhere, and for a name that no file can have."""
+        """The requested file; 404 for one behind a link out of the folder, and for an impossible name."""
         with suppress(ValueError, OSError):
             if Path(self.translate_path(self.path)).resolve().is_relative_to(Path(self.directory).resolve()):
                 return super().send_head()
@@ -210,7 +210,7 @@ class _Handler(SimpleHTTPRequestHandler):
 
 
 def site_server(folder: Path, port: int) -> ThreadingHTTPServer:
-    """A server of a folder for this machine alone; ``port`` 0 takes a free one. Raises NinjaGameError."""
+    """A server of a folder, for this machine only; ``port`` 0 takes a free one. Raises NinjaGameError."""
     handler: Callable[..., _Handler] = partial(_Handler, directory=str(folder))
     try:
         return ThreadingHTTPServer(("127.0.0.1", port), handler)

@@ -1,7 +1,7 @@
 """Runs in Pyodide: puts bytecode beside every Python file of the folders ``library`` and ``game``.
 
-Without docstrings, which nobody reads there, and assertions; the library also without the tables of line numbers, so
-that its bytecode is no larger than its text. The bytecode is taken as it is, whatever its source's date.
+Without docstrings and assertions; the library also without the tables of line numbers, so that its bytecode is no
+larger than its text. The bytecode is used whatever its source's date.
 """
 
 import marshal
@@ -10,7 +10,7 @@ from pathlib import Path
 from types import CodeType
 
 PLACES = {"library": "/lib/python314.zip", "game": "/game"}
-"""Where the page has what is in each folder: tracebacks name it."""
+"""The place of each folder in the page, for tracebacks."""
 
 DOCUMENTED = ("pyodide", "_pyodide")  # packages that need their docstrings when they run
 
@@ -19,7 +19,7 @@ UNCHECKED = MAGIC_NUMBER + (1).to_bytes(4, "little") + bytes(8)
 
 
 def without_lines(code: CodeType) -> CodeType:
-    """Code without line numbers: entries that say so, each for up to eight units of code."""
+    """Code without line numbers: entries without a line, each for up to eight units of code."""
     inner = tuple(without_lines(item) if isinstance(item, CodeType) else item for item in code.co_consts)
     eights, rest = divmod(len(code.co_code) // 2, 8)
     return code.replace(co_consts=inner, co_linetable=b"\xff" * eights + bytes([0xF7 + rest] * (rest > 0)))

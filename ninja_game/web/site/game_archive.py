@@ -1,6 +1,6 @@
-"""What the page runs: the game as one archive, compiled where Node can be had, and Pyodide, the Python of the page.
+"""The page's code: the game as one archive, compiled if there is Node, and Pyodide, the Python of the page.
 
-Pyodide is five files of its npm package, of one version, known by their digests.
+Pyodide is five files of its npm package, of one version, identified by their digests.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ DIGESTS = {
     "pyodide-lock.json": "5dc2fc119108bc148c7457dc86e7675b5c87e1cafd420b9c34c1eaef7b36c010",
     "python_stdlib.zip": "fa1957e5777068fc4f7437f96d860ae2fbe9c19732ba06c84e004ec16dd7dd7a",
 }
-"""SHA-256 of the files of that version; whatever has others is refused."""
+"""SHA-256 of the files of that version; others are refused."""
 
 UNUSED = frozenset((
     "_pydatetime", "_pyio", "_pyrepl", "antigravity", "bdb", "cProfile", "cmd", "code", "compileall", "configparser",
@@ -44,7 +44,7 @@ UNUSED = frozenset((
     "tabnanny", "this", "timeit", "tkinter", "trace", "tracemalloc", "tty", "turtle", "turtledemo", "unittest",
     "venv", "wave", "webbrowser", "wsgiref", "xml", "xmlrpc", "zipapp",
 ))  # fmt: skip
-"""Modules of the standard library that a page has no use for."""
+"""Modules of the standard library that a page does not need."""
 
 ENCODINGS = frozenset((
     "__init__", "aliases", "ascii", "charmap", "cp1252", "cp437", "idna", "latin_1", "punycode", "raw_unicode_escape",
@@ -57,9 +57,9 @@ _NPM_WAIT = 300  # seconds for npm
 
 
 def pyodide_files(folder: Path | None, cache: Path) -> dict[str, bytes]:
-    """The files by name: those of ``folder``, or of the npm package, which is kept in the folder ``cache``.
+    """The files by name: those of ``folder``, or of the npm package, which is cached in the folder ``cache``.
 
-    Raises NinjaGameError where they cannot be had or are those of another version.
+    Raises NinjaGameError if they are not available or of another version.
     """
     if folder is not None:
         return _checked(folder)
@@ -97,7 +97,7 @@ def _hint(folder: Path | None = None) -> str:
 
 
 def _fetch(kept: Path) -> None:
-    """Get the package by npm and unpack what is needed of it. Raises NinjaGameError."""
+    """Fetch the package by npm and unpack the needed files. Raises NinjaGameError."""
     npm = shutil.which("npm")
     if npm is None:
         raise NinjaGameError(f"npm, which gets Pyodide, is not installed; install Node.js, or {_hint()}")
@@ -145,7 +145,7 @@ LEFT_OUT = {
     "levels": (),
     "assets": ("bench.", "generated.tsv.xz", "sounds/music/"),
 }
-"""What of the package and its data a page has no use for: how the names of such files begin."""
+"""Files of the package and its data that a page does not need: how their names begin."""
 
 
 def game_tar(files: Mapping[str, bytes]) -> bytes:
@@ -178,7 +178,7 @@ def game_files() -> Iterator[tuple[str, bytes]]:
 
 
 def licence_of(name: str) -> str:
-    """The text of an installed package's licence, "" where it has none."""
+    """The text of an installed package's licence, "" if it has none."""
     for path in distribution(name).files or ():
         if path.name.upper().startswith("LICEN"):
             return path.read_text("utf-8")
@@ -191,10 +191,10 @@ Files = dict[str, bytes]  # content by name
 
 
 def compiled(library: Files, game: Files, pyodide: Mapping[str, bytes]) -> tuple[Files, Files]:
-    """The standard library's and the game's files with bytecode in the place of Python text.
+    """The standard library's and the game's files with bytecode instead of Python text.
 
-    ``pyodide``: the files of its package. Where there is no Node.js the files are as they were, and the first
-    visit takes longer. Raises NinjaGameError where node fails.
+    ``pyodide``: the files of its package. Without Node.js the files are unchanged, and the first visit takes longer.
+    Raises NinjaGameError if node fails.
     """
     node = shutil.which("node")
     if node is None:
@@ -219,7 +219,7 @@ def _texts(files: Files) -> Files:
 
 
 def _replaced(files: Files, folder: Path) -> Files:
-    """The files, with bytecode in place of what ``folder`` has as such."""
+    """The files, with the bytecode in ``folder`` instead of their texts."""
     bytecode = {f"{name}c": (folder / f"{name}c").read_bytes() for name in _texts(files)}
     return {name: content for name, content in files.items() if not name.endswith(".py")} | bytecode
 

@@ -20,7 +20,7 @@ from ninja_game.play.editor.messages import _WHEN, PICTURE, Message, MessagesScr
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.level.hud import Box, Hud
-from ninja_game.play.level.sayings import Sayings
+from ninja_game.play.level.messages import MessageQueue
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.search.certificate import verified_run
@@ -82,7 +82,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     assert room.draft.says == ""
     room.chord("y", pygame.KMOD_LCTRL)
     room.press("f5")
-    assert [each.text for each in room.shown(TryScreen)._trying.sayings()] == ["run", "out", "on"]
+    assert [each.text for each in room.shown(TryScreen)._trying.messages()] == ["run", "out", "on"]
 
 
 def test_what_is_typed_goes_to_the_text_of_the_row_and_changes_no_moment(room: Maker) -> None:
@@ -223,7 +223,7 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
         room.frames()
         room.choose("Test")
         trying = room.shown(TryScreen)
-        places.append((trying.attempt.simulation.ninja.x, len(trying._trying.sayings())))
+        places.append((trying.attempt.simulation.ninja.x, len(trying._trying.messages())))
         room.press("escape")
         assert room.top() is screen
     assert places == [(60.0, 3), (17 * 24 + 12.0, 3), (2 * 24 + 12.0, 3)]
@@ -318,7 +318,7 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
 
 
 def test_a_locked_door_and_a_trap_have_their_words() -> None:
-    told = Sayings(parse_messages("lock: The door is open | trap: Shut"))
+    told = MessageQueue(parse_messages("lock: The door is open | trap: Shut"))
     world = SimpleNamespace(events=[SimpleNamespace(kind=LOCK_OPENED)], event_count=1)
     assert told.on_tick(world)  # type: ignore[arg-type]
     assert told.text == "The door is open"

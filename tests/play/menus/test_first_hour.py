@@ -12,11 +12,10 @@ import pytest
 from ninja_game.formats.messages import parse_messages
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
-from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, Said
+from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, PlacedMessage
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER, Phase
-from ninja_game.play.level.places import MUST, solid_place, tag_top
-from ninja_game.play.level.sayings import (
+from ninja_game.play.level.messages import (
     CLIMB,
     CLIMBED,
     FADE_TICKS,
@@ -25,8 +24,9 @@ from ninja_game.play.level.sayings import (
     READ_TICKS,
     SHOWN_TICKS,
     START_TICKS,
-    Sayings,
+    MessageQueue,
 )
+from ninja_game.play.level.places import MUST, solid_place, tag_top
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
@@ -62,7 +62,7 @@ def test_first_level_says_its_goal_with_the_keys_of_whoever_plays(driver: MenuDr
     driver.app.controls.pad_used = True
     assert said(level).startswith("D-pad left and ")
     driver.app.change_settings(level_texts=False)
-    level.play.sayings = Sayings(level.context.sayings())
+    level.play.messages = MessageQueue(level.context.messages())
     assert said(level) == ""
 
 
@@ -80,7 +80,7 @@ def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) ->
     door = next(o for o in objects[1:] if o.kind == EXIT)
     door.is_open = True
     level.begin()
-    level.play.sayings.text = ""
+    level.play.messages.text = ""
     assert [name for name, _, _ in hud_view(level.play).named] == ["exit"], "until it is used, however long that takes"
     ninja = level.attempt.simulation.world.ninja
     ninja.x, ninja.y = door.x, door.y - 30
@@ -89,7 +89,7 @@ def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) ->
     level.play.phase = Phase.PASSED
     assert not hud_view(level.play).named
     driver.app.change_settings(level_texts=False)
-    level.play.sayings = Sayings(level.context.sayings())
+    level.play.messages = MessageQueue(level.context.messages())
     assert not hud_view(level.play).named
 
 
@@ -98,7 +98,7 @@ def test_switch_sends_out_rings_until_it_is_touched(driver: MenuDriver, reduced:
     driver.app.change_settings(reduced_motion=reduced)
     driver.press("return")
     level = driver.shown(LevelScreen)
-    level.play.sayings.text = ""
+    level.play.messages.text = ""
     objects = level.attempt.simulation.world.objects
     switch = next(o for o in objects[1:] if o.kind == SWITCH)
 
@@ -153,12 +153,12 @@ def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -
     level.begin()
     driver.play_replay(1)
     assert level.phase is Phase.PASSED
-    assert not level.context.sayings()
+    assert not level.context.messages()
 
 
 def test_each_text_has_its_moment(driver: MenuDriver) -> None:
     says = parse_messages("start: go | switch: open | gold: gold | death 2: wait")
-    sayings = Sayings(says)
+    sayings = MessageQueue(says)
     simulation = Simulation(short_level(gold=1))
     seen = [sayings.text]
     for _ in range(60):
@@ -178,7 +178,7 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
 
 
 def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() -> None:
-    sayings = Sayings(parse_messages("start: go | gold: gold"))
+    sayings = MessageQueue(parse_messages("start: go | gold: gold"))
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
     seen = []
     for tick in range(START_TICKS + SHOWN_TICKS + 1):
@@ -187,7 +187,7 @@ def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() 
             seen.append((tick, sayings.text))
     assert [text for _, text in seen] == ["gold", "go", ""]
     assert seen[-1][0] == START_TICKS + SHOWN_TICKS - 1, "in all as long as without the other text"
-    sayings = Sayings(parse_messages("start: go | death 1: again"))
+    sayings = MessageQueue(parse_messages("start: go | death 1: again"))
     sayings.on_death()
     sayings.at_start()
     assert sayings.text == "again"
@@ -198,7 +198,7 @@ def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() 
 def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
     says = "start: one | start: two | switch: three | switch: four"
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,700,564"))
-    sayings = Sayings(parse_messages(says))
+    sayings = MessageQueue(parse_messages(says))
     heard = [(0, sayings.text)]
     simulation.step_keys(0)
     ticks = range(1, START_TICKS + 9)
@@ -211,7 +211,7 @@ def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
     heard = [(tick, sayings.text) for tick in range(START_TICKS) if sayings.on_tick(simulation.world)]
     assert sayings.text == ""
     assert [text for _, text in heard] == ["four", ""], "and no more of the start, which is understood"
-    quick = Sayings(parse_messages("switch: one | switch: two | gold: three"))
+    quick = MessageQueue(parse_messages("switch: one | switch: two | gold: three"))
     texts = []
     for kind in (EXIT_OPENED, GOLD_TAKEN, None):
         simulation.world.event_count = int(kind is not None)
@@ -225,8 +225,8 @@ def test_text_at_a_place_is_said_there_once() -> None:
     column = int(simulation.world.ninja.x // 24)
     row = int(simulation.world.ninja.y // 24)
     near, far = (
-        Sayings(parse_messages(f"at {column},{row}: here")),
-        Sayings(parse_messages(f"at {column + 5},{row}: there")),
+        MessageQueue(parse_messages(f"at {column},{row}: here")),
+        MessageQueue(parse_messages(f"at {column + 5},{row}: there")),
     )
     simulation.step_keys(0)
     assert near.on_tick(simulation.world)
@@ -236,7 +236,7 @@ def test_text_at_a_place_is_said_there_once() -> None:
 
 @pytest.mark.parametrize("away, ticks", [(0, SHOWN_TICKS), (110, SHOWN_TICKS), (130, READ_TICKS + FADE_TICKS)])
 def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, ticks: int) -> None:
-    told = Sayings(parse_messages("at 3,22: Here"))
+    told = MessageQueue(parse_messages("at 3,22: Here"))
     ninja = (world := Simulation(room_level(["#@..#"], ())).world).ninja
     ninja.x, ninja.y = 84.0, 540.0
     assert told.on_tick(world)
@@ -257,7 +257,7 @@ def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDrive
     level = driver.shown(LevelScreen)
     texts = []
     for helps in (True, True, False):
-        level.play.sayings.helps = helps
+        level.play.messages.helps = helps
         level.begin()
         driver.keys.script = [2] * 60
         driver.frames(60)
@@ -275,7 +275,7 @@ def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(
         heard = []
         for helps in (True, False):
             level.retry()
-            level.play.sayings.helps = level.play.sayings._again = helps
+            level.play.messages.helps = level.play.messages._again = helps
             level.begin()
             driver.keys.script = [2] * 50 + list(keys)
             for _ in range(50 + len(keys)):
@@ -312,15 +312,15 @@ def test_a_text_under_which_the_ninja_comes_fades_while_it_is_there(driver: Menu
 
 def test_texts_of_a_level_come_back_after_its_author_was_watched(driver: MenuDriver) -> None:
     level = stuck_level(driver)
-    first = level.play.sayings._starts()[0].text
-    level.play.sayings._said.update(level.context.sayings())
+    first = level.play.messages._starts()[0].text
+    level.play.messages._said.update(level.context.messages())
     driver.press("n")
     driver.choose("Watch how")
     driver.shown(ReplayScreen)
     assert driver.app.notice == "Esc: back to your own try"
     driver.press("escape")
     assert first
-    assert level.play.sayings.text == first
+    assert level.play.messages.text == first
 
 
 def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
@@ -532,21 +532,21 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     (text, tiles, things, _, covers, _), far = hud_view(level.play).said or ("", (), (), None, True, False), []
     assert covers, "the text of the start stays where it was"
     level.play.about = (40, 500)
-    level.play.sayings.text = "Another one"
-    assert hud_view(level.play).said == Said("Another one", tiles, things, (40, 500), covers=False)
+    level.play.messages.text = "Another one"
+    assert hud_view(level.play).said == PlacedMessage("Another one", tiles, things, (40, 500), covers=False)
     for about in ((40.0, 440.0), (750.0, 440.0)):
-        lines, left, y, w, high, *_ = hud.box(Said(text, tiles, things, about, covers=False))
+        lines, left, y, w, high, *_ = hud.box(PlacedMessage(text, tiles, things, about, covers=False))
         assert y < IN_BORDER
         cells = {(int(a // 24) - 1, int(b // 24) - 1) for a in (left, left + w) for b in (y, y + high * len(lines))}
         assert all(tiles[column * ROWS + row] == 1 for column, row in cells), "over rock only"
         far.append(left)
     assert far[0] < far[1]
-    high_up = Said("One" + 9 * " word", (0,) * 713, (), (396.0, 60.0), covers=False)
+    high_up = PlacedMessage("One" + 9 * " word", (0,) * 713, (), (396.0, 60.0), covers=False)
     shown = hud.said(driver.app.surface, hud.box(high_up))
     assert shown.top < driver.app.canvas.px(120), "near the upper border, in the open too"
     assert not shown.collidepoint(driver.app.canvas.point(396, 60)), "but never over the ninja"
     everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
-    assert hud.box(Said(text, (0,) * 713, everywhere, None, covers=False)).y == IN_BORDER
+    assert hud.box(PlacedMessage(text, (0,) * 713, everywhere, None, covers=False)).y == IN_BORDER
 
 
 @pytest.mark.parametrize("place", [(204.0, 516.0), (36.0, 36.0), (756.0, 564.0), (396.0, 300.0), (756.0, 36.0)])
@@ -555,7 +555,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
     driver: MenuDriver, place: tuple[float, float], words: int
 ) -> None:
     level, text = LevelScreen(driver.app, LevelSession(driver.player, entry(short_level()))), " ".join(["word"] * words)
-    level.play.sayings._say((text, 99, place))
+    level.play.messages._say((text, 99, place))
     level.play.about = (10.0, 10.0)
     view = hud_view(level.play)
     assert view.said
@@ -563,26 +563,26 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
     hud, surface = Hud(driver.app.theme), driver.app.surface
     everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
     for tiles, things in (((0,) * 713, ()), ((1,) * 713, ()), ((0,) * 713, everywhere)):
-        lines, x, y, w, high, margin, _ = hud.box(Said(text, tiles, things, *view.said[3:]))
+        lines, x, y, w, high, margin, _ = hud.box(PlacedMessage(text, tiles, things, *view.said[3:]))
         h = high * len(lines) + 2 * margin - 1
         away = hypot(max(x - place[0], 0, place[0] - x - w), max(y - place[1], 0, place[1] - y - h))
         assert CLEAR <= away <= 2.2 * CELL, "beside it, and solid while the ninja is there"
         assert 24 <= x < x + w <= 768
         assert 24 <= y < y + h <= 576
         surface.fill("black")
-        said = Said(text, tiles, things, *view.said[3:])
+        said = PlacedMessage(text, tiles, things, *view.said[3:])
         covered = hud.draw(surface, replace(view, said=said, named=(), ninja=place))
         there = driver.app.canvas.point(*place)
         assert surface.get_at(there)[:3] == driver.app.theme.palette.accent[:3]
         assert any(rect.collidepoint(there) for rect in covered), "so it is taken away again"
 
 
-def hud_place(told: Sayings) -> tuple[float, float] | None:
+def hud_place(told: MessageQueue) -> tuple[float, float] | None:
     return told.place
 
 
 def test_a_text_knows_its_place_until_another_comes() -> None:
-    told = Sayings(parse_messages("start: Go | at 3,22: Here"))
+    told = MessageQueue(parse_messages("start: Go | at 3,22: Here"))
     assert hud_place(told) is None
     simulation = Simulation(room_level(["#@..#"], ()))
     simulation.world.ninja.x, simulation.world.ninja.y = 84.0, 540.0
@@ -598,7 +598,7 @@ WELL = room_level(["#...#"] * 10 + ["#@..#"], ())
 
 def climb(keys: str) -> tuple[list[str], float]:
     """What is said in a well in which one plays so, and the greatest height, px."""
-    simulation, sayings = Simulation(WELL), Sayings((), helps=True)
+    simulation, sayings = Simulation(WELL), MessageQueue((), helps=True)
     seen, floor, height = [], simulation.world.ninja.y, 0.0
     for each in read_inputs([(1, keys)]).keys:
         simulation.step_keys(each)
@@ -621,7 +621,7 @@ def test_who_slips_down_a_wall_twice_sees_what_the_keys_do_at_it() -> None:
 
 
 def test_help_with_walls_is_gone_once_the_climb_is_done() -> None:
-    simulation, sayings = Simulation(WELL), Sayings((), helps=True)
+    simulation, sayings = Simulation(WELL), MessageQueue((), helps=True)
     for each in read_inputs([(1, SLIP * 2)]).keys:
         simulation.step_keys(each)
         sayings.on_tick(simulation.world)
@@ -639,7 +639,7 @@ def test_keys_of_the_help_bear_the_letters_that_its_words_name(driver: MenuDrive
     driver.press("return")
     level = driver.shown(LevelScreen)
     level.begin()
-    level.play.sayings.text = CLIMB % ("{right}", "{left}")
+    level.play.messages.text = CLIMB % ("{right}", "{left}")
     view = hud_view(level.play)
     assert view.letters[1] == driver.app.controls.name("jump") == "Z"
     log = DrawLog()
@@ -657,7 +657,7 @@ def test_text_of_the_start_covers_no_name_of_a_thing(driver: MenuDriver) -> None
     assert text
     assert len(named) == 2
     for o in named:
-        lines, left, y, w, high, margin, _ = hud.box(Said(text, tiles, play.things, None, covers=True))
+        lines, left, y, w, high, margin, _ = hud.box(PlacedMessage(text, tiles, play.things, None, covers=True))
         middle = tag_top(o.y) + 8
         assert not (left < o.x < left + w and y < middle < y + high * len(lines) + 2 * margin)
         assert (o.x - 12, middle, MUST) in play.things
@@ -699,7 +699,7 @@ def test_climbing_as_the_hint_says_works_and_away_from_the_wall_first_does_not()
 def test_a_word_without_end_stays_in_the_window_in_the_largest_letters(*, near: bool) -> None:
     surface = pygame.Surface((792, 600))
     hud = Hud(Theme(CLASSIC, Canvas(surface.get_size()), 150))
-    box = hud.box(Said("W" * 120, (0,) * 713, (), (396.0, 300.0), covers=True, near=near))
+    box = hud.box(PlacedMessage("W" * 120, (0,) * 713, (), (396.0, 300.0), covers=True, near=near))
     left, top, w, h = box.area
     assert left >= 24
     assert left + w <= 768

@@ -8,7 +8,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.run_time import rounded_text, seconds_text
-from ninja_game.play.level.hud import PRIZE, EndPanel, Hud, HudView, Said
+from ninja_game.play.level.hud import PRIZE, EndPanel, Hud, HudView, PlacedMessage
 from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.places import MUST
@@ -140,7 +140,7 @@ def test_an_episode_passed_is_a_feast_unless_motion_is_reduced(driver: MenuDrive
 
 
 def test_a_text_in_the_border_leaves_room_for_the_name_of_the_level(driver: MenuDriver) -> None:
-    said = Said(
+    said = PlacedMessage(
         "Some words that say a lot about a level in which there is no rock at all",
         (0,) * 713,
         tuple((24.0 * column, 24.0 * row, MUST) for column in range(33) for row in range(25)),

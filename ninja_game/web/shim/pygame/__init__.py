@@ -1,6 +1,6 @@
-"""The part of pygame-ce's interface that the game uses, for a page: what is drawn is painted by painter.js.
+"""The part of pygame-ce's interface that the game uses, for a page: painter.js paints the drawings.
 
-What is not described here does what pygame-ce says of it; tests/web compares them.
+Functions without a docstring do what pygame-ce documents; tests/web compares them.
 """
 
 from __future__ import annotations

@@ -43,4 +43,4 @@ SCANCODES |= {name: SCANCODES[other] for name, other in _OTHER_NAMES.items()} | 
 """Scancode (place on the keyboard) by name."""
 
 KEY_CONSTANTS = {f"KSCAN_{name}": code for name, code in SCANCODES.items()}
-"""The constants of these names. What keys mean differs between keyboards: the game asks for their places."""
+"""The constants of these names. A key's meaning differs between keyboards, so the game asks for its place."""

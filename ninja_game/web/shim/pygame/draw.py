@@ -13,7 +13,7 @@ from .surface import DISC, FILL, FRAME, LIMB, LINE, POLYGON, RING, STROKE, Surfa
 
 
 def _clipped(surface: Surface, x: int, y: int, right: int, bottom: int) -> Rect:
-    """The part of a box that is drawn; of no size where that is nothing."""
+    """The drawn part of a box; of size 0 if there is none."""
     x1, y1, x2, y2 = surface._bounds
     if x1 <= x and y1 <= y and right <= x2 and bottom <= y2:
         return make(x, y, right - x, bottom - y)
@@ -32,7 +32,7 @@ def polygon(surface: Surface, color: Any, points: Sequence[Any]) -> Rect:
 
 
 def limb(surface: Surface, color: Any, points: Sequence[Any], radii: Sequence[float]) -> None:
-    """A line through points, round and as thick at each as its radius says, which pygame-ce does not have."""
+    """A line through points with a radius at each and round ends, which pygame-ce does not have."""
     xs, ys = zip(*points, strict=True)
     most = max(radii)
     if min(radii) == most:

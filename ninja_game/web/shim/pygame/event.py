@@ -1,4 +1,4 @@
-"""Events: host.js collects them, and gives them once a picture; and what is held now."""
+"""Events, which host.js collects and sends once per picture; and the held keys and buttons."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _QUEUE: list[Any] = []
 
 
 class Event:
-    """``type``, and attributes as they belong to it."""
+    """``type``, and the attributes of that type."""
 
     def __init__(self, kind: int, fields: dict[str, Any] | None = None, **more: Any) -> None:
         self.__dict__.update(fields or {}, **more)
@@ -31,7 +31,7 @@ DEVICES = Devices()
 
 
 def pump() -> None:
-    """Take what happened since the last time, and follow what is held."""
+    """Take the new events, and track held keys and buttons."""
     text = LINK.page.input.take()
     if text != "[]":
         for name, fields in json.loads(text):

@@ -1,4 +1,4 @@
-"""The page's side, host.js: it paints, sounds, tells what happened."""
+"""The page's side, host.js: it paints, plays sounds, reports events."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from typing import Any
 
 
 class error(RuntimeError):
-    """What the page cannot do."""
+    """A failure of the page."""
 
 
 class Link:
-    """``page``: host.js, which the start of the game gives."""
+    """``page``: host.js, set at the start of the game."""
 
     page: Any = None
 

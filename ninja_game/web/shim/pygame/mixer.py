@@ -10,7 +10,7 @@ from .host import LINK, error
 
 class _Mixer:
     channels: tuple[Channel, ...] = ()
-    reserved = 0  # the first channels, which `Sound.play` never takes
+    reserved = 0  # the first channels, which `Sound.play` never uses
 
 
 def get_init() -> bool:
@@ -50,7 +50,7 @@ class Sound:
         return float(LINK.page.sounds.length(self.number))
 
     def play(self) -> Channel | None:
-        """Play it once on a free channel, which this gives."""
+        """Play it once on a free channel, and give that channel."""
         free = next((channel for channel in _Mixer.channels[_Mixer.reserved :] if not channel.get_busy()), None)
         if free is not None:
             free.play(self)
@@ -58,7 +58,7 @@ class Sound:
 
 
 class Channel:
-    """``Channel(number)``: what plays one sound at a time."""
+    """``Channel(number)`` plays one sound at a time."""
 
     number: int
     sound: Sound | None

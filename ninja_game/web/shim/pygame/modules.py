@@ -25,14 +25,14 @@ def _window_size() -> tuple[int, int]:
 
 def _set_mode(size: Any = None, flags: int = 0) -> Surface:
     for old in _SCREENS:
-        old._number = 0  # it is no longer what the player sees
+        old._number = 0  # the player no longer sees it
     _SCREENS[:] = [Surface.__new__(Surface)]
     _SCREENS[0].show(_window_size())
     return _SCREENS[0]
 
 
 def _get_surface() -> Surface | None:
-    """The picture of the canvas; a new one where the canvas has another size by now."""
+    """The picture of the canvas; a new one if the canvas has another size by now."""
     if not _SCREENS or _SCREENS[0].get_size() == _window_size():
         return _SCREENS[0] if _SCREENS else None
     return _set_mode()
@@ -69,7 +69,7 @@ class Window:
 
 
 def _name(code: int) -> str:
-    """What a keycode is called: its character. Other keys have names of the game's own."""
+    """The name of a keycode: its character. The game names other keys itself."""
     return chr(code) if 32 < code < 127 or 127 < code < 1 << 21 else ""
 
 
@@ -89,7 +89,7 @@ class _Pad:
 
 
 class _PlainPad(_Pad):
-    """One without the layout of a standard pad."""
+    """A pad without the layout of a standard pad."""
 
 
 key = SimpleNamespace(
@@ -97,17 +97,17 @@ key = SimpleNamespace(
     start_text_input=lambda: _type(True), stop_text_input=lambda: _type(False),
 )  # fmt: skip
 mouse = SimpleNamespace(get_pos=lambda: DEVICES.mouse, set_cursor=lambda _: None)
-# The page keeps the pace itself.
+# The page sets the pace.
 time = SimpleNamespace(
     get_ticks=lambda: int(LINK.page.ticks()), Clock=lambda: SimpleNamespace(tick=lambda framerate=0: 0)
 )
-# A page learns of pads only by their events; numbers from 100 on are those of pads without the standard layout.
+# A page learns of pads only by their events; numbers from 100 on are pads without the standard layout.
 joystick = SimpleNamespace(init=_nothing, get_count=lambda: 0, JoystickType=_PlainPad, Joystick=_PlainPad)
 controller = SimpleNamespace(init=_nothing, is_controller=lambda number: number < 100, Controller=_Pad)
 
 
 class _Font:
-    """The page's own letters of ``size`` px, for characters that the game has none for."""
+    """The page's own letters of ``size`` px, for characters without strokes."""
 
     def __init__(self, name: str | None, size: int) -> None:
         self._size = size

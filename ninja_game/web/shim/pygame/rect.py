@@ -8,7 +8,7 @@ from typing import Any
 
 
 class Rect:
-    """Upper left corner ``x``, ``y`` and size ``w``, ``h``; fractions are cut off."""
+    """Upper left corner ``x``, ``y`` and size ``w``, ``h``; fractions are truncated."""
 
     __slots__ = ("h", "w", "x", "y")
 
@@ -97,7 +97,7 @@ class Rect:
         return bool(across and self.y <= top < self.y + self.h >= top + h)
 
 
-# Other names of the same places in memory, which are read without a call.
+# Other names of the same slots, which are read without a call.
 for _name, _slot in ("left", "x"), ("top", "y"), ("width", "w"), ("height", "h"):
     setattr(Rect, _name, getattr(Rect, _slot))
 
@@ -105,7 +105,7 @@ _new = Rect.__new__
 
 
 def make(x: int, y: int, w: int, h: int) -> Rect:
-    """A rectangle of four whole numbers, the fast way."""
+    """A rectangle of four whole numbers, without checks."""
     rect = _new(Rect)
     rect.x, rect.y, rect.w, rect.h = x, y, w, h
     return rect

@@ -1,7 +1,7 @@
-"""Surfaces: what is drawn on them becomes numbers in a display list, which JavaScript paints once a picture.
+"""Surfaces: drawing on them adds numbers to a display list, which JavaScript paints once per picture.
 
-A surface is *fresh* as long as only shapes were drawn on it: its numbers are its own. Blitted once, they are copied to
-where it is blitted; the second time it becomes a canvas of the page: from then on its numbers go to the common list.
+A surface with only shapes on it is *fresh*: it has its own numbers. Its first blit copies them to the target; the
+second one makes it a canvas of the page, whose numbers go to the common list from then on.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ from .rect import Rect, _new, make
 SRCALPHA = 0x10000
 BLEND_RGBA_SUB, BLEND_RGBA_MULT, BLEND_PREMULTIPLIED = 7, 8, 17
 
-# A fresh surface is copied to where it is blitted, instead of becoming a canvas, up to these sizes:
+# Up to these sizes a blit copies a fresh surface, instead of making it a canvas:
 LONGEST_COPY = 3000  # numbers
 LARGEST_COPY = 65536  # px
 ONE_SHAPE = 8  # numbers of a simple shape, whatever its px
-A_PART = 160  # numbers of a part of another fresh one, such as a letter of a text, however often it is blitted
+A_PART = 160  # numbers of a part of another fresh surface, such as a letter of a text, however often it is blitted
 
 TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT = range(1, 10)
 POLYGON, DISC, RING, LINE, FRAME, TEXT, STROKE, LIMB = range(10, 18)
-"""Kinds of entries, each followed by its numbers (painter.js says which)."""
+"""Kinds of entries, each followed by its numbers (see painter.js)."""
 
 SCREEN = 1  # the number of the canvas that the player sees
 
 
 class DisplayList:
-    """``numbers``: what is to be painted next. ``target``: the number of the canvas on which the next entry paints."""
+    """``numbers``: to be painted next. ``target``: the number of the canvas for the next entry."""
 
     def __init__(self) -> None:
         self.numbers = array("d")
@@ -79,7 +79,7 @@ class Surface:
             LIST.free(self._number)
 
     def show(self, size: tuple[int, int]) -> None:
-        """Be the picture that the player sees."""
+        """Become the visible picture."""
         self.w, self.h = size
         self.alpha = self.overdrawn = False
         self.opacity, self._own, self._blits = 1.0, None, 0
@@ -96,7 +96,7 @@ class Surface:
         return self._number
 
     def entries(self) -> array[float]:
-        """Where the numbers of what is drawn on this surface go."""
+        """The list for the numbers of drawings on this surface."""
         if self._own is not None:
             return self._own
         numbers = LIST.numbers
@@ -146,7 +146,7 @@ class Surface:
     # --- drawing ---
 
     def fill(self, colour: Any, rect: Any = None, special_flags: int = 0) -> Rect:
-        """Put a colour in the place of what is there. With BLEND_RGBA_MULT: make the whole picture fainter."""
+        """Replace the picture by a colour. With BLEND_RGBA_MULT: fade the whole picture."""
         if special_flags == BLEND_RGBA_MULT:
             self.opacity *= colour[3] / 255
             return self.get_rect()
@@ -157,7 +157,7 @@ class Surface:
                 del self._own[:]
             number = packed(colour)
             if number & 255 or self._own is None or len(self._own):
-                # What takes something away cannot be copied on top of something else.
+                # A drawing that erases cannot be copied on top of another one.
                 self.overdrawn = self.overdrawn or number & 255 < 255
                 self.entries().extend((FILL, number, area.x, area.y, area.w, area.h))
         return shown if shown.w else make(0, 0, 0, 0)
@@ -172,8 +172,8 @@ class Surface:
         self.entries().extend((FILL, packed(colour), *place, 1, 1))
 
     def blit(self, source: Surface, dest: Any, area: Any = None, special_flags: int = 0) -> Rect:
-        """Draw a picture, or an ``area`` of it, with its upper left corner at ``dest``; what was covered."""
-        # The most frequent call of all, some 200 times a picture: hence attributes instead of smaller functions.
+        """Draw a picture, or an ``area`` of it, with its upper left corner at ``dest``; the covered rectangle."""
+        # The most frequent call, some 200 times a picture: hence attributes instead of smaller functions.
         if dest.__class__ is Rect:
             left, top = dest.x, dest.y
         else:
@@ -195,7 +195,7 @@ class Surface:
             w, h = right - left, bottom - top
         if w <= 0 or h <= 0:
             return make(int(dest[0]), int(dest[1]), 0, 0)
-        sign = -1 if special_flags == BLEND_RGBA_SUB and source.settle() else 1  # an opacity below 0 takes away
+        sign = -1 if special_flags == BLEND_RGBA_SUB and source.settle() else 1  # an opacity below 0 subtracts
         if source._own is None or not self._copy(source, left, top, whole=not cut and area is None):
             if self._own is not None:
                 self.settle()
@@ -206,7 +206,7 @@ class Surface:
         return rect
 
     def _copy(self, source: Surface, left: int, top: int, *, whole: bool) -> bool:
-        """Copy the numbers of a fresh picture, if it is ``whole``, small, shown for the first time; else settle it."""
+        """Copy the numbers of a fresh picture if it is ``whole``, small and new; else settle it."""
         own = source._own
         assert own is not None  # noqa: S101 - it is fresh
         source._blits += 1

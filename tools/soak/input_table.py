@@ -1,4 +1,4 @@
-"""The doors of the game that can be tried in one process: functions from bytes, with all that is done before play."""
+"""The entry points that can be tried in one process: functions from bytes, with all that is done before play."""
 
 from __future__ import annotations
 
@@ -74,20 +74,20 @@ LONGEST_RUN, MOST_TICKS = 100, 20_000
 _FILE = re.compile(r"^--- ([\w-][\w.-]{0,80})\n", re.MULTILINE)
 
 
-class Door(NamedTuple):
+class EntryPoint(NamedTuple):
     """``read``: takes bytes, and an empty folder for the files that it wants. ``share``: of the tries it gets."""
 
     read: Callable[[bytes, Path], object]
     share: int = 20
 
 
-def _of_text(read: Callable[[str], object]) -> Door:
-    """A door for a text."""
-    return Door(lambda data, _: read(as_text(data)))
+def _of_text(read: Callable[[str], object]) -> EntryPoint:
+    """An entry point for a text."""
+    return EntryPoint(lambda data, _: read(as_text(data)))
 
 
-def _of_file(read: Callable[[Path], object], name: str = "file", share: int = 20) -> Door:
-    """A door for a file of such a name."""
+def _of_file(read: Callable[[Path], object], name: str = "file", share: int = 20) -> EntryPoint:
+    """An entry point for a file of such a name."""
 
     def look(data: bytes, folder: Path) -> object:
         path = folder / name
@@ -95,11 +95,11 @@ def _of_file(read: Callable[[Path], object], name: str = "file", share: int = 20
         path.write_bytes(data)
         return read(path)
 
-    return Door(look, share)
+    return EntryPoint(look, share)
 
 
-def _of_files(read: Callable[[Path], object]) -> Door:
-    """A door for a text file with others beside it: what stands behind lines ``--- name`` are their texts."""
+def _of_files(read: Callable[[Path], object]) -> EntryPoint:
+    """An entry point for a text file with others beside it: what stands behind lines ``--- name`` are their texts."""
 
     def look(data: bytes, folder: Path) -> object:
         first, *others = _FILE.split(as_text(data))
@@ -107,7 +107,7 @@ def _of_files(read: Callable[[Path], object]) -> Door:
             (folder / name).write_bytes(text.encode("utf-8", "surrogatepass"))
         return read(folder / "file.txt")
 
-    return Door(look)
+    return EntryPoint(look)
 
 
 @cache
@@ -321,7 +321,7 @@ def _cell(value: object) -> object:
     return value.encode("utf-8", "replace") if isinstance(value, str) and value.startswith("\0") else value
 
 
-DOORS: dict[str, Door] = {
+ENTRY_POINTS: dict[str, EntryPoint] = {
     "level string": _of_text(_level_string),
     "level file": _of_text(read_level_file),
     "ascii level": _of_text(_ascii),
@@ -353,11 +353,11 @@ DOORS: dict[str, Door] = {
     "cluster message": _of_text(lambda text: results_from_text(text, [Chunk("a.txt", named=False)] * 2)),
     "board": _of_file(lambda path: read_board(path, datetime(2026, 1, 1, tzinfo=UTC))),
     "journal": _of_file(_journal, "tas/odd.jsonl", 6),
-    "branches": Door(_branches),
+    "branches": EntryPoint(_branches),
     "autosave": _of_file(lambda path: list(editor_files.recovered(path.parent.parent)), "editing/odd.json"),
-    "backup": Door(_backup, 2),
-    "database": Door(_database, 1),
-    "database rows": Door(_rows, 1),
+    "backup": EntryPoint(_backup, 2),
+    "database": EntryPoint(_database, 1),
+    "database rows": EntryPoint(_rows, 1),
 }
 """By name."""
 
@@ -365,5 +365,5 @@ OTHER_ERRORS: dict[str, tuple[type[Exception], ...]] = {"journal": DAMAGED, "bac
 
 
 def errors_of(name: str) -> tuple[type[Exception], ...]:
-    """What a door may raise: our own errors, and what its own callers catch besides."""
+    """What an entry point may raise: our own errors, and what its own callers catch besides."""
     return NinjaGameError, *OTHER_ERRORS.get(name, ())

@@ -1,12 +1,12 @@
-"""Feed odd inputs to every door, all that reads what others wrote: only our own errors may come out, in bounded work.
+"""Feed odd inputs to every entry point, which reads untrusted data: only our own errors may come out, in bounded work.
 
-    python3 tools/dev.py tool soak.doors --texts 1000000
-    python3 tools/dev.py tool soak.doors --coverage --minutes 480 --findings found --corpus kept
-    python3 tools/dev.py tool soak.doors --door "pack zip" --read found/pack-zip-1f2e3d4c
+    python3 tools/dev.py tool soak.inputs --texts 1000000
+    python3 tools/dev.py tool soak.inputs --coverage --minutes 480 --findings found --corpus kept
+    python3 tools/dev.py tool soak.inputs --entry "pack zip" --read found/pack-zip-1f2e3d4c
 
-The doors stand in `door_table.py`. With ``--coverage`` inputs that reach new code are mutated further, and kept in the
-folder ``--corpus``. Exit code 0: nothing found; 1: something was; each finding is a file of ``--findings``, printed
-with its traceback and what repeats it.
+The entry points are in `input_table.py`. With ``--coverage`` inputs that reach new code are mutated further, and kept
+in the folder ``--corpus``. Exit code 0: nothing found; 1: something was; each finding is a file of ``--findings``,
+printed with its traceback and what repeats it.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from typing import Any, NoReturn
 from coverage import Coverage
 
 from tools import ROOT
-from tools.soak.door_table import DOORS, errors_of
+from tools.soak.input_table import ENTRY_POINTS, errors_of
 from tools.soak.mutators import mutated
 
 SLOW_S, HANGS_S = 2.0, 20.0
@@ -49,7 +49,7 @@ OWN = {
     "levels/certificates/*.txt": {"replay", "any recordings", "replay in a link", "run with includes"},
     "levels/*.toml": {"pack index", "pars"},
 }
-"""Files of the game, and the doors that read them."""
+"""Files of the game, and the entry points that read them."""
 
 PACKAGE = str(ROOT / "ninja_game")
 
@@ -63,23 +63,23 @@ def _end_hang(*_: object) -> NoReturn:
 
 
 class Trial:
-    """Tries inputs on doors. ``findings``: where what is wrong is kept; ``wrong``: how often each was seen."""
+    """Tries inputs on entry points. ``findings``: where what is wrong is kept; ``wrong``: how often each was seen."""
 
     def __init__(self, place: Path, findings: Path, slow: float) -> None:
         self.outcomes: Counter[str] = Counter()
         self.wrong: Counter[str] = Counter()
         self.slowest = 0.0, ""
-        self._place, self._findings, self._slow = place / "door", findings, slow
+        self._place, self._findings, self._slow = place / "entry", findings, slow
         self._place.mkdir()
         self.started = self._reported = time.monotonic()
 
     def read(self, name: str, data: bytes) -> None:
-        """Let a door read an input."""
+        """Let an entry point read an input."""
         outcome, problem, where = "read", "", ""
         began = time.process_time()
         signal.setitimer(signal.ITIMER_PROF, HANGS_S)
         try:
-            DOORS[name].read(data, self._place)
+            ENTRY_POINTS[name].read(data, self._place)
         except errors_of(name) as error:
             outcome = "refused"
             str(error)
@@ -106,7 +106,7 @@ class Trial:
         self._findings.mkdir(parents=True, exist_ok=True)
         file.write_bytes(data)
         print(
-            f"{problem}\n{kind}\nagain: python3 tools/dev.py tool soak.doors --door '{name}' --read {file}\n",
+            f"{problem}\n{kind}\nagain: python3 tools/dev.py tool soak.inputs --entry '{name}' --read {file}\n",
             flush=True,
         )
 
@@ -163,7 +163,7 @@ def loop(trial: Trial, pool: Pool, rng: random.Random, *, grow: bool, kept: Path
         trial.read(name, data)
         return set()
 
-    names = [name for name in pool for _ in range(DOORS[name].share)]
+    names = [name for name in pool for _ in range(ENTRY_POINTS[name].share)]
     known = {name: set[Any]().union(*(reached(name, data) for data in inputs)) for name, inputs in pool.items()}
     while True:
         name = rng.choice(names)
@@ -178,31 +178,33 @@ def loop(trial: Trial, pool: Pool, rng: random.Random, *, grow: bool, kept: Path
 
 
 def sound_inputs(names: list[str], kept: Path | None) -> Pool:
-    """What is mutated: tests/corpus, a folder for each door, our own levels and runs, and what earlier nights kept."""
+    """Inputs to mutate: tests/corpus, a folder for each entry point, our levels and runs, and those kept earlier."""
     found: Pool = {name: [] for name in names}
     for file in sorted((ROOT / "tests" / "corpus").glob("*/*")):
         found.get(file.parent.name.replace("-", " "), []).append(file.read_bytes())
     for file in sorted(kept.iterdir()) if kept and kept.is_dir() else []:
         head, _, inside = file.read_bytes().partition(b"\n")
         found.get(head.decode("latin-1"), []).append(inside)
-    for place, doors in OWN.items():
+    for place, readers in OWN.items():
         texts = [file.read_bytes() for file in sorted(ROOT.glob(place))[::9]]
-        for name in found.keys() & doors:
+        for name in found.keys() & readers:
             found[name] += texts
     return found
 
 
 def options_of() -> argparse.Namespace:
     """The options of the command line."""
-    parser = argparse.ArgumentParser(description="Feed odd inputs to every door; only our own errors may come out.")
+    parser = argparse.ArgumentParser(
+        description="Feed odd inputs to the entry points; only our own errors may come out."
+    )
     parser.add_argument("--texts", type=int, default=0, help="how many inputs (default: without end, or 100000)")
     parser.add_argument("--minutes", type=float, default=0, help="how long")
     parser.add_argument("--seed", type=int, default=1, help="of chance (default 1)")
-    parser.add_argument("--door", action="append", help="only this door; may be given again")
+    parser.add_argument("--entry", action="append", help="only this entry point; may be given again")
     parser.add_argument("--coverage", action="store_true", help="keep and mutate what reaches new code")
     parser.add_argument("--corpus", type=Path, help="folder of inputs to begin with; --coverage keeps its own there")
     parser.add_argument("--findings", type=Path, default=Path("findings"), help="folder of what is wrong (./findings)")
-    parser.add_argument("--read", type=Path, help="read this one file, through the --door")
+    parser.add_argument("--read", type=Path, help="read this one file, through the --entry")
     return parser.parse_args()
 
 
@@ -219,9 +221,9 @@ def main() -> int:
     with TemporaryDirectory(dir=ram if ram.is_dir() else None) as place:
         trial = Trial(Path(place), options.findings, SLOW_S * (WATCHED if options.coverage else 1))
         if options.read:
-            trial.read(options.door[0], options.read.read_bytes())
+            trial.read(options.entry[0], options.read.read_bytes())
             return trial.summary()
-        wanted = [name for name in DOORS if name in (options.door or DOORS)]
+        wanted = [name for name in ENTRY_POINTS if name in (options.entry or ENTRY_POINTS)]
         pool = sound_inputs(wanted, options.corpus)
         texts = options.texts or (10**12 if options.minutes else 100_000)
 

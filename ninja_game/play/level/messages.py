@@ -1,4 +1,4 @@
-"""What a level says while it is played, and why the ninja died when that happens for the first time."""
+"""A level's messages during play, and advice after the first death by each killer."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
 from ninja_game.sim.states import SLIDING
 
-SHOWN_TICKS = 240  # for which a text stays after its event
-START_TICKS = 480  # likewise, in play those of the start and of the switch, which tell the way
-READ_TICKS = 120  # after which it counts as read
-FADE_TICKS = 20  # in which one near a place fades at its end
+SHOWN_TICKS = 240  # for which a text is shown after its event
+START_TICKS = 480  # the same in play for a single text of the start or the switch
+READ_TICKS = 120  # after which a text counts as read
+FADE_TICKS = 20  # in which a text near a place fades at its end
 
 STILL = 0.05
-"""px in a tick that are no motion."""
+"""Slower than this the ninja is still, px/tick."""
 
 AGAIN = "Stuck? {retry} starts the level over"
-# AGAIN is for players who are stuck; one who waits because a text says so is not.
-STILL_TICKS = 400  # for which they stand or lie still
+# AGAIN is for players who are stuck, not for those who wait because a text says so.
+STILL_TICKS = 400  # for which the ninja is still
 QUIET_TICKS = 800  # since any text
 AWAY = 2 * CELL  # from the start, px
 
@@ -31,10 +31,10 @@ CLIMB = (
     "{jump} alone: you fly to the other side\nDo not press %s first: you would let go of the wall"
 )
 SLIPS, CLIMBED = 2, 4 * CELL
-"""CLIMB is said after so many slips from a wall back to where the jump began, until the ninja is so many px higher."""
+"""CLIMB is shown after that many slips from a wall back to the jump, until the ninja is that many px higher."""
 
 _Text = tuple[str, int, Point | None]
-"""What is said, for how many ticks, and near which place, px."""
+"""A text, its ticks on the screen, and its place, px."""
 
 _NOTHING: _Text = "", 0, None
 
@@ -50,23 +50,23 @@ WHY = {
     "homing rocket": "It turns slowly: trick it into a wall.",
     "mine": "Mines never move: give them some room.",
 }
-"""What helps against each killer, said after its first kill."""
+"""Advice against each killer, shown after its first kill."""
 
 FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 
 
-class Sayings:
-    """The texts of one level. Each event's text is said once; those of the start at each start until the exit is open.
+class MessageQueue:
+    """The texts of one level. Each event's text is shown once; those of the start at each start until the exit is open.
 
-    Several of one moment are said one after the other; what happens meanwhile is said first, then what it interrupts
-    goes on: the start's, and what nobody can have read. ``text``: what is to be read now, or "", ``place``: near which
-    place, px, which ends it when the ninja is far from there. ``helps``: the game itself says what helps too: to try
-    again, to climb. ``named``: the things with a name and an arrow (``arrow_targets``).
+    Texts of one moment follow each other; a new event's text comes first, and then what it interrupted, if that belongs
+    to the start or nobody can have read it. ``text``: the present text or "", ``place``: its place, px; it ends when
+    the ninja is far from there. ``helps``: the game gives advice too: to try again, to climb. ``named``: the things
+    with a name and an arrow (``arrow_targets``).
     """
 
-    def __init__(self, sayings: Sequence[LevelMessage], *, helps: bool = False) -> None:
-        self._sayings = sayings
-        self.named = arrow_targets(saying.text for saying in sayings)
+    def __init__(self, messages: Sequence[LevelMessage], *, helps: bool = False) -> None:
+        self._messages = messages
+        self.named = arrow_targets(message.text for message in messages)
         self.helps = helps
         self._again = helps
         self._said: set[LevelMessage] = set()
@@ -76,8 +76,8 @@ class Sayings:
         self.at_start()
 
     def at_start(self) -> None:
-        """To be called when the level waits at its start."""
-        due = [saying for saying in self._sayings if saying.when == "death" and saying.deaths == self._deaths]
+        """Called when the level waits at its start."""
+        due = [message for message in self._messages if message.when == "death" and message.deaths == self._deaths]
         self._say(*_in_turn([*due, *self._starts()]))
         self._still = self._quiet = 0
         self._jumped_at = self._wall = 0.0
@@ -88,25 +88,25 @@ class Sayings:
 
     def _say_first(self, *texts: _Text) -> None:
         """Show these texts first, then the interrupted and waiting ones; none of the start once the exit is open."""
-        over = {saying.text for saying in self._said if saying.when == "start"}.union(text for text, *_ in texts)
+        over = {message.text for message in self._said if message.when == "start"}.union(text for text, *_ in texts)
         now = [(self.text, self._left, self.place)] if self.is_start or self._unread > 0 else []
         self._say(*texts, *(line for line in (*now, *self._next) if line[0] and line[0] not in over))
 
     def _starts(self) -> list[LevelMessage]:
-        return [saying for saying in self._sayings if saying.when == "start" and saying not in self._said]
+        return [message for message in self._messages if message.when == "start" and message not in self._said]
 
     @property
     def is_start(self) -> bool:
-        """Whether the present text is one of the start."""
-        return self.text in [saying.text for saying in self._starts()]
+        """Whether the present text belongs to the start."""
+        return self.text in [message.text for message in self._starts()]
 
     @property
     def seen(self) -> float:
-        """How solid the present text is, 0…1."""
+        """Opacity of the present text, 0…1."""
         return min(1.0, max(0.0, self._left / FADE_TICKS)) if self.place else 1.0
 
     def say_again(self) -> None:
-        """All of it is said again, from the start on: another has shown how, which is not to have done it."""
+        """Forget what was shown, after another run was watched: the player has not passed those events yet."""
         self._said.clear()
         self.at_start()
 
@@ -115,7 +115,7 @@ class Sayings:
         self.text = ""
 
     def on_tick(self, world: World) -> bool:
-        """After a tick of play; whether there is something else to read."""
+        """Called after a tick of play; whether the text has changed."""
         before = self.text
         self._left -= 1
         self._unread -= 1
@@ -126,9 +126,9 @@ class Sayings:
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
         if "switch" in happened:
             # The player has understood the goal: do not repeat the text of the start.
-            self._said.update(saying for saying in self._sayings if saying.when == "start")
-        new = [saying for saying in self._sayings if saying.when in happened or _is_near(world, saying.place)]
-        if new := [saying for saying in new if saying not in self._said]:
+            self._said.update(message for message in self._messages if message.when == "start")
+        new = [message for message in self._messages if message.when in happened or _is_near(world, message.place)]
+        if new := [message for message in new if message not in self._said]:
             self._said.update(new)
             self._say_first(*_in_turn(new))
         if self._again and self._is_stuck(world):
@@ -143,7 +143,7 @@ class Sayings:
         return self.text != before
 
     def _slipped(self, world: World) -> float:
-        """At a landing after which it is said how to climb, the x of the wall's normal; else 0."""
+        """At a landing that calls for advice on climbing, the x of the wall's normal; else 0."""
         ninja, wall = world.ninja, self._wall
         if ninja.in_air:
             self._wall = ninja.wall_x if ninja.state == SLIDING else wall
@@ -154,7 +154,7 @@ class Sayings:
         return wall if self._slips == SLIPS else 0.0
 
     def _is_stuck(self, world: World) -> bool:
-        """Whether the ninja has been still for long, away from its start, with nothing to read."""
+        """Whether the ninja has been still for long, away from its start, without a text."""
         ninja = world.ninja
         self._still = 0 if hypot(ninja.x - ninja.prev_x, ninja.y - ninja.prev_y) > STILL else self._still + 1
         if world.tick == 1:
@@ -165,12 +165,12 @@ class Sayings:
 
 
 def shown_ticks(when: str, together: int) -> int:
-    """Of a text of a moment with so many together: one alone that tells the way stays longer."""
+    """Ticks for a text of a moment with ``together`` texts: a single one of the start or the switch stays longer."""
     return START_TICKS if together == 1 and when in {"start", "switch"} else SHOWN_TICKS
 
 
-def _in_turn(sayings: Sequence[LevelMessage]) -> list[_Text]:
-    return [(saying.text, shown_ticks(saying.when, len(sayings)), saying.place) for saying in sayings]
+def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
+    return [(message.text, shown_ticks(message.when, len(messages)), message.place) for message in messages]
 
 
 def _is_near(world: World, place: Point | None, near: float = NEAR) -> bool:

@@ -1,4 +1,4 @@
-"""The door of the world: whatever a level holds, it is played or refused with a word, on both memories alike."""
+"""Untrusted levels: whatever a level holds, it is played or refused with a message, on both memories alike."""
 
 from __future__ import annotations
 
