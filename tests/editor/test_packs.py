@@ -191,8 +191,8 @@ def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(
     ready = make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     assert searched == []
     assert {finding.code for finding in ready.findings} == {"no-gold-run"}
-    assert len(ready.findings) == len(levels) - 1
-    assert ready.findings[0].text.startswith("the search found no run with all gold: 1 at most were collected at once")
+    assert len(ready.problems) == len(levels) - 1
+    assert ready.problems[0].text.startswith("the search found no run with all gold: 1 at most were collected at once")
     packs.take_back(pack, FIRST, "no-gold-run")
     assert "accept" not in (pack / "pack.toml").read_text("utf-8")
     make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)

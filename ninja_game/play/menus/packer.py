@@ -20,7 +20,6 @@ from ninja_game.levels.findings import PackFinding
 from ninja_game.play.app import App, Aside, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.player.catalogue import Catalogue
-from ninja_game.runs.packs import file_of
 from ninja_game.runtime import NewestJob, cores
 from ninja_game.sim.level import Level
 
@@ -100,9 +99,9 @@ class Packer(Aside):
             if self.app.stack:
                 self.app.top.look_again()
             ready = None if self.text else self._job.result
-            if ready and ready.findings:
+            if ready and ready.problems:
                 self.open_problems = ready
-                self.text = f"Neither zip nor link yet: {counted(len(ready.findings), 'open problem')}"
+                self.text = f"Neither zip nor link yet: {counted(len(ready.problems), 'open problem')}"
                 self.app.notify(f"{shown_text(ready.pack.name)}: {self.text}" * (self.app.top is not self.desk))
             elif ready:
                 self.publish(ready)
@@ -117,8 +116,8 @@ class Packer(Aside):
             copy_link(app, lambda: ready.link, title=name)
             notices.append("the link is in the clipboard")
         app.notify("; ".join(notices) if waited_for else f"{shown_text(name)} is ready to share", here=waited_for)
-        if codes := dict.fromkeys(finding.code.replace("-", " ") for finding in ready.findings):
-            notices[0] += f", with {counted(len(ready.findings), 'open problem')} ({', '.join(codes)})"
+        if codes := dict.fromkeys(finding.code.replace("-", " ") for finding in ready.problems):
+            notices[0] += f", with {counted(len(ready.problems), 'open problem')} ({', '.join(codes)})"
         self.text = self._made = "; ".join([*notices, *ready.notes])
 
     def follow(self, pack: Pack | None) -> None:
@@ -136,12 +135,20 @@ class Packer(Aside):
 
 
 class Checked(NamedTuple):
-    """What was odd about a pack. ``to_do``: what Make ready does; ``places``: the files that the others are about."""
+    """What was odd about a pack. ``to_do``: what Make ready does; ``findings``: the others, accepted or not."""
 
     pack: Pack
     findings: list[PackFinding]
     to_do: list[PackFinding]
-    places: frozenset[str]
+
+    @property
+    def problems(self) -> list[PackFinding]:
+        return [finding for finding in self.findings if not finding.reason]
+
+    @property
+    def places(self) -> set[str]:
+        """The files with problems."""
+        return {self.pack.files.place(finding.file) for finding in self.problems}
 
 
 class PackStatus:
@@ -174,22 +181,21 @@ class PackStatus:
     def check(self, pack: Pack) -> Checked:
         known = self.packer.obstacles
         every = problems_of(pack, known)
-        to_do = [finding for finding in every if finding.code in MADE_READY and not obstacle_of(pack, finding, known)]
-        findings = [finding for finding in every if finding not in to_do]
-        places = frozenset(pack.files.place(file_of(pack, finding)) for finding in findings)
-        return Checked(pack, findings, to_do, places)
+        made_ready = [finding for finding in every if finding.code in MADE_READY and not finding.reason]
+        to_do = [finding for finding in made_ready if not obstacle_of(pack, finding, known)]
+        return Checked(pack, [finding for finding in every if finding not in to_do], to_do)
 
     @property
-    def findings(self) -> list[PackFinding] | None:
+    def now(self) -> Checked | None:
         """What is odd about the pack as it is now; None until that is known."""
         checked = self.checked
-        return checked.findings if checked and self.pack and checked.pack is self.pack.pack else None
+        return checked if checked and self.pack and checked.pack is self.pack.pack else None
 
     def to_do(self) -> str:
         """What Make ready will do; "" for nothing."""
-        levels, checked = self.pack.levels if self.pack else [], self.checked
+        levels = self.pack.levels if self.pack else []
         states = [self.state(level) for level in levels]
-        known = checked.to_do if checked and self.findings is not None else []
+        known = self.now.to_do if self.now else []
         certify, gold = sum(map(states.count, NOT_CERTIFIED)), [finding.code for finding in known].count("no-gold-run")
         work = {"certify": (certify, "level"), "measure": (certify + states.count("certified"), "medal time")}
         work["look for all gold in"] = gold, "level"
@@ -219,12 +225,12 @@ class PackStatus:
         """The pack in a line."""
         if self.pack is None or self.pack.pack is None:
             return ""
-        levels, index, findings = self.pack.levels, self.pack.pack.index, self.findings
+        levels, index = self.pack.levels, self.pack.pack.index
         vain = [self.state(level) for level in levels].count(NOT_FOUND)
         to_do = self.to_do() or (f"{vain} without a run" if vain else "All certified and measured")
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
         where = f"{counted(len(levels), 'level')} in {counted(len(index.episodes), 'episode')}{alone}"
-        open_ones = "Looking for problems" if findings is None else counted(len(findings), "problem")
+        open_ones = counted(len(self.now.problems), "problem") if self.now else "Looking for problems"
         return f"{where}. {to_do}. {open_ones}" if levels else where
 
 

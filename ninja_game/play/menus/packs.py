@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import webbrowser
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -12,16 +11,15 @@ from pathlib import Path
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.editor.packs import ReadyPack, missing_run, obstacle_of
+from ninja_game.editor.packs import ReadyPack, missing_run
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import DAILY, LEVELS, short_path
 from ninja_game.formats.links import link_kind
-from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, EpisodeIndex
 from ninja_game.formats.pack.pack import INDEX, RECEIVED, Pack
 from ninja_game.levels.episodes import GAME, Entry, EpisodeSet
-from ninja_game.levels.findings import LEVEL_RULES, Finding, PackFinding
-from ninja_game.levels.warnings import level_findings
+from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
@@ -33,7 +31,7 @@ from ninja_game.play.menus.packer import PackStatus, packer_of
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
-from ninja_game.runs.packs import NEVER_ACCEPTED, file_of, level_of
+from ninja_game.runs.packs import NEVER_ACCEPTED, level_of
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.list_view import BAR
@@ -600,58 +598,43 @@ class PackScreen(ThumbnailScreen):
     # --- problems, and what takes time ---
 
     def problems(self) -> list[Problem]:
+        self._read(news=True)
         pack = self.pack.pack if self.pack else None
         if pack is None:
             return []
-        if self.status.findings is None:
-            self.status.checked = self.status.check(pack)
-        rows = [self._problem(pack, finding) for finding in self.status.findings or ()]
+        checked = self.status.checked = self.status.now or self.status.check(pack)
+        rows = [self._problem(pack, finding) for finding in checked.findings]
         to_do = [Problem(text, _STOPS, to_do=True)] if (text := self.status.to_do()) else []
-        return [*rows, *to_do, *map(self._accepted, pack.index.accepted)]
+        return [*rows, *to_do]
 
     def _entry(self, file: str) -> Entry | None:
         levels = self.pack.levels if self.pack else []
         return next((entry for entry in levels if entry.named.file == str(self.path / file)), None)
 
     def _problem(self, pack: Pack, finding: PackFinding) -> Problem:
-        file = file_of(pack, finding)
-        entry, why = self._entry(level_of(pack, file)), obstacle_of(pack, finding, self.packer.obstacles)
-        # Files count columns and episodes from 0; what is behind the semicolon is about files.
-        text = re.sub(r"((?:column|episode) )(\d+)", lambda n: f"{n[1]}{int(n[2]) + 1}", finding.text.partition(";")[0])
-        text = text[:1].upper() + text[1:]
+        file, code = finding.file, finding.code
+        entry = self._entry(level_of(pack, file))
+        values = {name: _as_seen(pack, value) for name, value in finding.values.items()}
+        text = finding.text_with(values)
+        text = f"{entry.title}: {text}" if entry else text[:1].upper() + text[1:]
         go: Callable[[], object] | None = self._about if file == INDEX else None
-        if finding.code == "no-author":
+        if code == "no-author":
             go = partial(self._form, 1)
         elif entry:
-            edit, text = partial(self._edit_at, entry, why, finding.text), f"{entry.title}: {finding.text}"
-            go = partial(self.change, edit, "Edit")
-            for other, named in pack.levels.items():
-                text = text.replace(f"as {other}", f"as {named.name}").replace(f"than {other}", f"than {named.name}")
+            go = partial(self.change, partial(self._edit, entry, finding.odd), "Edit")
+        if finding.reason:
+            take_back = partial(packs.take_back, self.path, file, code)
+            text = f"{text}. Accepted: {finding.reason}"
+            return Problem(text, "", go, lambda: self.change(take_back, "Take it back"), accepted=True)
 
         def accept(why: str) -> None:
-            packs.accept(self.path, file, finding.code, why)
+            packs.accept(self.path, file, code, why)
 
-        may = bool(file) and finding.code not in NEVER_ACCEPTED
+        may = bool(file) and code not in NEVER_ACCEPTED
         accept_it = partial(self.ask, "Accept this warning: why?", "", accept) if may else None
-        missing = missing_run(pack, finding) if why and not self.packer.busy else None
+        missing = missing_run(pack, finding) if finding.sought and not self.packer.busy else None
         longer = partial(self.packer.search_longer, self.path, missing) if missing else None
-        return Problem(text, why.hint if why else finding.hint, go, accept_it, search=longer)
-
-    def _edit_at(self, entry: Entry, known: Finding | None, sentence: str) -> None:
-        """Edit a level at what is odd about it, ``known`` or what is said of it so."""
-        odd = level_findings(entry.named.level, entry.named.says) if known is None else ()
-        self._edit(entry, known or next((finding for finding in odd if finding.sentence == sentence), None))
-
-    def _accepted(self, accepted: Accepted) -> Problem:
-        entry = self._entry(accepted.file)
-        named = entry.named if entry and accepted.code in LEVEL_RULES else None
-        every = level_findings(named.level, named.says) if named else []
-        odd = [finding for finding in every if finding.code == accepted.code]
-        problem_text = "; ".join(finding.sentence for finding in odd) or accepted.code.replace("-", " ")
-        take_back = partial(packs.take_back, self.path, accepted.file, accepted.code)
-        text = f"{entry.title if entry else accepted.file}: {problem_text}. Accepted: {accepted.reason}"
-        go = partial(self.change, partial(self._edit, entry, next(iter(odd), None)), "Edit") if entry else None
-        return Problem(text, "", go, lambda: self.change(take_back, "Take it back"), accepted=True)
+        return Problem(text, finding.hint, go, accept_it, search=longer)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
@@ -677,7 +660,7 @@ class PackScreen(ThumbnailScreen):
             ("Zip and link all the same", lambda: self.packer.publish(ready), ""),
             CANCEL,
         ]
-        title = f"{shown_text(ready.pack.name)}: {counted(len(ready.findings), 'open problem')}"
+        title = f"{shown_text(ready.pack.name)}: {counted(len(ready.problems), 'open problem')}"
         self.app.push(Menu(self.app, title, rows))
 
     def leave(self) -> None:
@@ -722,6 +705,14 @@ class PackScreen(ThumbnailScreen):
             x, y, w, h = self.shelves.row_area(landing[0])
             place = x + w * landing[1] - 2 + self.shelves.shift(self.shelves.gap) / 2, y + 4, 4, h - 8
             self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *place, 2)
+
+
+def _as_seen(pack: Pack, value: object) -> object:
+    """A value of a finding as the desk shows it: files count columns and episodes from 0, and levels have names."""
+    if isinstance(value, int):
+        return value + 1
+    named = pack.levels.get(value) if isinstance(value, str) else None
+    return named.name if named else value
 
 
 def _called(levels: Sequence[Entry]) -> str:

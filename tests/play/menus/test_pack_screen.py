@@ -338,12 +338,18 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     driver.choose("Accept it...")
     typed(driver, "found on the street")
     assert driver.top() is screen
-    assert screen.problems[-1].text == "00-0-first-steps: no name. Accepted: found on the street"
+    assert screen.problems[0].text == "00-0-first-steps: no name. Accepted: found on the street"
+    assert (screen.list.index, screen.focus) == (0, screen.list), "the choice stays at its row"
     assert Pack(path).index.accepted[0].reason == "found on the street"
-    x, y, w, h = screen.list.row_area(count - 1)
-    driver.mouse(x + w / 2, y + h / 2)
     driver.choose("Take it back")
     assert (len(screen.problems), Pack(path).index.accepted) == (count, ())
+    driver.choose("Accept it...")
+    typed(driver, "found on the street")
+    packs.rename_level(level, "First Steps")
+    driver.app.push(EpisodeGrid(driver.app, "Laundry"))
+    driver.press("escape")
+    assert [problem.to_do for problem in screen.problems] == [True], "what is mended meanwhile is gone"
+    assert Pack(path).index.accepted
     driver.mouse(BACK[0] + 10, BACK[1] + 10)
     driver.shown(PackScreen)
 
@@ -390,7 +396,7 @@ def test_a_pack_is_made_ready_in_the_background(
     foot = driver.app.canvas.point(0, 551)[1], driver.app.canvas.stage.bottom
     assert foot[0] <= notice.top < notice.bottom <= foot[1], "the state of the pack is read meanwhile"
     assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
-    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    driver.wait(lambda: screen.status.now, "the problems are known")
     driver.choose("Problems")
     assert driver.app.notice == "", "what is said there goes with the screen"
     assert [problem.to_do for problem in driver.shown(ProblemsScreen).problems] == [True]
@@ -493,7 +499,7 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
     monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
     screen = opened(driver)
     path_of_level = str(path / "00-0-first-steps.txt")
-    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    driver.wait(lambda: screen.status.now, "the problems are known")
     assert screen.status.checked
     assert path_of_level not in screen.status.checked.places, "nobody has looked for a run yet"
     driver.choose("Make ready")
@@ -562,11 +568,11 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     stale = [cell.level.title for cell in screen.shelves.cells if cell.level and cell.level.pars is None]
     assert stale == ["Mind the Gap"]
     assert screen.status.counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
-    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    driver.wait(lambda: screen.status.now, "the problems are known")
     assert [screen.status.state(cell.level) for cell in screen.shelves.cells if cell.level][1] == "changed"
     packs.place(path, [packs.new_level(path, "Empty", "me")], 1)
     screen.enter()
-    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    driver.wait(lambda: screen.status.now, "the problems are known")
     assert screen.status.counts().startswith("9 levels in 2 episodes. Make ready will certify 2 levels")
     [entry] = [each.level for each in screen.shelves.cells if each.level and each.level.title == "Empty"]
     assert screen.status.state(entry) == "no run yet"
@@ -730,7 +736,7 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         assert not screen.mine
         driver.choose("Paste link")
         assert "Laundry is among your packs now" in driver.app.notice
-        driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+        driver.wait(lambda: screen.status.now, "the problems are known")
         work = "Make ready will look for all gold in 8 levels"
         assert screen.status.counts() == f"8 levels in 2 episodes. {work}. 0 problems"
         assert screen.status.checked
@@ -1085,19 +1091,15 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     assert inside[0].accept
     inside[0].accept()
     typed(driver, "meant")
-    [accepted] = [problem for problem in screen.problems() if problem.accepted]
-    both = [problem.text.removeprefix("First Steps: ") for problem in inside]
-    assert accepted.text == f"First Steps: {'; '.join(both)}. Accepted: meant"
-    assert accepted.go
-    accepted.go()
-    assert shown[-1] == shown[0]
+    accepted = [problem for problem in screen.problems() if problem.accepted]
+    assert [each.text for each in accepted] == [f"{each.text}. Accepted: meant" for each in inside]
+    assert accepted[1].go
+    accepted[1].go()
+    assert shown[-1] == shown[1]
     packs.take_back(path, level.name, Pack(path).index.accepted[0].code)
     packs.accept(path, level.name, "no-gold-run", "a joke")
     screen._read()
-    with patch("ninja_game.play.menus.packs.level_findings") as examined:
-        said = [problem.text for problem in screen.problems() if problem.accepted]
-    assert said == ["First Steps: no gold run. Accepted: a joke"]
-    assert not examined.called, "no examination of the level tells of that"
+    assert not [problem for problem in screen.problems() if problem.accepted], "it is not certified since"
 
 
 def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
