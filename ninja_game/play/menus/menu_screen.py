@@ -352,11 +352,15 @@ class Panel(MenuScreen):
 class Menu(Panel):
     """Some actions; each of them closes the panel first. ``then``: done when it is left by the key for back.
 
-    ``at``: the row that has the focus first.
+    ``at``: the row that has the focus first. ``unasked``: it opens by itself; what is pressed in its first half second
+    was meant for what was there.
     """
 
-    def __init__(self, app: App, title: str, rows: Sequence[Row], then: Action = nothing, *, at: int = 0) -> None:
+    def __init__(
+        self, app: App, title: str, rows: Sequence[Row], then: Action = nothing, *, at: int = 0, unasked: bool = False
+    ) -> None:
         super().__init__(app, title)
+        self._deaf_ms = 500 if unasked else 0
         self._then, self._begins = then, at
         self._rows: list[Row] = [(text, action and self._closing(action), hint) for text, action, hint in rows]
 
@@ -365,6 +369,14 @@ class Menu(Panel):
         super().enter()
         if first and self._begins:
             self.focus = self.widgets[self._begins]
+
+    def update(self, real_ms: int) -> None:
+        self._deaf_ms = max(0, self._deaf_ms - real_ms)
+        super().update(real_ms)
+
+    def handle(self, event: InputEvent) -> None:
+        if not self._deaf_ms:
+            super().handle(event)
 
     def back(self) -> None:
         super().back()

@@ -36,8 +36,8 @@ NOT_CERTIFIED = ("changed", "no run yet", "stopped")
 class Packer(Aside):
     """``path``: the pack that is, or was, made ready; ``text``: how that stands or ended.
 
-    ``share``: of its step, None where nobody knows. ``saved``: the zip that came of it. ``desk``: the screen at which a
-    link is waited for. ``steps``: what was done at the desk.
+    ``share``: of its step, None where nobody knows. ``saved``: the zip that came of it. ``desk``: the screen of packs;
+    ``shown``: the pack that it shows. ``steps``: what was done at the desk.
     ``open_problems``: a pack that is ready but for problems, about which the desk asks.
     """
 
@@ -47,6 +47,7 @@ class Packer(Aside):
         self.saved: Path | None = None
         self._seconds = SECONDS
         self.desk: Screen | None = None
+        self.shown: Path | None = None
         self.obstacles: Obstacles = {}
         self.steps = Steps()
         self.busy = self._stopped = False
@@ -57,6 +58,11 @@ class Packer(Aside):
         self.open_problems: ReadyPack | None = None
         self._step: tuple[str, float | None, float] = "", None, 0.0
         self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
+
+    @property
+    def waited_for(self) -> bool:
+        """Whether the pack is what is looked at."""
+        return self.app.top is self.desk and self.shown == self.path
 
     def start(self, path: Path, seconds: float = SECONDS) -> None:
         self.path, self.busy, self._stopped = path, True, False
@@ -102,13 +108,14 @@ class Packer(Aside):
             if ready and ready.problems:
                 self.open_problems = ready
                 self.text = f"Neither zip nor link yet: {counted(len(ready.problems), 'open problem')}"
-                self.app.notify(f"{shown_text(ready.pack.name)}: {self.text}" * (self.app.top is not self.desk))
+                if not self.waited_for:
+                    self.app.notify(f"{shown_text(ready.pack.name)}: {self.text}")
             elif ready:
                 self.publish(ready)
 
     def publish(self, ready: ReadyPack) -> None:
         """Write the zip, put the link into the clipboard of who waits for it, and say so."""
-        app, name, waited_for = self.app, ready.pack.name, self.app.top is self.desk
+        app, name, waited_for = self.app, ready.pack.name, self.waited_for
         self.saved = app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
         self._zipped, self._seen = ready.zipped, None
         notices = [app.notice]
@@ -164,7 +171,7 @@ class PackStatus:
 
     def show(self, pack: EpisodeSet | None) -> None:
         """A pack as it is now. What was searched in vain changes nothing on the disk, but what is odd."""
-        self.pack = pack
+        self.pack, self.packer.shown = pack, pack and pack.path
         self._states.clear()
         question = pack and pack.pack, len(self.packer.obstacles)
         if question[0] and question != self._asked:

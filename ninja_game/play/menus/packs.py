@@ -27,7 +27,7 @@ from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
 from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_received, ask_text
 from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Cell, Rack
-from ninja_game.play.menus.packer import PackStatus, packer_of
+from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND, PackStatus, packer_of
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
@@ -190,7 +190,20 @@ class PackScreen(ThumbnailScreen):
             self.app.notify(f"Nothing here opens folders: it is {short_path(self._saved.parent)}")
 
     def _copy_link(self) -> None:
-        copy_link(self.app, Pack(self.path).files.link, title=self.pack.name if self.pack else "")
+        """Copy it; of a pack of one's own, first ask whether levels that are not certified are to go along."""
+        copy = partial(copy_link, self.app, Pack(self.path).files.link, title=self.pack.name if self.pack else "")
+        levels = self.pack.levels if self.pack and not self.pack.received else []
+        without = [level for level in levels if self.status.state(level) in (*NOT_CERTIFIED, NOT_FOUND)]
+        rows: list[Row] = [
+            ("Make ready first", self._make_ready, "Certifies them, and gives the link"),
+            ("Copy all the same", copy, "Whoever gets it is not told whether they can be passed"),
+            CANCEL,
+        ]
+        if without:
+            title = f"The link has {counted(len(without), 'level')} without certificate"
+            self.app.push(Menu(self.app, title, rows))
+        else:
+            copy()
 
     def _make_ready(self) -> None:
         path, name = self.path, self.player.settings.name
@@ -645,7 +658,7 @@ class PackScreen(ThumbnailScreen):
         elif now != before:
             # A notice may be about a certificate that a search of the editor has found.
             self._read(news=now[3] in ("", before[3]))
-        if packer.open_problems and self.app.top is self:
+        if packer.open_problems and packer.waited_for:
             self._ask_about(packer.open_problems)
         self.redraw = self.status.update() or now != before or self.redraw
 
@@ -654,14 +667,13 @@ class PackScreen(ThumbnailScreen):
 
     def _ask_about(self, ready: ReadyPack) -> None:
         self.packer.open_problems = None
-        self._read(ready.pack.files.path)
         rows: list[Row] = [
             ("Show the problems", self._show_problems, "Make ready asks again"),
             ("Zip and link all the same", lambda: self.packer.publish(ready), ""),
             CANCEL,
         ]
         title = f"{shown_text(ready.pack.name)}: {counted(len(ready.problems), 'open problem')}"
-        self.app.push(Menu(self.app, title, rows))
+        self.app.push(Menu(self.app, title, rows, unasked=True))
 
     def leave(self) -> None:
         super().leave()

@@ -377,14 +377,17 @@ def test_a_pack_is_made_ready_in_the_background(
     assert "fill accent 36,546" not in drawn(driver.app), "no bar where nobody knows how long it takes"
     go_on.set()
     driver.wait(lambda: driver.top() is not screen, "it asks what to do about open problems")
-    assert driver.shown(MenuScreen).title == "Laundry: 1 open problem"
+    driver.press("return")
+    assert driver.shown(MenuScreen).title == "Laundry: 1 open problem", "it takes no key that was meant for the desk"
     assert screen.packer.saved is None
+    driver.frames(ms=500)
     driver.choose("Show the problems")
     driver.shown(ProblemsScreen)
     driver.press("escape")
     assert driver.top() is screen, "it asks once"
     driver.choose("Make ready")
     driver.wait(lambda: driver.top() is not screen)
+    driver.frames(ms=500)
     driver.choose("Zip and link all the same")
     assert "the link is in the clipboard" in driver.app.notice
     zipped = driver.player.folder / "exports" / "laundry-1.zip"
@@ -479,6 +482,42 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
         f"Saved: {short_path(driver.player.folder / 'exports' / 'laundry-1.zip')}"
     )
     assert driver.button("Make ready")
+
+
+def test_what_was_made_ready_asks_only_at_its_own_desk(
+    driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ready = ReadyPack(Pack(path), [pack_finding("no-author", "pack.toml")], b"", "", [])
+    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", lambda *_, **__: ready)
+    other = packs.new_pack(path.parent, "Other", "me")
+    screen = opened(driver)
+    screen._read(path)
+    screen._make_ready()
+    screen._read(other)
+    driver.wait(lambda: not screen.packer.busy)
+    driver.frames(3)
+    assert driver.top() is screen
+    assert driver.app.notice == "Laundry: Neither zip nor link yet: 1 open problem"
+    screen._read(path)
+    driver.frames(2)
+    assert driver.shown(MenuScreen).title == "Laundry: 1 open problem"
+
+
+def test_a_link_of_levels_without_certificate_is_asked_about(driver: MenuDriver, path: Path) -> None:
+    level = path / "00-1-mind-the-gap.txt"
+    level.write_text(level.read_text("utf-8").replace("@", ".", 1), "utf-8")
+    screen, copied = opened(driver), list[str]()
+    with patch("pygame.scrap.put_text", copied.append):
+        driver.choose("Copy the link")
+        assert driver.shown(MenuScreen).title == "The link has 1 level without certificate"
+        assert not copied
+        driver.choose("Copy all the same")
+    assert (driver.top(), driver.app.notice, len(copied)) == (screen, "Link copied", 1)
+    (path / "received").touch()
+    screen._read()
+    with patch("pygame.scrap.put_text", copied.append):
+        driver.choose("Copy the link")
+    assert len(copied) == 2, "it is not for who received it to mend"
 
 
 def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_row(
