@@ -443,6 +443,10 @@ def _packs(driver: MenuDriver) -> Iterator[str]:
     driver.frames(30)
     yield "packs-list"
     driver.press("escape")
+    driver.choose("Preview")
+    driver.frames(30)
+    yield "packs-preview"
+    driver.press("escape")
     driver.carry(screen.shelves.row_area(2), screen.shelves.row_area(9), drop=False)
     yield "packs-dragging"
     driver.press("escape")

@@ -50,11 +50,9 @@ _NO_LEVELS = (
     "Make ready then certifies all, and gives you a zip and a link to share.",
 )
 
-_SHARE = "Send either: a link is pasted, a zip dropped, in Levels > Packs"
-
-_CAN = "Preview, name, copy or delete the pack"
-
 _DRAG = "Drag a level or an episode; Enter or a second click: what can be done. Ctrl or Shift and a click: several"
+
+_MOVES = "Let go where it is to be. The colours of a level go by its place in the pack"
 
 _STOPS = "It can be stopped at any time: what was found is kept."
 
@@ -64,7 +62,7 @@ Edit = Callable[[Entry, Finding | None], object]
 class PackScreen(ThumbnailScreen):
     """``pack``: the one on the shelves. ``held``: what is being moved; ``pointer``: where the mouse has it, else None.
 
-    ``marked``: files of levels with which is done what is done with one of them.
+    ``marked``: files of the levels that are chosen together: what is done with one is done with all.
     ``edit``: opens a level in the editor, at a finding.
     """
 
@@ -145,12 +143,11 @@ class PackScreen(ThumbnailScreen):
         chosen = self.chosen = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
         chosen.more = partial(app.push, PackList(app, self.mine, self._show))
         received = bool(self.pack and self.pack.received)
-        whose = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
+        whose = f"{have.index.title}{', received' if received else ''}, in the folder {self.path.name}" if have else ""
         chosen.hint = f"{whose}. Enter, or a click on the name: all your packs"
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(pack.name if pack.key else "The game's own", pack.key) for pack in self.sets if pack is not self.pack]
         tray_choice = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
-        self.shelves.hint = self.tray.hint = _DRAG
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
         undo = Button((206, 60, 44, 28), "Undo", lambda: self.do(self._undo), size=10)
         steps = self.packer.steps
@@ -158,7 +155,9 @@ class PackScreen(ThumbnailScreen):
         new = Button((256, 60, 76, 28), "New pack...", self._new_pack, size=10)
         paste = Button((338, 60, 68, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
-        about = Button((412, 60, 68, 28), "More...", self._about, size=10, hint=_CAN)
+        about = Button(
+            (412, 60, 68, 28), "More...", self._about, size=10, hint="Preview, name, copy or delete the pack"
+        )
         view = self.view = Button((486, 60, 60, 28), "Play" if received else "Preview", self._view, size=10)
         view.hint = f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
         if received and have:
@@ -170,9 +169,11 @@ class PackScreen(ThumbnailScreen):
         link = Button((662, 525, 94, 24), "Copy the link", self._copy_link, size=10)
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
-        share = [] if self.packer.busy else [*[folder] * bool(self._saved), link]
+        if not have:
+            return [new, paste, undo] if steps else [new, paste]
+        share = [folder, link] if self._saved else [link]
         first = [self.shelves, chosen, undo, new, paste, about, view, problems, make, tray_choice, self.tray]
-        return [*first, *share] if have else [new, paste, *[undo] * bool(steps)]
+        return first if self.packer.busy else [*first, *share]
 
     def _view(self) -> None:
         """Show the episodes of the pack; those of one's own as nobody has played them yet."""
@@ -275,8 +276,9 @@ class PackScreen(ThumbnailScreen):
             self.beside = "yours" if self.player.catalogue.own() else "none"
             self._read(path)
 
-        fields = [("Name", "My pack", 60), ("Author (may be empty)", "", 40)][: 1 if self.player.settings.name else 2]
-        step = "New pack"
+        fields, step = [("Name", "My pack", 60)], "New pack"
+        if not self.player.settings.name:
+            fields.append(("Author (may be empty)", "", 40))
         self.app.push(FormPanel(self.app, step, fields, "OK", lambda texts: self.do(lambda: make(*texts), step)))
 
     def _paste(self) -> None:
@@ -352,7 +354,7 @@ class PackScreen(ThumbnailScreen):
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
         key, own = (self.pack.key, not self.pack.received) if self.pack else ("", True)
-        without = "No episode has levels" * empty
+        without = "No episode has levels" if empty else ""
         rows: list[Row] = [
             ("Play it", None if empty else lambda: self.app.push(EpisodeGrid(self.app, key)), without),
             *[("Show it as received", None if empty else self._view, without or PREVIEW)] * own,
@@ -410,13 +412,15 @@ class PackScreen(ThumbnailScreen):
             if why := play_level(self.app, level):
                 self.app.notify(why)
 
-        rows: list[Row] = [
-            ("Edit", partial(self.change, edit, "Edit") if file.parent == self.path else edit, ""),
-            ("Play", play, ""),
-            ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
-            ("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), ""),
-        ]
-        rows = rows[: 4 if file.parent == self.path else 3] * (len(levels) == 1)
+        rows: list[Row] = []
+        if len(levels) == 1:
+            rows = [
+                ("Edit", partial(self.change, edit, "Edit") if file.parent == self.path else edit, ""),
+                ("Play", play, ""),
+                ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
+            ]
+            if file.parent == self.path:
+                rows.append(("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), ""))
         rows.append(("Move...", lambda: self._hold(cell), ""))
         if all(Path(each.named.file).parent == self.path for each in levels):
             rows.append(("Copy", lambda: self.change(copy, f"Copy {title}"), "Another level like it"))
@@ -490,7 +494,7 @@ class PackScreen(ThumbnailScreen):
         return [cell.level for each in racks for cell in each.cells if cell.level]
 
     def _taken(self, level: Entry) -> list[Entry]:
-        """The levels with which is done what is done with this: all that are marked, if it is one of them."""
+        """The levels that an action on this one is for: all that are marked, if it is one of them."""
         marked = [each for each in self._levels() if each.named.file in self.marked]
         return marked if level.named.file in self.marked else [level]
 
@@ -684,15 +688,19 @@ class PackScreen(ThumbnailScreen):
     # --- picture ---
 
     def draw_frame(self, surface: pygame.Surface) -> None:
+        self.shelves.hint = self.tray.hint = _MOVES if self.held else _DRAG
         super().draw_frame(surface)
         theme, faint = self.theme, self.theme.palette.faint
         if not (self.pack and self.pack.levels):
             theme.paragraph(surface, _NO_LEVELS if self.pack else _NO_PACK, (36, 360, 560, 90), 13, 20, align="centre")
         packer = self.packer
-        whose = f"{shown_text(packer.path.name)}: " * bool(packer.text and packer.path != self.path)
-        texts = [whose + packer.text or self.status.counts()]
-        texts += [self.status.counts()] * bool(packer.text and not (whose or packer.busy))
-        texts += [_SHARE] * bool(self._saved and packer.text.startswith("Saved"))
+        texts = [packer.text or self.status.counts()]
+        if packer.text and packer.path != self.path:
+            texts = [f"{shown_text(packer.path.name)}: {packer.text}"]
+        elif packer.text and not packer.busy:
+            texts.append(self.status.counts())
+        if self._saved and packer.text.startswith("Saved"):
+            texts.append("Send either: a link is pasted, a zip dropped, in Levels > Packs")
         place = (36, 524, 720 if packer.busy else 516, 41)
         theme.paragraph(surface, texts, place, 10, 13.5, colour=faint)
         if packer.busy and packer.share is not None:

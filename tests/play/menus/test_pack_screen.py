@@ -89,6 +89,7 @@ def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriv
     driver.carry(shelves.row_area(1), half(screen, 5, right=True), drop=False)
     x, y, w, _ = shelves.row_area(5)
     assert screen._landing() == (5, True)
+    assert "The colours of a level go by its place" in drawn(driver.app)
     seen, mark = drawn(driver.app), f"fill accent {px(x + w - 2, y + 4)} 4 x"
     assert seen.index(mark) > seen.index("First Steps' at 577,"), "not behind what is held"
     driver.mouse_up(half(screen, 5, right=True))
@@ -967,7 +968,10 @@ def test_a_pack_is_previewed_as_somebody_who_has_played_nothing(driver: MenuDriv
     driver.choose("Preview")
     grid = driver.shown(EpisodeGrid)
     text = drawn(driver.app)
-    assert "Laundry by the ninja-game developers. Dry by noon" in text
+    assert "text 'Laundry' at 44,58 size 20 bold" in text
+    for said in ("by the ninja-game developers", "Dry by noon"):
+        assert f"text '{said}' at" in text
+    assert "text 'seen in practice'" not in text
     assert "text 'Preview as player'" in text
     assert "0 of 8 levels passed" in text
     assert "text '9.200 s'" not in text, "nothing is unlocked, nor raced"
@@ -1135,6 +1139,16 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     assert accepted[1].go
     accepted[1].go()
     assert shown[-1] == shown[1]
+    driver.app.push(editor := EditorScreen(driver.app, offers_recovered=False))
+    assert screen.shelves.cells[1].level
+    editor.commands.edit_entry(screen.shelves.cells[1].level)
+    editor.session.examine()
+    driver.frames(2)
+    text = drawn(driver.app)
+    assert "Accepted: meant" in text
+    assert "text '!'" not in text
+    editor.session.close()
+    driver.app.pop()
     packs.take_back(path, level.name, Pack(path).index.accepted[0].code)
     packs.accept(path, level.name, "no-gold-run", "a joke")
     screen._read()
