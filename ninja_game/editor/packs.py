@@ -458,11 +458,6 @@ def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:
     return (pack.levels[file].level, kind) if kind and file in pack.levels else None
 
 
-def obstacle_of(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> Finding | None:
-    missing = missing_run(pack, finding)
-    return obstacles.get(missing) if missing else None
-
-
 def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
     """The level file and the kind of the run that a finding about a file misses; no kind where it misses none."""
     level = level_of(pack, file)

@@ -8,7 +8,7 @@ from time import monotonic
 from typing import NamedTuple
 
 from ninja_game.editor.certify import SOLVER
-from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, Steps, make_ready, obstacle_of, problems_of
+from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, Steps, make_ready, problems_of
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
@@ -186,10 +186,8 @@ class PackStatus:
         return news
 
     def check(self, pack: Pack) -> Checked:
-        known = self.packer.obstacles
-        every = problems_of(pack, known)
-        made_ready = [finding for finding in every if finding.code in MADE_READY and not finding.reason]
-        to_do = [finding for finding in made_ready if not obstacle_of(pack, finding, known)]
+        every = problems_of(pack, self.packer.obstacles)
+        to_do = [each for each in every if each.code in MADE_READY and not (each.reason or each.sought)]
         return Checked(pack, [finding for finding in every if finding not in to_do], to_do)
 
     @property
