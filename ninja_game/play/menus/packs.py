@@ -26,7 +26,7 @@ from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
 from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_received, ask_text
 from ninja_game.play.menus.pack_list import PackList
-from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Cell, Rack
+from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Cell, Marks, Rack
 from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND, PackStatus, packer_of
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.replays import watch
@@ -62,7 +62,6 @@ Edit = Callable[[Entry, Finding | None], object]
 class PackScreen(ThumbnailScreen):
     """``pack``: the one on the shelves. ``held``: what is being moved; ``pointer``: where the mouse has it, else None.
 
-    ``marked``: files of the levels that are chosen together: what is done with one is done with all.
     ``edit``: opens a level in the editor, at a finding.
     """
 
@@ -78,7 +77,7 @@ class PackScreen(ThumbnailScreen):
         self.held: Cell | None = None
         self.chosen: Widget | None = None
         self.pointer: tuple[float, float] | None = None
-        self.marked = set[str]()
+        self.marked = Marks()
         self.packer = packer_of(app)
         self.packer.desk = self
         self.status = PackStatus(self.packer, self.player.catalogue)
@@ -494,26 +493,15 @@ class PackScreen(ThumbnailScreen):
         return [cell.level for each in racks for cell in each.cells if cell.level]
 
     def _taken(self, level: Entry) -> list[Entry]:
-        """The levels that an action on this one is for: all that are marked, if it is one of them."""
-        marked = [each for each in self._levels() if each.named.file in self.marked]
-        return marked if level.named.file in self.marked else [level]
+        """The levels that an action on this one is for."""
+        return self.marked.together(level, self._levels())
 
     def _mark(self, x: float, y: float) -> bool:
-        """Mark levels where Ctrl or Shift is down; whether it was. A click on another than those marked ends that."""
-        mods, rack = pygame.key.get_mods(), self._at(x, y)
-        if not isinstance(rack, Rack) or (index := rack.at(x, y)) is None:
+        """Whether a click marks levels."""
+        rack = self._at(x, y)
+        index = rack.at(x, y) if isinstance(rack, Rack) else None
+        if not isinstance(rack, Rack) or index is None or not self.marked.click(rack, index):
             return False
-        level, chosen = rack.cells[index].level, rack.chosen.level
-        if not (level and mods & (pygame.KMOD_CTRL | pygame.KMOD_META | pygame.KMOD_SHIFT)):
-            if not (level and level.named.file in self.marked):
-                self.marked.clear()
-            return False
-        if mods & pygame.KMOD_SHIFT:
-            first, last = sorted((rack.index, index))
-            self.marked |= {each.level.named.file for each in rack.cells[first : last + 1] if each.level}
-        else:
-            self.marked |= {chosen.named.file} if chosen and not self.marked else set()
-            self.marked ^= {level.named.file} if self.marked != {level.named.file} else set()
         self.focus, rack.index, self.redraw = rack, index, True
         return True
 
