@@ -40,25 +40,24 @@ def lint(pack: Path, design: bool) -> int:
       ninja-game levels lint my-pack/ --design
     """
     from ninja_game.formats.pack.pack import Pack
-    from ninja_game.runs.packs import lint
+    from ninja_game.runs.packs import findings
 
     opened = Pack(pack)
-    findings = list(lint(opened, with_design=design))
-    _show(findings)
-    click.echo(_summary(opened, len(findings)))
-    return 1 if findings else 0
+    return _tell(opened, list(findings(opened, with_design=design)))
 
 
-def _show(findings: list[PackFinding]) -> None:
-    for finding in findings:
-        click.echo(f"{shown_text(str(finding), 500)}. {finding.hint} [{finding.code}]")
-
-
-def _summary(pack: Pack, count: int) -> str:
+def _tell(pack: Pack, findings: list[PackFinding]) -> int:
+    """Say what is odd; the exit code."""
+    open_ones = [finding for finding in findings if not finding.reason]
+    for finding in open_ones:
+        text = f"{pack.files.place(finding.place)}: {finding.text}" if finding.file else finding.text
+        click.echo(f"{shown_text(text, 500)}. {finding.hint} [{finding.code}]")
+    count, accepted = len(open_ones), len({(finding.file, finding.code) for finding in findings if finding.reason})
     parts = [counted(len(pack.episodes), "episode"), counted(len(pack.levels), "level")]
     parts.append(counted(count, "finding") if count else "nothing odd")
-    accepted = len(pack.index.accepted)
-    return f"{shown_text(pack.name)}: {', '.join(parts)}{f', {accepted} accepted' if accepted else ''}"
+    parts += [f"{accepted} accepted"] if accepted else []
+    click.echo(f"{shown_text(pack.name)}: {', '.join(parts)}")
+    return 1 if open_ones else 0
 
 
 @click.command(name="pars")
@@ -115,11 +114,9 @@ def pack_up(pack: Path, seconds: float, jobs: int, zip_path: Path | None) -> int
     with progress_line() as report:
         ready = make_ready(pack, seconds=seconds, jobs=jobs, say=lambda text, _: report.say(text))
     write_atomically(path, ready.zipped)
-    _show(ready.findings)
-    click.echo(
-        "\n".join([*ready.notes, _summary(ready.pack, len(ready.findings)), f"wrote {path}", ready.link]).strip()
-    )
-    return 1 if ready.findings else 0
+    code = _tell(ready.pack, ready.findings)
+    click.echo("\n".join([*ready.notes, f"wrote {path}", ready.link]).strip())
+    return code
 
 
 @click.group(commands={"pack": pack_up, "pars": pars, "lint": lint})

@@ -32,7 +32,7 @@ from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_FILES, PARS, 
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.episodes import episode_set
 from ninja_game.levels.findings import Finding, PackFinding
-from ninja_game.runs.packs import KINDS, file_of, is_certified, level_of, lint, make_pars
+from ninja_game.runs.packs import KINDS, findings, has_gold_out_of_reach, is_certified, level_of, make_pars
 from ninja_game.sim.level import Level
 
 if TYPE_CHECKING:
@@ -387,13 +387,21 @@ MADE_READY = (*_MISSING, "certificate", "no-pars", "old-pars")
 
 @dataclass(frozen=True)
 class ReadyPack:
-    """``findings``: what is left; ``zipped``: its bytes; ``link``: "" if it is too large; ``notes``: what it lacks."""
+    """``findings``: what is odd, accepted or not; ``zipped``: its bytes; ``link``: "" where it is too large.
+
+    ``notes``: what could not be done.
+    """
 
     pack: Pack
     findings: list[PackFinding]
     zipped: bytes
     link: str
     notes: list[str]
+
+    @property
+    def problems(self) -> list[PackFinding]:
+        """What is odd and not accepted."""
+        return [finding for finding in self.findings if not finding.reason]
 
 
 def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Obstacles | None = None) -> ReadyPack:
@@ -418,38 +426,36 @@ def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Ob
         notes.append(f"No par times: {error}")
     say("Looking for problems", 1.0)
     pack, link = Pack(path), ""
-    findings = problems_of(pack, obstacles)
+    found = problems_of(pack, obstacles)
     try:
         link = pack.files.link()
     except LinkError as error:
         notes.append(f"No link: {error}")
-    return ReadyPack(pack, findings, pack.files.zipped(), link, notes)
+    return ReadyPack(pack, found, pack.files.zipped(), link, notes)
 
 
 def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
-    """The findings about a pack, with the obstacles of failed searches; only to the exit if there is no such run."""
-    findings, no_exit = dict[PackFinding, None](), set[Level]()
-    for finding in lint(pack, with_gold=True):
+    """What is odd about a pack, accepted or not; where a run was searched in vain, why.
+
+    Where none to the exit was found, none with all gold is missed.
+    """
+    found, no_exit = list[PackFinding](), set[Level]()
+    for finding in findings(pack, with_gold=True):
         named_finding, missing = finding, missing_run(pack, finding)
         if missing and (why := obstacles.get(missing)):
             level, kind = missing
             if kind == "gold" and level in no_exit:
                 continue
             no_exit |= {level} if kind == "exit" else set()
-            named_finding = finding._replace(text=f"the search found no {_SOUGHT[kind]}: {why.sentence}")
-        findings[named_finding] = None
-    return list(findings)
+            named_finding = finding._replace(values={}, odd=why, sought=_SOUGHT[kind])
+        found += [named_finding] if named_finding not in found else []
+    return found
 
 
 def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:
-    """The level and the kind of the run that a finding misses, as keys of ``Obstacles``."""
-    file, kind = _missing(pack, file_of(pack, finding), finding.code)
+    """The level and the kind of the run of which a finding says that it is missing, as ``Obstacles`` have them."""
+    file, kind = _missing(pack, finding.file, finding.code)
     return (pack.levels[file].level, kind) if kind and file in pack.levels else None
-
-
-def obstacle_of(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> Finding | None:
-    missing = missing_run(pack, finding)
-    return obstacles.get(missing) if missing else None
 
 
 def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
@@ -468,8 +474,10 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
     accepted = {_missing(pack, entry.file, entry.code) for entry in pack.index.accepted}
 
     def is_open(file: str, kind: str) -> bool:
-        known = (pack.levels[file].level, kind) in obstacles or (file, kind) in accepted
-        return not (known or is_certified(pack, file, kind))
+        level, says = pack.levels[file].level, pack.levels[file].says
+        known = (level, kind) in obstacles or (file, kind) in accepted
+        vain = kind == "gold" and has_gold_out_of_reach(level, says)
+        return not (known or vain or is_certified(pack, file, kind))
 
     in_order = [Path(level.named.file).name for level in episode_set(pack, "").levels]
     levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in KINDS)}

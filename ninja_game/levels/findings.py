@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from ninja_game.files.user_folder import asset_text
@@ -10,11 +11,15 @@ from ninja_game.formats.ascii.places import Cell
 
 
 class Rule(NamedTuple):
-    """``text``: what is odd, with {values}; ``hint``: how to fix it. ``about_switch``: whether it is about a switch."""
+    """``text``: what is odd, with {values}; ``hint``: how to fix it. ``about_switch``: whether it is about a switch.
+
+    ``expected``: what a file would have instead, for who edits it as text.
+    """
 
     text: str
     hint: str
     about_switch: bool = False
+    expected: str = ""
 
 
 def _read_rules() -> dict[str, dict[str, Rule]]:
@@ -67,19 +72,45 @@ class Finding(NamedTuple):
 
 
 class PackFinding(NamedTuple):
-    """Something odd about a pack. ``place``: the file, with a line where one is known; '' where ``text`` names it."""
+    """Something odd about a pack. ``file``: which, "" for the pack as a whole; ``line``: of it, 0 where none is known.
 
-    place: str
+    ``values``: what its text names, files as the pack has them. ``odd``: the finding about the level that this is, or
+    what kept the solver from the run that is ``sought``. ``reason``: why its maker accepts it, "" for an open one.
+    """
+
     code: str
-    text: str
+    file: str = ""
+    line: int = 0
+    values: Mapping[str, object] = {}
+    odd: Finding | None = None
+    sought: str = ""
+    reason: str = ""
 
-    def __str__(self) -> str:
-        return f"{self.place}: {self.text}" if self.place else self.text
+    @property
+    def place(self) -> str:
+        """The file, with the line where one is known."""
+        return f"{self.file}:{self.line}" if self.line else self.file
+
+    @property
+    def text(self) -> str:
+        """What is odd, as its files have it."""
+        expected = "" if self.odd else self._rule.expected.format(**self.values)
+        return self.text_with(self.values) + (f"; expected {expected}" if expected else "")
+
+    def text_with(self, values: Mapping[str, object]) -> str:
+        """What is odd, with values in the words of its reader."""
+        if self.odd:
+            return f"the search found no {self.sought}: {self.odd.sentence}" if self.sought else self.odd.sentence
+        return self._rule.text.format(**values)
 
     @property
     def hint(self) -> str:
         """How to fix it, a sentence."""
-        return (PACK_RULES | LEVEL_RULES | DESIGN_RULES)[self.code].hint
+        return self.odd.hint if self.odd else self._rule.hint
+
+    @property
+    def _rule(self) -> Rule:
+        return (PACK_RULES | DESIGN_RULES)[self.code]
 
 
 class RunProblem(NamedTuple):
@@ -102,14 +133,9 @@ def run_problem(code: str, **values: object) -> RunProblem:
     return RunProblem(code, RUN_RULES[code].text.format(**values))
 
 
-def pack_finding(code: str, place: str = "", **values: object) -> PackFinding:
-    """A finding of this code about a pack; ``values``: what its text names."""
-    return PackFinding(place, code, PACK_RULES[code].text.format(**values))
-
-
-def design_finding(code: str, place: str, **values: object) -> PackFinding:
-    """What a level lacks; ``values``: what its text names."""
-    return PackFinding(place, code, DESIGN_RULES[code].text.format(**values))
+def pack_finding(code: str, file: str = "", line: int = 0, **values: object) -> PackFinding:
+    """A finding of this code about a pack, or about what its level lacks; ``values``: what its text names."""
+    return PackFinding(code, file, line, values)
 
 
 def level_finding(code: str, records: tuple[int, ...] = (), cells: tuple[Cell, ...] = (), **values: object) -> Finding:

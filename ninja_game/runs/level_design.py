@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.levels.findings import PackFinding, design_finding
+from ninja_game.levels.findings import PackFinding, pack_finding
 from ninja_game.levels.warnings import Ground
 from ninja_game.runs.trace import RunTrace, trace_level
 from ninja_game.sim import kinds
@@ -69,12 +69,12 @@ BOUNDS = {
 """The demanded range of a count, by the code of the finding: the outer tenths of the reference, or the judges' wish."""
 
 
-def design_findings(counts: Design, place: str = "") -> Iterator[PackFinding]:
-    """The design findings of a level. ``place``: its file."""
+def design_findings(counts: Design, file: str = "") -> Iterator[PackFinding]:
+    """The design findings of a level. ``file``: its own."""
     for code, (name, sign, bound) in BOUNDS.items():
         value = getattr(counts, name)
         if value is not None and (value < bound if sign == ">=" else value > bound):
-            yield design_finding(code, place, value=value, bound=bound)
+            yield pack_finding(code, file, value=value, bound=bound)
 
 
 def design(level: Level, inputs: bytes) -> Design:

@@ -15,14 +15,17 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import DIGITS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
-from ninja_game.levels.findings import DESIGN_RULES, PackFinding, pack_finding
+from ninja_game.levels.findings import PackFinding, pack_finding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.verify import Verdict, verify_recording, with_demands
+from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
 
 _verdict = lru_cache(maxsize=1024)(verify_recording)
 """Each of the checks here needs a pack's certificates, and again after each change of the pack."""
+
+_odd = lru_cache(maxsize=1024)(level_findings)
 
 
 @dataclass(frozen=True)
@@ -76,6 +79,12 @@ def is_certified(pack: Pack, file: str, kind: str) -> bool:
         return False
 
 
+def has_gold_out_of_reach(level: Level, says: str = "") -> bool:
+    """Whether a finding about the level says that a piece can never be touched, so that no run takes all gold."""
+    barred = {number for finding in _odd(level, says) if finding.code == "unreachable" for number in finding.records}
+    return any(level.objects[number].kind == GOLD for number in barred)
+
+
 def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
     """The pars of every level file with a sound certificate to the exit, one after another.
 
@@ -109,34 +118,26 @@ KINDS = ("exit", "gold")
 NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")  # findings of what cannot be played, by code
 
 
-def file_of(pack: Pack, finding: PackFinding) -> str:
-    """The file that a finding is about; "" for the pack as a whole."""
-    text = str(finding)
-    return next((name for name in pack.files.names if text.startswith(f"{pack.files.place(name)}:")), "")
-
-
 def level_of(pack: Pack, file: str) -> str:
     """The level file that a file is, or that it certifies; else the file."""
     return next((level for level in pack.files.levels for kind in KINDS if certificate_name(level, kind) == file), file)
 
 
 def lint(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> Iterator[PackFinding]:
-    """Every finding that the pack does not accept; none for a proper pack.
+    """Every finding about the pack that is open: what ``findings`` finds and the pack does not accept."""
+    return (each for each in findings(pack, with_design=with_design, with_gold=with_gold) if not each.reason)
 
-    ``with_design``: with design findings (docs/good-levels.md); ``with_gold``: with missing runs for all gold.
+
+def findings(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> Iterator[PackFinding]:
+    """Every finding about the pack, those that its index accepts with the reason; none for a proper pack.
+
+    ``with_design``: what its levels lack, too (docs/good-levels.md); ``with_gold``: no run with all gold, too, where
+    no piece is out of reach.
     """
-    unasked = {*(() if with_design else DESIGN_RULES), *(() if with_gold else ("no-gold-run",))}
-    open_ones = {(finding.file, finding.code): finding for finding in pack.index.accepted}
-    accepted = set(open_ones)
+    reasons = {(accepted.file, accepted.code): accepted.reason for accepted in pack.index.accepted}
     for finding in _findings(pack, with_design=with_design, with_gold=with_gold):
-        key = file_of(pack, finding), finding.code
-        open_ones.pop(key, None)
-        if key not in accepted or finding.code in NEVER_ACCEPTED:
-            yield finding
-    for stale in open_ones.values():
-        if stale.code not in unasked:
-            place = f"{pack.files.place(INDEX)}:{stale.line}"
-            yield pack_finding("accepted-in-vain", place, file=stale.file, finding=stale.code)
+        may = finding.code not in NEVER_ACCEPTED
+        yield finding._replace(reason=reasons.get((finding.file, finding.code), "")) if may else finding
 
 
 def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[PackFinding]:
@@ -145,13 +146,13 @@ def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[Pac
     yield from _about_index(pack)
     for file, named in pack.levels.items():
         if named.file not in in_episodes:
-            yield pack_finding("single-level", pack.files.place(file))
+            yield pack_finding("single-level", file)
     yield from _about_levels(pack)
     yield from _about_order(pack)
     for file, named in pack.levels.items() if with_gold else ():
-        rich = pack.certificate(file, "gold") or not named.level.gold
+        rich = pack.certificate(file, "gold") or not named.level.gold or has_gold_out_of_reach(named.level, named.says)
         if not rich and is_certified(pack, file, "exit"):
-            yield pack_finding("no-gold-run", pack.files.place(file))
+            yield pack_finding("no-gold-run", file)
     sound = True
     for finding in _about_certificates(pack):
         sound = False
@@ -162,28 +163,28 @@ def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[Pac
         for file in pack.levels:
             if run := certificate(pack, file, "exit"):
                 counts = design(run.level, run.recording.inputs[: run.verdict.ticks])
-                yield from design_findings(counts, pack.files.place(file))
+                yield from design_findings(counts, file)
 
 
 def _about_index(pack: Pack) -> Iterator[PackFinding]:
-    place, index = pack.files.place(INDEX), pack.index
+    index = pack.index
     if not index.is_signed:
-        yield pack_finding("no-author", place)
+        yield pack_finding("no-author", INDEX)
     used = {episode.number // EPISODES_PER_COLUMN for episode in index.episodes}
     if used and index.columns and max(used) >= len(index.columns):
-        yield pack_finding("column-without-name", place, column=max(used), needed=max(used) + 1)
+        yield pack_finding("column-without-name", INDEX, column=max(used), needed=max(used) + 1)
     names: dict[str, int] = {}
     for episode in index.episodes:
-        where, number = f"{place}:{episode.line}", episode.number
+        where, number = (INDEX, episode.line), episode.number
         if not episode.name:
-            yield pack_finding("episode-name", where, number=number)
+            yield pack_finding("episode-name", *where, number=number)
         elif episode.name in names:
-            yield pack_finding("same-episode-name", where, number=number, other=names[episode.name])
+            yield pack_finding("same-episode-name", *where, number=number, other=names[episode.name])
         names[episode.name] = number
         if episode not in pack.episodes:
-            yield pack_finding("empty-episode", where, number=number)
+            yield pack_finding("empty-episode", *where, number=number)
     if not index.episodes:
-        yield pack_finding("no-episodes", place)
+        yield pack_finding("no-episodes", INDEX)
 
 
 def _about_levels(pack: Pack) -> Iterator[PackFinding]:
@@ -191,37 +192,36 @@ def _about_levels(pack: Pack) -> Iterator[PackFinding]:
     levels: dict[str, str] = {}
     places: dict[str, str] = {}
     for file, named in pack.levels.items():
-        place = pack.files.place(file)
         if named.form == "ascii" and named.name == PurePath(file).stem:
-            yield pack_finding("no-name", place)
+            yield pack_finding("no-name", file)
         digest = level_digest(named.level)
         for code, key, seen in (("same-name", named.name.casefold().strip(), names), ("same-content", digest, levels)):
             if key in seen:
-                yield pack_finding(code, place, other=seen[key])
+                yield pack_finding(code, file, other=seen[key])
             seen.setdefault(key, file)
         if file[:2].isdecimal() and file[2:3] == "-" and file[4:5] == "-":
             if file[:4] in places:
-                yield pack_finding("same-place", place, number=file[:4], other=places[file[:4]])
+                yield pack_finding("same-place", file, number=file[:4], other=places[file[:4]])
             places.setdefault(file[:4], file)
-        for finding in level_findings(named.level, named.says):
-            yield PackFinding(place, finding.code, finding.sentence)
+        for finding in _odd(named.level, named.says):
+            yield PackFinding(finding.code, file, odd=finding)
 
 
 def _about_certificates(pack: Pack) -> Iterator[PackFinding]:
     named = {pack.certificate(file, kind) for file in pack.files.levels for kind in KINDS}
     for name in pack.files.names:
         if name.startswith(CERTIFICATES) and name not in named:
-            yield pack_finding("stray-certificate", pack.files.place(name))
+            yield pack_finding("stray-certificate", name)
     for file in pack.levels:
         for kind in KINDS:
             try:
-                run = certificate(pack, file, kind)
+                run, name = certificate(pack, file, kind), certificate_name(file, kind)
                 if run:
-                    yield from (pack_finding("certificate", run.place, why=problem) for problem in run.problems)
+                    yield from (pack_finding("certificate", name, why=problem) for problem in run.problems)
                 elif kind == "exit":
-                    yield pack_finding("no-certificate", pack.files.place(file))
+                    yield pack_finding("no-certificate", file)
             except NinjaGameError as error:
-                yield pack_finding("unreadable", why=error)
+                yield pack_finding("unreadable", why=str(error))
 
 
 def _about_order(pack: Pack) -> Iterator[PackFinding]:
@@ -230,22 +230,21 @@ def _about_order(pack: Pack) -> Iterator[PackFinding]:
         for one, other in pairwise(levels):
             hard, easy = pars.get(one.file), pars.get(other.file)
             if hard and easy and hard.grade not in ("", "easy", "medium") and easy.grade == "easy":
-                values = {"grade": hard.grade, "other": PurePath(other.file).name, "easier": easy.grade}
-                yield pack_finding("hard-before-easy", one.file, **values)
+                file, behind = PurePath(one.file).name, PurePath(other.file).name
+                yield pack_finding("hard-before-easy", file, grade=hard.grade, other=behind, easier=easy.grade)
     first, *later = [pars.get(level.file) for levels in pack.episodes.values() for level in levels] or [None]
     known = [measured.difficulty for measured in later if measured and measured.difficulty is not None]
     if first and first.grade not in ("", "easy") and len(known) > 1 and (first.difficulty or 0.0) > max(known):
-        place = next(iter(pack.episodes.values()))[0].file
-        yield pack_finding("hardest-first", place, grade=first.grade)
+        file = PurePath(next(iter(pack.episodes.values()))[0].file).name
+        yield pack_finding("hardest-first", file, grade=first.grade)
 
 
 def _about_pars(pack: Pack) -> Iterator[PackFinding]:
-    place = pack.files.place(PARS)
     if PARS not in pack.files.names:
-        yield pack_finding("no-pars", place)
+        yield pack_finding("no-pars", PARS)
         return
     try:
         if pack.read_pars() != dict(make_pars(pack, tries=0)):
-            yield pack_finding("old-pars", place)
+            yield pack_finding("old-pars", PARS)
     except NinjaGameError as error:
-        yield pack_finding("unreadable", why=error)
+        yield pack_finding("unreadable", why=str(error))

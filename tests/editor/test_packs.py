@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.editor import packs
-from ninja_game.editor.packs import Obstacles, make_ready, obstacle_of
+from ninja_game.editor.packs import Obstacles, make_ready, missing_run
 from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, PackFiles
@@ -191,8 +191,8 @@ def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(
     ready = make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     assert searched == []
     assert {finding.code for finding in ready.findings} == {"no-gold-run"}
-    assert len(ready.findings) == len(levels) - 1
-    assert ready.findings[0].text.startswith("the search found no run with all gold: 1 at most were collected at once")
+    assert len(ready.problems) == len(levels) - 1
+    assert ready.problems[0].text.startswith("the search found no run with all gold: 1 at most were collected at once")
     packs.take_back(pack, FIRST, "no-gold-run")
     assert "accept" not in (pack / "pack.toml").read_text("utf-8")
     make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
@@ -261,9 +261,9 @@ def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, monke
         (level, kind): level_finding("gold-left", (2,), most=1, never=kind) for kind in ("exit", "gold")
     }
     [broken] = [each for each in lint(Pack(pack)) if each.code == "certificate"]
-    why = obstacle_of(Pack(pack), broken, obstacles)
-    assert why
-    assert why.text.endswith("gold")
+    missing = missing_run(Pack(pack), broken)
+    assert missing
+    assert obstacles[missing].text.endswith("gold")
     packs.take_back(pack, FIRST, "no-gold-run")
     make_ready(pack, seconds=1.0, jobs=1, say=_quiet)
     assert searched == ["First Steps"]

@@ -86,7 +86,7 @@ def test_every_level_is_certified_to_the_exit_and_with_all_gold() -> None:
 def test_levels_have_what_good_levels_must_have_but_for_those_that_are_known() -> None:
     found: dict[str, list[str]] = {}
     for finding in lint(OURS, with_design=True):
-        found.setdefault(finding.code, []).append(Path(finding.place).name[:4])
+        found.setdefault(finding.code, []).append(finding.file[:4])
     assert {code: " ".join(sorted(files)) for code, files in found.items()} == LACKING
 
 

@@ -203,7 +203,8 @@ def test_every_code_is_explained_in_the_documents() -> None:
 def row_of(entry: tuple[str, Rule]) -> str:
     """A code's line of docs/findings.md."""
     code, rule = entry
-    text = re.sub(r"\{(\w+)[^}]*\}", lambda value: value[1].upper(), rule.text)
+    whole = f"{rule.text}; expected {rule.expected}" if rule.expected else rule.text
+    text = re.sub(r"\{(\w+)[^}]*\}", lambda value: value[1].upper(), whole)
     return f"| `{code}` | {text} | {rule.hint} |"
 
 

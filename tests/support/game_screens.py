@@ -436,12 +436,16 @@ def _packs(driver: MenuDriver) -> Iterator[str]:
     screen = driver.shown(PackScreen)
     screen.enter()
     driver.frames(30)
-    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    driver.wait(lambda: screen.status.now, "the problems are known")
     driver.frames(2)
     yield "packs"
     driver.app.push(PackList(driver.app, screen.mine, screen._show))
     driver.frames(30)
     yield "packs-list"
+    driver.press("escape")
+    driver.choose("Preview")
+    driver.frames(30)
+    yield "packs-preview"
     driver.press("escape")
     driver.carry(screen.shelves.row_area(2), screen.shelves.row_area(9), drop=False)
     yield "packs-dragging"

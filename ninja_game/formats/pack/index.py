@@ -45,12 +45,11 @@ class EpisodeIndex:
 
 @dataclass(frozen=True)
 class Accepted:
-    """A finding about a file of the pack that its maker accepts, and why. ``line``: in the index."""
+    """A finding about a file of the pack that its maker accepts, and why."""
 
     file: str
     code: str
     reason: str
-    line: int = 0
 
 
 @dataclass(frozen=True)
@@ -106,7 +105,7 @@ def parse_index(text: str, *, file: str = "") -> PackIndex:
         values = {key: entry.text(key) for key in _ACCEPT_KEYS}
         if missing := next((key for key, value in values.items() if not value), ""):
             raise PackError(f"accept without its {missing}", file, entry.start, expected=f'{missing} = "…"')
-        accepted.append(Accepted(**values, line=entry.start))
+        accepted.append(Accepted(**values))
     return PackIndex(
         name,
         whole.text("author"),

@@ -391,7 +391,12 @@ class Findings(EditorPart):
         if self._shown is not self.session.findings:
             self._shown, theme = self.session.findings, self.view.app.theme
             room = self.area[2] - 32
-            self._lines = [(k, line) for k, f in enumerate(self._shown) for line in wrapped(theme, f.advice, room, 9.5)]
+            accepted = self.session.accepted
+            texts = [
+                f"{each.sentence}. Accepted: {accepted[each.code]}" if each.code in accepted else each.advice
+                for each in self._shown
+            ]
+            self._lines = [(k, line) for k, text in enumerate(texts) for line in wrapped(theme, text, room, 9.5)]
             self.list.fill(self._lines)
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -401,9 +406,11 @@ class Findings(EditorPart):
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         number, line = self._lines[index]
         x, y, w, _ = area
-        if index == 0 or self._lines[index - 1][0] != number:
+        accepted = self._shown[number].code in self.session.accepted
+        if not accepted and (index == 0 or self._lines[index - 1][0] != number):
             theme.text(surface, "!", x + 4, y + 5, size=9.5, bold=True, colour=theme.palette.bad)
-        theme.text(surface, line, x + 14, y + 5, size=9.5, width=w - 16)
+        colour = theme.palette.faint if accepted else theme.palette.text
+        theme.text(surface, line, x + 14, y + 5, size=9.5, width=w - 16, colour=colour)
 
 
 class FilePart(EditorPart):

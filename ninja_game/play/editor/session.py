@@ -34,7 +34,7 @@ from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.pack import is_pack
+from ninja_game.formats.pack.pack import Pack, is_pack
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
@@ -87,7 +87,7 @@ class EditorSession:
     """``tools``: change the level; ``source``: its file. ``tries``: all tests since the level was opened.
 
     ``last_try``: the route of the last test. ``start``: of STARTS, the ninja's state at the pointer for the search of
-    what it can reach.
+    what it can reach. ``accepted``: why its pack accepts findings about it, by code.
     """
 
     def __init__(self, app: App, source: Source | None = None) -> None:
@@ -105,6 +105,11 @@ class EditorSession:
         digest, history = _HISTORIES.get(source.path, ("", None)) if source.path and not draft else ("", None)
         # Discarded changes can be undone too.
         self.tools.load(draft.draft if draft else source.draft, history if digest == source.digest else None)
+        self.accepted = dict[str, str]()
+        with suppress(NinjaGameError, OSError):
+            path = self.source.path
+            rows = Pack(path.parent).index.accepted if path and is_pack(path.parent) else ()
+            self.accepted = {row.code: row.reason for row in rows if path and row.file == path.name}
         self.certifier.edit(self.draft.level)
         self._objects = self.draft.objects
         # Running searches are about another level.

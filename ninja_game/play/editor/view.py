@@ -404,8 +404,9 @@ class EditorView(Pane):
         self.sheet.show_marks(marks)
 
     def _signs(self) -> list[Point]:
-        examined = self.session.examined
-        signs = [p for finding in self.session.findings for p in finding_points(examined, finding)] if examined else []
+        examined, accepted = self.session.examined, self.session.accepted
+        told = [finding for finding in self.session.findings if finding.code not in accepted] if examined else []
+        signs = [p for finding in told for p in finding_points(examined, finding)] if examined else []
         return list(dict.fromkeys(signs))
 
 

@@ -111,7 +111,7 @@ def draw_look(surface: pygame.Surface, theme: Theme, look: str, area: Area) -> N
 
 
 PREVIEW = "Preview as player"
-_PREVIEWED = "What whoever pastes the link sees before the first try.", "Play it: nothing of that is kept."
+_PREVIEWED = "What whoever pastes the link sees before the first try. Nothing is kept"
 _OPENS = (
     "Finish an episode and the one below it opens: 1.2 comes after 1.1.",
     "Each column has a theme of its own. The left one is easiest.",
@@ -263,22 +263,22 @@ class EpisodeGrid(ThumbnailScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
-        if len(self.packs) < 2:
-            for line, text in enumerate(_PREVIEWED if self.previews else _OPENS):
+        if len(self.packs) < 2 and not self.previews:
+            for line, text in enumerate(_OPENS):
                 theme.text(surface, text, LEFT, 64 + 14 * line, size=10, colour=palette.faint, width=WIDE)
         self.grid.draw_names(surface, theme, self.pack.columns)
-        for place, (look, text) in enumerate(LOOKS):
-            x, y = LEFT + 160 * (place % 2), self._below + 40 + 23 * (place // 2)
-            draw_look(surface, theme, look, (x, y, 18, 18))
-            theme.text(surface, text, x + 25, y + 4, size=9.5)
-        self._draw_total(surface, theme, self._below + 92)
-        if self.pack.key and self.pack.pack:
+        if self.previews:
+            self._draw_preview(surface, theme)
+        else:
+            for place, (look, text) in enumerate(LOOKS):
+                x, y = LEFT + 160 * (place % 2), self._below + 40 + 23 * (place // 2)
+                draw_look(surface, theme, look, (x, y, 18, 18))
+                theme.text(surface, text, x + 25, y + 4, size=9.5)
+            self._draw_total(surface, theme, self._below + 92)
+        if self.pack.key and self.pack.pack and not self.previews:
             index = self.pack.pack.index
             subtitle = f"{index.title}. {index.comment}" if index.comment else index.title
-            top = self._below + 150
-            width = min(200.0, (540 - top) * 33 / 25)
-            if width >= 80:
-                self.thumbnails.draw_pack(surface, self.pack.levels, LEFT, top, width)
+            self._draw_picture(surface, self._below + 150, 200.0)
             theme.text(surface, shown_text(subtitle, 200), SIDE, 114, size=10, colour=palette.faint, width=364)
         episode = self.episode
         if episode is None:
@@ -298,6 +298,25 @@ class EpisodeGrid(ThumbnailScreen):
             size=11,
             colour=palette.good if best else palette.faint,
         )
+
+    def _draw_preview(self, surface: pygame.Surface, theme: Theme) -> None:
+        """The pack as its maker presents it: name, author, comment, picture."""
+        faint, index = theme.palette.faint, self.pack.pack.index if self.pack.pack else None
+        name, by = (index.name, index.title.removeprefix(index.name).strip(" ,")) if index else (self.pack.name, "")
+        theme.text(surface, shown_text(name), LEFT, 58, size=20, bold=True, width=WIDE)
+        theme.text(surface, shown_text(by), LEFT, 84, size=11, width=WIDE)
+        theme.text(surface, _PREVIEWED, SIDE, 114, size=10, colour=faint, width=364)
+        about = shown_text(index.comment, 200) if index else ""
+        theme.paragraph(surface, [about], (LEFT, self._below, WIDE, 44), 11, 14)
+        top = self._below + 50 * bool(about)
+        self._draw_total(surface, theme, top)
+        self._draw_picture(surface, top + 52, float(WIDE))
+
+    def _draw_picture(self, surface: pygame.Surface, top: float, widest: float) -> None:
+        """The pack's picture, where there is room for it above the foot."""
+        width = min(widest, (540 - top) * 33 / 25)
+        if width >= 80:
+            self.thumbnails.draw_pack(surface, self.pack.levels, LEFT, top, width)
 
     def _draw_total(self, surface: pygame.Surface, theme: Theme, y: float) -> None:
         levels = self.pack.levels

@@ -351,11 +351,22 @@ class Panel(MenuScreen):
 class Menu(Panel):
     """A panel of actions; each of them closes the panel first. ``then``: called when the back key closes it.
 
-    ``at``: the row with the focus at first.
+    ``at``: the row with the focus at first. ``unasked``: it opens by itself; what is pressed in its first half second
+    was meant for what was there.
     """
 
-    def __init__(self, app: App, title: str, rows: Sequence[MenuRow], then: Action = nothing, *, at: int = 0) -> None:
+    def __init__(
+        self,
+        app: App,
+        title: str,
+        rows: Sequence[MenuRow],
+        then: Action = nothing,
+        *,
+        at: int = 0,
+        unasked: bool = False,
+    ) -> None:
         super().__init__(app, title)
+        self._deaf_ms = 500 if unasked else 0
         self._then, self._begins = then, at
         self._rows: list[MenuRow] = [(text, action and self._closing(action), hint) for text, action, hint in rows]
 
@@ -364,6 +375,14 @@ class Menu(Panel):
         super().enter()
         if first and self._begins:
             self.focus = self.widgets[self._begins]
+
+    def update(self, real_ms: int) -> None:
+        self._deaf_ms = max(0, self._deaf_ms - real_ms)
+        super().update(real_ms)
+
+    def handle(self, event: InputEvent) -> None:
+        if not self._deaf_ms:
+            super().handle(event)
 
     def back(self) -> None:
         super().back()

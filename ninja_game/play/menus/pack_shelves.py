@@ -151,3 +151,28 @@ class Rack(ListView):
         if column < len(names):
             below = x + 6, y + 72, w - 12, 26
             theme.paragraph(surface, [f"in {shown_text(names[column])}"], below, 9, 12, colour=faint)
+
+
+class Marks(set[str]):
+    """Files of the levels that are chosen together: what is done with one of them is done with all."""
+
+    def together(self, level: Entry, levels: Sequence[Entry]) -> list[Entry]:
+        """The levels that an action on one of ``levels`` is for: all that are marked, if it is one of them."""
+        return [each for each in levels if each.named.file in self] if level.named.file in self else [level]
+
+    def click(self, rack: Rack, index: int) -> bool:
+        """Mark levels where Ctrl or Shift is down; whether it was. A click on another than those marked ends that."""
+        mods, level, chosen = pygame.key.get_mods(), rack.cells[index].level, rack.chosen.level
+        if not (level and mods & (pygame.KMOD_CTRL | pygame.KMOD_META | pygame.KMOD_SHIFT)):
+            if not (level and level.named.file in self):
+                self.clear()
+            return False
+        if mods & pygame.KMOD_SHIFT:
+            first, last = sorted((rack.index, index))
+            self.update(each.level.named.file for each in rack.cells[first : last + 1] if each.level)
+            return True
+        if chosen and not self:
+            self.add(chosen.named.file)
+        if self != {level.named.file}:
+            self.symmetric_difference_update({level.named.file})
+        return True

@@ -8,7 +8,7 @@ from time import monotonic
 from typing import NamedTuple
 
 from ninja_game.editor.certify import SOLVER
-from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, Steps, make_ready, obstacle_of, problems_of
+from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, Steps, make_ready, problems_of
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
@@ -21,7 +21,6 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.screen import Aside
 from ninja_game.player.catalogue import Catalogue
-from ninja_game.runs.packs import file_of
 from ninja_game.runtime import NewestJob, cores
 from ninja_game.sim.level import Level
 
@@ -38,8 +37,9 @@ NOT_CERTIFIED = ("changed", "no run yet", "stopped")
 class Packer(Aside):
     """``path``: the pack that is or was made ready; ``text``: its progress or result.
 
-    ``share``: of the present step, None if unknown. ``saved``: the zip. ``desk``: the screen that waits for a link.
-    ``steps``: actions at that screen. ``open_problems``: a pack with nothing but problems left, about which it asks.
+    ``share``: of its step, None where nobody knows. ``saved``: the zip that came of it. ``desk``: the screen of packs;
+    ``shown``: the pack that it shows. ``steps``: what was done at the desk.
+    ``open_problems``: a pack that is ready but for problems, about which the desk asks.
     """
 
     def __init__(self, app: App) -> None:
@@ -48,6 +48,7 @@ class Packer(Aside):
         self.saved: Path | None = None
         self._seconds = SECONDS
         self.desk: Screen | None = None
+        self.shown: Path | None = None
         self.obstacles: Obstacles = {}
         self.steps = Steps()
         self.busy = self._stopped = False
@@ -58,6 +59,11 @@ class Packer(Aside):
         self.open_problems: ReadyPack | None = None
         self._step: tuple[str, float | None, float] = "", None, 0.0
         self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
+
+    @property
+    def waited_for(self) -> bool:
+        """Whether the pack is what is looked at."""
+        return self.app.top is self.desk and self.shown == self.path
 
     def start(self, path: Path, seconds: float = SECONDS) -> None:
         self.path, self.busy, self._stopped = path, True, False
@@ -100,16 +106,17 @@ class Packer(Aside):
             if self.app.stack:
                 self.app.top.look_again()
             ready = None if self.text else self._job.result
-            if ready and ready.findings:
+            if ready and ready.problems:
                 self.open_problems = ready
-                self.text = f"Neither zip nor link yet: {counted(len(ready.findings), 'open problem')}"
-                self.app.notify(f"{shown_text(ready.pack.name)}: {self.text}" * (self.app.top is not self.desk))
+                self.text = f"Neither zip nor link yet: {counted(len(ready.problems), 'open problem')}"
+                if not self.waited_for:
+                    self.app.notify(f"{shown_text(ready.pack.name)}: {self.text}")
             elif ready:
                 self.publish(ready)
 
     def publish(self, ready: ReadyPack) -> None:
-        """Write the zip, put the link into the clipboard if a screen waits for it, and show a notice."""
-        app, name, waited_for = self.app, ready.pack.name, self.app.top is self.desk
+        """Write the zip, put the link into the clipboard of who waits for it, and say so."""
+        app, name, waited_for = self.app, ready.pack.name, self.waited_for
         self.saved = app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
         self._zipped, self._seen = ready.zipped, None
         notices = [app.notice]
@@ -117,8 +124,8 @@ class Packer(Aside):
             copy_link(app, lambda: ready.link, title=name)
             notices.append("the link is in the clipboard")
         app.notify("; ".join(notices) if waited_for else f"{shown_text(name)} is ready to share", here=waited_for)
-        if codes := dict.fromkeys(finding.code.replace("-", " ") for finding in ready.findings):
-            notices[0] += f", with {counted(len(ready.findings), 'open problem')} ({', '.join(codes)})"
+        if codes := dict.fromkeys(finding.code.replace("-", " ") for finding in ready.problems):
+            notices[0] += f", with {counted(len(ready.problems), 'open problem')} ({', '.join(codes)})"
         self.text = self._made = "; ".join([*notices, *ready.notes])
 
     def follow(self, pack: Pack | None) -> None:
@@ -136,12 +143,20 @@ class Packer(Aside):
 
 
 class Checked(NamedTuple):
-    """The findings of a pack. ``to_do``: what Make ready does; ``places``: the files of the findings."""
+    """What was odd about a pack. ``to_do``: what Make ready does; ``findings``: the others, accepted or not."""
 
     pack: Pack
     findings: list[PackFinding]
     to_do: list[PackFinding]
-    places: frozenset[str]
+
+    @property
+    def problems(self) -> list[PackFinding]:
+        return [finding for finding in self.findings if not finding.reason]
+
+    @property
+    def places(self) -> set[str]:
+        """The files with problems."""
+        return {self.pack.files.place(finding.file) for finding in self.problems}
 
 
 class PackStatus:
@@ -156,8 +171,8 @@ class PackStatus:
         self._checks: NewestJob[Pack, Checked] = NewestJob(self.check)
 
     def show(self, pack: EpisodeSet | None) -> None:
-        """Show the present state of a pack. A failed search changes the findings, but nothing on the disk."""
-        self.pack = pack
+        """A pack as it is now. What was searched in vain changes nothing on the disk, but what is odd."""
+        self.pack, self.packer.shown = pack, pack and pack.path
         self._states.clear()
         question = pack and pack.pack, len(self.packer.obstacles)
         if question[0] and question != self._asked:
@@ -172,24 +187,21 @@ class PackStatus:
         return news
 
     def check(self, pack: Pack) -> Checked:
-        known = self.packer.obstacles
-        every = problems_of(pack, known)
-        to_do = [finding for finding in every if finding.code in MADE_READY and not obstacle_of(pack, finding, known)]
-        findings = [finding for finding in every if finding not in to_do]
-        places = frozenset(pack.files.place(file_of(pack, finding)) for finding in findings)
-        return Checked(pack, findings, to_do, places)
+        every = problems_of(pack, self.packer.obstacles)
+        to_do = [each for each in every if each.code in MADE_READY and not (each.reason or each.sought)]
+        return Checked(pack, [finding for finding in every if finding not in to_do], to_do)
 
     @property
-    def findings(self) -> list[PackFinding] | None:
-        """The findings of the pack's present state; None until they are known."""
+    def now(self) -> Checked | None:
+        """What is odd about the pack as it is now; None until that is known."""
         checked = self.checked
-        return checked.findings if checked and self.pack and checked.pack is self.pack.pack else None
+        return checked if checked and self.pack and checked.pack is self.pack.pack else None
 
     def to_do(self) -> str:
-        """What Make ready would do; "" for nothing."""
-        levels, checked = self.pack.levels if self.pack else [], self.checked
+        """What Make ready will do; "" for nothing."""
+        levels = self.pack.levels if self.pack else []
         states = [self.state(level) for level in levels]
-        known = checked.to_do if checked and self.findings is not None else []
+        known = self.now.to_do if self.now else []
         certify, gold = sum(map(states.count, NOT_CERTIFIED)), [finding.code for finding in known].count("no-gold-run")
         work = {"certify": (certify, "level"), "measure": (certify + states.count("certified"), "medal time")}
         work["look for all gold in"] = gold, "level"
@@ -219,12 +231,12 @@ class PackStatus:
         """The pack in a line."""
         if self.pack is None or self.pack.pack is None:
             return ""
-        levels, index, findings = self.pack.levels, self.pack.pack.index, self.findings
+        levels, index = self.pack.levels, self.pack.pack.index
         vain = [self.state(level) for level in levels].count(NOT_FOUND)
         to_do = self.to_do() or (f"{vain} without a run" if vain else "All certified and measured")
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
         where = f"{counted(len(levels), 'level')} in {counted(len(index.episodes), 'episode')}{alone}"
-        open_ones = "Looking for problems" if findings is None else counted(len(findings), "problem")
+        open_ones = counted(len(self.now.problems), "problem") if self.now else "Looking for problems"
         return f"{where}. {to_do}. {open_ones}" if levels else where
 
 

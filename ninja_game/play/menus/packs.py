@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import webbrowser
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -12,28 +11,27 @@ from pathlib import Path
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.editor.packs import ReadyPack, missing_run, obstacle_of
+from ninja_game.editor.packs import ReadyPack, missing_run
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import DAILY, LEVELS, short_path
 from ninja_game.formats.links import link_kind
-from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, EpisodeIndex
 from ninja_game.formats.pack.pack import INDEX, RECEIVED, Pack
 from ninja_game.levels.episodes import GAME, Entry, EpisodeSet
-from ninja_game.levels.findings import LEVEL_RULES, Finding, PackFinding
-from ninja_game.levels.warnings import level_findings
+from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
 from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, MenuRow, Question, ask_received, ask_text
 from ninja_game.play.menus.pack_list import PackList
-from ninja_game.play.menus.pack_shelves import HIGH, WIDE, PackCell, Rack
-from ninja_game.play.menus.packer import PackStatus, packer_of
+from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Marks, PackCell, Rack
+from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND, PackStatus, packer_of
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
-from ninja_game.runs.packs import NEVER_ACCEPTED, file_of, level_of
+from ninja_game.runs.packs import NEVER_ACCEPTED, level_of
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.list_view import BAR
@@ -52,11 +50,9 @@ _NO_LEVELS = (
     "Make ready then certifies all, and gives you a zip and a link to share.",
 )
 
-_SHARE = "Send either: a link is pasted, a zip dropped, in Levels > Packs"
-
-_CAN = "Preview, name, copy or delete the pack"
-
 _DRAG = "Drag a level or an episode; Enter or a second click: what can be done. Ctrl or Shift and a click: several"
+
+_MOVES = "Let go where it is to be. The colours of a level go by its place in the pack"
 
 _STOPS = "It can be stopped at any time: what was found is kept."
 
@@ -66,8 +62,7 @@ Edit = Callable[[Entry, Finding | None], object]
 class PackScreen(ThumbnailScreen):
     """``pack``: the shown one. ``held``: what is dragged; ``pointer``: the mouse's place during a drag, else None.
 
-    ``marked``: files of the marked levels: an action on one of them is done with all of them. ``edit``: opens a level
-    in the editor, at a finding.
+    ``edit``: opens a level in the editor, at a finding.
     """
 
     title = "Packs"
@@ -82,7 +77,7 @@ class PackScreen(ThumbnailScreen):
         self.held: PackCell | None = None
         self.chosen: Widget | None = None
         self.pointer: tuple[float, float] | None = None
-        self.marked = set[str]()
+        self.marked = Marks()
         self.packer = packer_of(app)
         self.packer.desk = self
         self.status = PackStatus(self.packer, self.player.catalogue)
@@ -147,12 +142,11 @@ class PackScreen(ThumbnailScreen):
         chosen = self.chosen = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
         chosen.more = partial(app.push, PackList(app, self.mine, self._show))
         received = bool(self.pack and self.pack.received)
-        whose = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
+        whose = f"{have.index.title}{', received' if received else ''}, in the folder {self.path.name}" if have else ""
         chosen.hint = f"{whose}. Enter, or a click on the name: all your packs"
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(pack.name if pack.key else "The game's own", pack.key) for pack in self.sets if pack is not self.pack]
         tray_choice = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
-        self.shelves.hint = self.tray.hint = _DRAG
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
         undo = Button((206, 60, 44, 28), "Undo", lambda: self.do(self._undo), size=10)
         steps = self.packer.steps
@@ -160,7 +154,9 @@ class PackScreen(ThumbnailScreen):
         new = Button((256, 60, 76, 28), "New pack...", self._new_pack, size=10)
         paste = Button((338, 60, 68, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
-        about = Button((412, 60, 68, 28), "More...", self._about, size=10, hint=_CAN)
+        about = Button(
+            (412, 60, 68, 28), "More...", self._about, size=10, hint="Preview, name, copy or delete the pack"
+        )
         view = self.view = Button((486, 60, 60, 28), "Play" if received else "Preview", self._view, size=10)
         view.hint = f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
         if received and have:
@@ -172,9 +168,11 @@ class PackScreen(ThumbnailScreen):
         link = Button((662, 525, 94, 24), "Copy the link", self._copy_link, size=10)
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
-        share = [] if self.packer.busy else [*[folder] * bool(self._saved), link]
+        if not have:
+            return [new, paste, undo] if steps else [new, paste]
+        share = [folder, link] if self._saved else [link]
         first = [self.shelves, chosen, undo, new, paste, about, view, problems, make, tray_choice, self.tray]
-        return [*first, *share] if have else [new, paste, *[undo] * bool(steps)]
+        return first if self.packer.busy else [*first, *share]
 
     def _view(self) -> None:
         """Show the episodes of the pack; those of the player's own packs as a new player sees them."""
@@ -192,7 +190,20 @@ class PackScreen(ThumbnailScreen):
             self.app.notify(f"Nothing here opens folders: it is {short_path(self._saved.parent)}")
 
     def _copy_link(self) -> None:
-        copy_link(self.app, Pack(self.path).files.link, title=self.pack.name if self.pack else "")
+        """Copy it; of a pack of one's own, first ask whether levels that are not certified are to go along."""
+        copy = partial(copy_link, self.app, Pack(self.path).files.link, title=self.pack.name if self.pack else "")
+        levels = self.pack.levels if self.pack and not self.pack.received else []
+        without = [level for level in levels if self.status.state(level) in (*NOT_CERTIFIED, NOT_FOUND)]
+        rows: list[MenuRow] = [
+            ("Make ready first", self._make_ready, "Certifies them, and gives the link"),
+            ("Copy all the same", copy, "Whoever gets it is not told whether they can be passed"),
+            CANCEL,
+        ]
+        if without:
+            title = f"The link has {counted(len(without), 'level')} without certificate"
+            self.app.push(Menu(self.app, title, rows))
+        else:
+            copy()
 
     def _make_ready(self) -> None:
         path, name = self.path, self.player.settings.name
@@ -264,8 +275,9 @@ class PackScreen(ThumbnailScreen):
             self.beside = "yours" if self.player.catalogue.own() else "none"
             self._read(path)
 
-        fields = [("Name", "My pack", 60), ("Author (may be empty)", "", 40)][: 1 if self.player.settings.name else 2]
-        step = "New pack"
+        fields, step = [("Name", "My pack", 60)], "New pack"
+        if not self.player.settings.name:
+            fields.append(("Author (may be empty)", "", 40))
         self.app.push(FormPanel(self.app, step, fields, "OK", lambda texts: self.do(lambda: make(*texts), step)))
 
     def _paste(self) -> None:
@@ -341,7 +353,7 @@ class PackScreen(ThumbnailScreen):
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
         key, own = (self.pack.key, not self.pack.received) if self.pack else ("", True)
-        without = "No episode has levels" * empty
+        without = "No episode has levels" if empty else ""
         rows: list[MenuRow] = [
             ("Play it", None if empty else lambda: self.app.push(EpisodeGrid(self.app, key)), without),
             *[("Show it as received", None if empty else self._view, without or PREVIEW)] * own,
@@ -399,13 +411,15 @@ class PackScreen(ThumbnailScreen):
             if why := play_level(self.app, level):
                 self.app.notify(why)
 
-        rows: list[MenuRow] = [
-            ("Edit", partial(self.change, edit, "Edit") if file.parent == self.path else edit, ""),
-            ("Play", play, ""),
-            ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
-            ("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), ""),
-        ]
-        rows = rows[: 4 if file.parent == self.path else 3] * (len(levels) == 1)
+        rows: list[MenuRow] = []
+        if len(levels) == 1:
+            rows = [
+                ("Edit", partial(self.change, edit, "Edit") if file.parent == self.path else edit, ""),
+                ("Play", play, ""),
+                ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
+            ]
+            if file.parent == self.path:
+                rows.append(("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), ""))
         rows.append(("Move...", lambda: self._hold(cell), ""))
         if all(Path(each.named.file).parent == self.path for each in levels):
             rows.append(("Copy", lambda: self.change(copy, f"Copy {title}"), "Another level like it"))
@@ -479,26 +493,15 @@ class PackScreen(ThumbnailScreen):
         return [cell.level for each in racks for cell in each.cells if cell.level]
 
     def _taken(self, level: Entry) -> list[Entry]:
-        """The levels for an action on this one: all marked ones, if it is marked."""
-        marked = [each for each in self._levels() if each.named.file in self.marked]
-        return marked if level.named.file in self.marked else [level]
+        """The levels that an action on this one is for."""
+        return self.marked.together(level, self._levels())
 
     def _mark(self, x: float, y: float) -> bool:
-        """Mark levels where Ctrl or Shift is down; whether it was. A click on an unmarked level clears the marks."""
-        mods, rack = pygame.key.get_mods(), self._at(x, y)
-        if not isinstance(rack, Rack) or (index := rack.at(x, y)) is None:
+        """Whether a click marks levels."""
+        rack = self._at(x, y)
+        index = rack.at(x, y) if isinstance(rack, Rack) else None
+        if not isinstance(rack, Rack) or index is None or not self.marked.click(rack, index):
             return False
-        level, chosen = rack.cells[index].level, rack.chosen.level
-        if not (level and mods & (pygame.KMOD_CTRL | pygame.KMOD_META | pygame.KMOD_SHIFT)):
-            if not (level and level.named.file in self.marked):
-                self.marked.clear()
-            return False
-        if mods & pygame.KMOD_SHIFT:
-            first, last = sorted((rack.index, index))
-            self.marked |= {each.level.named.file for each in rack.cells[first : last + 1] if each.level}
-        else:
-            self.marked |= {chosen.named.file} if chosen and not self.marked else set()
-            self.marked ^= {level.named.file} if self.marked != {level.named.file} else set()
         self.focus, rack.index, self.redraw = rack, index, True
         return True
 
@@ -600,58 +603,43 @@ class PackScreen(ThumbnailScreen):
     # --- problems, and what takes time ---
 
     def problems(self) -> list[Problem]:
+        self._read(news=True)
         pack = self.pack.pack if self.pack else None
         if pack is None:
             return []
-        if self.status.findings is None:
-            self.status.checked = self.status.check(pack)
-        rows = [self._problem(pack, finding) for finding in self.status.findings or ()]
+        checked = self.status.checked = self.status.now or self.status.check(pack)
+        rows = [self._problem(pack, finding) for finding in checked.findings]
         to_do = [Problem(text, _STOPS, to_do=True)] if (text := self.status.to_do()) else []
-        return [*rows, *to_do, *map(self._accepted, pack.index.accepted)]
+        return [*rows, *to_do]
 
     def _entry(self, file: str) -> Entry | None:
         levels = self.pack.levels if self.pack else []
         return next((entry for entry in levels if entry.named.file == str(self.path / file)), None)
 
     def _problem(self, pack: Pack, finding: PackFinding) -> Problem:
-        file = file_of(pack, finding)
-        entry, why = self._entry(level_of(pack, file)), obstacle_of(pack, finding, self.packer.obstacles)
-        # Files count columns and episodes from 0; the text behind the semicolon is about files.
-        text = re.sub(r"((?:column|episode) )(\d+)", lambda n: f"{n[1]}{int(n[2]) + 1}", finding.text.partition(";")[0])
-        text = text[:1].upper() + text[1:]
+        file, code = finding.file, finding.code
+        entry = self._entry(level_of(pack, file))
+        values = {name: _as_seen(pack, value) for name, value in finding.values.items()}
+        text = finding.text_with(values)
+        text = f"{entry.title}: {text}" if entry else text[:1].upper() + text[1:]
         go: Callable[[], object] | None = self._about if file == INDEX else None
-        if finding.code == "no-author":
+        if code == "no-author":
             go = partial(self._form, 1)
         elif entry:
-            edit, text = partial(self._edit_at, entry, why, finding.text), f"{entry.title}: {finding.text}"
-            go = partial(self.change, edit, "Edit")
-            for other, named in pack.levels.items():
-                text = text.replace(f"as {other}", f"as {named.name}").replace(f"than {other}", f"than {named.name}")
+            go = partial(self.change, partial(self._edit, entry, finding.odd), "Edit")
+        if finding.reason:
+            take_back = partial(packs.take_back, self.path, file, code)
+            text = f"{text}. Accepted: {finding.reason}"
+            return Problem(text, "", go, lambda: self.change(take_back, "Take it back"), accepted=True)
 
         def accept(why: str) -> None:
-            packs.accept(self.path, file, finding.code, why)
+            packs.accept(self.path, file, code, why)
 
-        may = bool(file) and finding.code not in NEVER_ACCEPTED
+        may = bool(file) and code not in NEVER_ACCEPTED
         accept_it = partial(self.ask, "Accept this warning: why?", "", accept) if may else None
-        missing = missing_run(pack, finding) if why and not self.packer.busy else None
+        missing = missing_run(pack, finding) if finding.sought and not self.packer.busy else None
         longer = partial(self.packer.search_longer, self.path, missing) if missing else None
-        return Problem(text, why.hint if why else finding.hint, go, accept_it, search=longer)
-
-    def _edit_at(self, entry: Entry, known: Finding | None, sentence: str) -> None:
-        """Edit a level at a finding: ``known``, or the one with this text."""
-        odd = level_findings(entry.named.level, entry.named.says) if known is None else ()
-        self._edit(entry, known or next((finding for finding in odd if finding.sentence == sentence), None))
-
-    def _accepted(self, accepted: Accepted) -> Problem:
-        entry = self._entry(accepted.file)
-        named = entry.named if entry and accepted.code in LEVEL_RULES else None
-        every = level_findings(named.level, named.says) if named else []
-        odd = [finding for finding in every if finding.code == accepted.code]
-        problem_text = "; ".join(finding.sentence for finding in odd) or accepted.code.replace("-", " ")
-        take_back = partial(packs.take_back, self.path, accepted.file, accepted.code)
-        text = f"{entry.title if entry else accepted.file}: {problem_text}. Accepted: {accepted.reason}"
-        go = partial(self.change, partial(self._edit, entry, next(iter(odd), None)), "Edit") if entry else None
-        return Problem(text, "", go, lambda: self.change(take_back, "Take it back"), accepted=True)
+        return Problem(text, finding.hint, go, accept_it, search=longer)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
@@ -662,7 +650,7 @@ class PackScreen(ThumbnailScreen):
         elif now != before:
             # A notice may be about a certificate that a search of the editor has found.
             self._read(news=now[3] in ("", before[3]))
-        if packer.open_problems and self.app.top is self:
+        if packer.open_problems and packer.waited_for:
             self._ask_about(packer.open_problems)
         self.redraw = self.status.update() or now != before or self.redraw
 
@@ -671,14 +659,13 @@ class PackScreen(ThumbnailScreen):
 
     def _ask_about(self, ready: ReadyPack) -> None:
         self.packer.open_problems = None
-        self._read(ready.pack.files.path)
         rows: list[MenuRow] = [
             ("Show the problems", self._show_problems, "Make ready asks again"),
             ("Zip and link all the same", lambda: self.packer.publish(ready), ""),
             CANCEL,
         ]
-        title = f"{shown_text(ready.pack.name)}: {counted(len(ready.findings), 'open problem')}"
-        self.app.push(Menu(self.app, title, rows))
+        title = f"{shown_text(ready.pack.name)}: {counted(len(ready.problems), 'open problem')}"
+        self.app.push(Menu(self.app, title, rows, unasked=True))
 
     def leave(self) -> None:
         super().leave()
@@ -689,15 +676,19 @@ class PackScreen(ThumbnailScreen):
     # --- picture ---
 
     def draw_frame(self, surface: pygame.Surface) -> None:
+        self.shelves.hint = self.tray.hint = _MOVES if self.held else _DRAG
         super().draw_frame(surface)
         theme, faint = self.theme, self.theme.palette.faint
         if not (self.pack and self.pack.levels):
             theme.paragraph(surface, _NO_LEVELS if self.pack else _NO_PACK, (36, 360, 560, 90), 13, 20, align="centre")
         packer = self.packer
-        whose = f"{shown_text(packer.path.name)}: " * bool(packer.text and packer.path != self.path)
-        texts = [whose + packer.text or self.status.counts()]
-        texts += [self.status.counts()] * bool(packer.text and not (whose or packer.busy))
-        texts += [_SHARE] * bool(self._saved and packer.text.startswith("Saved"))
+        texts = [packer.text or self.status.counts()]
+        if packer.text and packer.path != self.path:
+            texts = [f"{shown_text(packer.path.name)}: {packer.text}"]
+        elif packer.text and not packer.busy:
+            texts.append(self.status.counts())
+        if self._saved and packer.text.startswith("Saved"):
+            texts.append("Send either: a link is pasted, a zip dropped, in Levels > Packs")
         place = (36, 524, 720 if packer.busy else 516, 41)
         theme.paragraph(surface, texts, place, 10, 13.5, colour=faint)
         if packer.busy and packer.share is not None:
@@ -722,6 +713,14 @@ class PackScreen(ThumbnailScreen):
             x, y, w, h = self.shelves.row_area(landing[0])
             place = x + w * landing[1] - 2 + self.shelves.shift(self.shelves.gap) / 2, y + 4, 4, h - 8
             self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *place, 2)
+
+
+def _as_seen(pack: Pack, value: object) -> object:
+    """A value of a finding as the desk shows it: files count columns and episodes from 0, and levels have names."""
+    if isinstance(value, int):
+        return value + 1
+    named = pack.levels.get(value) if isinstance(value, str) else None
+    return named.name if named else value
 
 
 def _called(levels: Sequence[Entry]) -> str:

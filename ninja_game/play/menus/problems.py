@@ -88,6 +88,7 @@ class ProblemsScreen(MenuScreen):
 
     def _accept(self) -> None:
         if self.selected.accept:
+            self.focus = self.list
             self.selected.accept()
 
     def draw_frame(self, surface: pygame.Surface) -> None:

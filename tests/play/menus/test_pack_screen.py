@@ -89,6 +89,7 @@ def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriv
     driver.carry(shelves.row_area(1), half(screen, 5, right=True), drop=False)
     x, y, w, _ = shelves.row_area(5)
     assert screen._landing() == (5, True)
+    assert "The colours of a level go by its place" in drawn(driver.app)
     seen, mark = drawn(driver.app), f"fill accent {px(x + w - 2, y + 4)} 4 x"
     assert seen.index(mark) > seen.index("First Steps' at 577,"), "not behind what is held"
     driver.mouse_up(half(screen, 5, right=True))
@@ -338,12 +339,18 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     driver.choose("Accept it...")
     typed(driver, "found on the street")
     assert driver.top() is screen
-    assert screen.problems[-1].text == "00-0-first-steps: no name. Accepted: found on the street"
+    assert screen.problems[0].text == "00-0-first-steps: no name. Accepted: found on the street"
+    assert (screen.list.index, screen.focus) == (0, screen.list), "the choice stays at its row"
     assert Pack(path).index.accepted[0].reason == "found on the street"
-    x, y, w, h = screen.list.row_area(count - 1)
-    driver.mouse(x + w / 2, y + h / 2)
     driver.choose("Take it back")
     assert (len(screen.problems), Pack(path).index.accepted) == (count, ())
+    driver.choose("Accept it...")
+    typed(driver, "found on the street")
+    packs.rename_level(level, "First Steps")
+    driver.app.push(EpisodeGrid(driver.app, "Laundry"))
+    driver.press("escape")
+    assert [problem.to_do for problem in screen.problems] == [True], "what is mended meanwhile is gone"
+    assert Pack(path).index.accepted
     driver.mouse(BACK[0] + 10, BACK[1] + 10)
     driver.shown(PackScreen)
 
@@ -371,14 +378,17 @@ def test_a_pack_is_made_ready_in_the_background(
     assert "fill accent 36,546" not in drawn(driver.app), "no bar where nobody knows how long it takes"
     go_on.set()
     driver.wait(lambda: driver.top() is not screen, "it asks what to do about open problems")
-    assert driver.shown(MenuScreen).title == "Laundry: 1 open problem"
+    driver.press("return")
+    assert driver.shown(MenuScreen).title == "Laundry: 1 open problem", "it takes no key that was meant for the desk"
     assert screen.packer.saved is None
+    driver.frames(ms=500)
     driver.choose("Show the problems")
     driver.shown(ProblemsScreen)
     driver.press("escape")
     assert driver.top() is screen, "it asks once"
     driver.choose("Make ready")
     driver.wait(lambda: driver.top() is not screen)
+    driver.frames(ms=500)
     driver.choose("Zip and link all the same")
     assert "the link is in the clipboard" in driver.app.notice
     zipped = driver.player.folder / "exports" / "laundry-1.zip"
@@ -390,7 +400,7 @@ def test_a_pack_is_made_ready_in_the_background(
     foot = driver.app.canvas.point(0, 551)[1], driver.app.canvas.stage.bottom
     assert foot[0] <= notice.top < notice.bottom <= foot[1], "the state of the pack is read meanwhile"
     assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
-    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    driver.wait(lambda: screen.status.now, "the problems are known")
     driver.choose("Problems")
     assert driver.app.notice == "", "what is said there goes with the screen"
     assert [problem.to_do for problem in driver.shown(ProblemsScreen).problems] == [True]
@@ -475,6 +485,42 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     assert driver.button("Make ready")
 
 
+def test_what_was_made_ready_asks_only_at_its_own_desk(
+    driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ready = ReadyPack(Pack(path), [pack_finding("no-author", "pack.toml")], b"", "", [])
+    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", lambda *_, **__: ready)
+    other = packs.new_pack(path.parent, "Other", "me")
+    screen = opened(driver)
+    screen._read(path)
+    screen._make_ready()
+    screen._read(other)
+    driver.wait(lambda: not screen.packer.busy)
+    driver.frames(3)
+    assert driver.top() is screen
+    assert driver.app.notice == "Laundry: Neither zip nor link yet: 1 open problem"
+    screen._read(path)
+    driver.frames(2)
+    assert driver.shown(MenuScreen).title == "Laundry: 1 open problem"
+
+
+def test_a_link_of_levels_without_certificate_is_asked_about(driver: MenuDriver, path: Path) -> None:
+    level = path / "00-1-mind-the-gap.txt"
+    level.write_text(level.read_text("utf-8").replace("@", ".", 1), "utf-8")
+    screen, copied = opened(driver), list[str]()
+    with patch("pygame.scrap.put_text", copied.append):
+        driver.choose("Copy the link")
+        assert driver.shown(MenuScreen).title == "The link has 1 level without certificate"
+        assert not copied
+        driver.choose("Copy all the same")
+    assert (driver.top(), driver.app.notice, len(copied)) == (screen, "Link copied", 1)
+    (path / "received").touch()
+    screen._read()
+    with patch("pygame.scrap.put_text", copied.append):
+        driver.choose("Copy the link")
+    assert len(copied) == 2, "it is not for who received it to mend"
+
+
 def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_row(
     driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -493,7 +539,7 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
     monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
     screen = opened(driver)
     path_of_level = str(path / "00-0-first-steps.txt")
-    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    driver.wait(lambda: screen.status.now, "the problems are known")
     assert screen.status.checked
     assert path_of_level not in screen.status.checked.places, "nobody has looked for a run yet"
     driver.choose("Make ready")
@@ -562,11 +608,11 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     stale = [cell.level.title for cell in screen.shelves.cells if cell.level and cell.level.pars is None]
     assert stale == ["Mind the Gap"]
     assert screen.status.counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
-    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    driver.wait(lambda: screen.status.now, "the problems are known")
     assert [screen.status.state(cell.level) for cell in screen.shelves.cells if cell.level][1] == "changed"
     packs.place(path, [packs.new_level(path, "Empty", "me")], 1)
     screen.enter()
-    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    driver.wait(lambda: screen.status.now, "the problems are known")
     assert screen.status.counts().startswith("9 levels in 2 episodes. Make ready will certify 2 levels")
     [entry] = [each.level for each in screen.shelves.cells if each.level and each.level.title == "Empty"]
     assert screen.status.state(entry) == "no run yet"
@@ -730,7 +776,7 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         assert not screen.mine
         driver.choose("Paste link")
         assert "Laundry is among your packs now" in driver.app.notice
-        driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+        driver.wait(lambda: screen.status.now, "the problems are known")
         work = "Make ready will look for all gold in 8 levels"
         assert screen.status.counts() == f"8 levels in 2 episodes. {work}. 0 problems"
         assert screen.status.checked
@@ -922,7 +968,10 @@ def test_a_pack_is_previewed_as_somebody_who_has_played_nothing(driver: MenuDriv
     driver.choose("Preview")
     grid = driver.shown(EpisodeGrid)
     text = drawn(driver.app)
-    assert "Laundry by the ninja-game developers. Dry by noon" in text
+    assert "text 'Laundry' at 44,58 size 20 bold" in text
+    for said in ("by the ninja-game developers", "Dry by noon"):
+        assert f"text '{said}' at" in text
+    assert "text 'seen in practice'" not in text
     assert "text 'Preview as player'" in text
     assert "0 of 8 levels passed" in text
     assert "text '9.200 s'" not in text, "nothing is unlocked, nor raced"
@@ -1087,19 +1136,25 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     assert inside[0].accept
     inside[0].accept()
     typed(driver, "meant")
-    [accepted] = [problem for problem in screen.problems() if problem.accepted]
-    both = [problem.text.removeprefix("First Steps: ") for problem in inside]
-    assert accepted.text == f"First Steps: {'; '.join(both)}. Accepted: meant"
-    assert accepted.go
-    accepted.go()
-    assert shown[-1] == shown[0]
+    accepted = [problem for problem in screen.problems() if problem.accepted]
+    assert [each.text for each in accepted] == [f"{each.text}. Accepted: meant" for each in inside]
+    assert accepted[1].go
+    accepted[1].go()
+    assert shown[-1] == shown[1]
+    driver.app.push(editor := EditorScreen(driver.app, offers_recovered=False))
+    assert screen.shelves.cells[1].level
+    editor.commands.edit_entry(screen.shelves.cells[1].level)
+    editor.session.examine()
+    driver.frames(2)
+    text = drawn(driver.app)
+    assert "Accepted: meant" in text
+    assert "text '!'" not in text
+    editor.session.close()
+    driver.app.pop()
     packs.take_back(path, level.name, Pack(path).index.accepted[0].code)
     packs.accept(path, level.name, "no-gold-run", "a joke")
     screen._read()
-    with patch("ninja_game.play.menus.packs.level_findings") as examined:
-        said = [problem.text for problem in screen.problems() if problem.accepted]
-    assert said == ["First Steps: no gold run. Accepted: a joke"]
-    assert not examined.called, "no examination of the level tells of that"
+    assert not [problem for problem in screen.problems() if problem.accepted], "it is not certified since"
 
 
 def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
