@@ -71,6 +71,11 @@ class Session:
         return self.history.draft
 
     @property
+    def at_home(self) -> Recording:
+        """``about`` in the file that the run has now; else where it was opened."""
+        return self.about if self.file.path is None else replace(self.about, file=str(self.file.path), record=0)
+
+    @property
     def name(self) -> str:
         return self.about.name or "run"
 

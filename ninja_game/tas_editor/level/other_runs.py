@@ -24,7 +24,7 @@ from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay
 from ninja_game.runs.run import run_level
 from ninja_game.tas.contributions import Contributions
-from ninja_game.tas.files import runs_of_level, same_level, track_of
+from ninja_game.tas.files import runs_of_level, same_level, same_place, track_of
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.tas_editor.tabs.tab import EntryField
 from ninja_game.ui.input.bindings import InputEvent
@@ -128,7 +128,8 @@ class OtherRunScreen(ReplaysScreen):
 
     def __init__(self, app: App, others: OtherRuns) -> None:
         self.others = others
-        self._digest = level_digest(others.editor.session.about.level)
+        self._about = others.editor.session.at_home
+        self._digest = level_digest(self._about.level)
         super().__init__(app)
 
     def build(self) -> Sequence[Widget]:
@@ -136,27 +137,26 @@ class OtherRunScreen(ReplaysScreen):
 
     def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
         """Those of the same level, the fastest first, those without an exit last."""
-        return sorted(filter(self._is_of_the_level, rows), key=lambda row: (not row.good, _ticks(row)))
+        fitting = [each for each in rows if isinstance(each.source, Recording) or each.source.level == self._digest]
+        return sorted(fitting, key=lambda row: (not row.good, _ticks(row)))
 
     def _file_rows(self) -> Iterator[list[ReplayRow]]:
         for rows in super()._file_rows():
-            yield [_named(row) for row in rows if self._is_of_the_level(row)]
+            yield list(map(_named, rows))
 
     def places(self) -> list[tuple[str, Iterable[Path | Skipped]]]:
-        """Beside the file of the run, too."""
-        session = self.others.editor.session
-        file = session.file.path or Path(session.about.file)
+        """The file of the run and those beside it, too."""
+        file = Path(self._about.file)
         names = [name for name in files_in(file.parent) if name.lower().endswith(SUFFIXES)] if file.is_file() else []
-        siblings = [file.parent / name for name in names if name != file.name]
+        siblings = [file.parent / name for name in sorted(names, key=lambda name: name != file.name)]
         return [("Same folder", siblings[:FILES_SHOWN]), *super().places()]
 
     def bundled(self) -> list[Path]:
         """All of them: who edits runs knows the way."""
         return bundled_replays()
 
-    def _is_of_the_level(self, row: ReplayRow) -> bool:
-        source = row.source
-        return (level_digest(source.level) if isinstance(source, Recording) else source.level) == self._digest
+    def lists(self, recording: Recording) -> bool:
+        return level_digest(recording.level) == self._digest and not same_place(recording, self._about)
 
     def handle(self, event: InputEvent) -> None:
         MenuScreen.handle(self, event)
@@ -190,8 +190,8 @@ class RunFiles(MenuScreen):
     def __init__(self, app: App, others: OtherRuns, done: Action) -> None:
         super().__init__(app)
         self.others, self._done = others, done
-        self._about = others.editor.session.about
-        file = others.editor.session.file.path or Path(self._about.file)
+        self._about = others.editor.session.at_home
+        file = Path(self._about.file)
         self.folder = file.absolute().parent if file.is_file() else Path.cwd()
         self.paths: list[Path] = []
         self.field = EntryField("Path or link", lambda: self.open_file(self.field.text), longest=2000)
