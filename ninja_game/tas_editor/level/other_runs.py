@@ -82,22 +82,25 @@ class OtherRuns:
                 self.editor.app.notify(f"Ticks {first} to {last - 1} are those of {other.name}")
 
     def splice_here(self) -> None:
-        """Behind the cursor comes the rest of the other run, from the tick in which its ninja was nearest to ours.
+        """From the cursor's tick on comes the rest of the other run, from where its ninja was nearest to ours before it.
 
-        Nearest by place and by speed: a difference of speed counts as the distance after AHEAD ticks.
+        Nearest by place and by speed: a difference of speed counts as the distance after AHEAD ticks. All runs begin
+        alike: in tick 0 it is the other one's tick 0.
         """
         editor, other = self.editor, self.chosen
         tick, positions = editor.cursor, editor.session.timeline.positions
-        if other is None or tick >= len(positions):
+        if other is None or tick > len(positions):
             return
-        far = np.hypot(*(other.positions - positions[tick]).T)
-        ours = editor.session.timeline.trajectory().velocities[tick]
-        faster = np.hypot(*(other.trajectory.velocities - ours).T)
-        there = int(np.argmin(far + AHEAD * faster))
-        keys = [other.track.keys_at(k) for k in range(there + 1, len(other.track))]
-        if editor.edit(lambda track: track.replaced(tick + 1, max(tick + 1, len(track)), keys), other.made):
-            gap = f"{far[there]:.2f} px away, {faster[there]:.2f} px/tick other"
-            editor.app.notify(f"From here on {other.name} from its tick {there} on, {gap}")
+        there, gap = 0, "its start"
+        if tick:
+            far = np.hypot(*(other.positions - positions[tick - 1]).T)
+            ours = editor.session.timeline.trajectory().velocities[tick - 1]
+            faster = np.hypot(*(other.trajectory.velocities - ours).T)
+            before = int(np.argmin(far + AHEAD * faster))
+            there, gap = before + 1, f"{far[before]:.2f} px away, {faster[before]:.2f} px/tick other"
+        keys = [other.track.keys_at(k) for k in range(there, len(other.track))]
+        if editor.edit_selected(lambda track: track.replaced(tick, max(tick, len(track)), keys), other.made):
+            editor.app.notify(f"From tick {tick} on {other.name} from its tick {there} on, {gap}")
 
 
 def other_run(editor: TasEditor, recording: Recording) -> OtherRun:

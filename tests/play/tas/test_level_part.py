@@ -209,12 +209,24 @@ def test_the_rest_of_another_run_from_the_nearest_place(at: TasDriver) -> None:
     speed = at.session.timeline.trajectory().velocities[120]
     faster = np.hypot(*(editor.others[0].trajectory.velocities - speed).T)
     nearest = int(np.argmin(np.hypot(*(there - here).T) + AHEAD * faster))
+    editor.go(121)
     at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
     theirs = editor.others[0].track
     assert editor.track.inputs[:121] == mine.inputs[:121]
     assert [editor.track.keys_at(121 + k) for k in range(300)] == [theirs.keys_at(nearest + 1 + k) for k in range(300)]
     assert len(editor.track) == 121 + len(theirs) - nearest - 1
-    assert f"from its tick {nearest} on" in at.app.notice
+    assert at.app.notice.startswith(f"From tick 121 on {editor.others[0].name} from its tick {nearest + 1} on")
+
+
+def test_the_rest_of_another_run_from_its_start_has_tick_0_too(at: TasDriver) -> None:
+    other = at.editor.track.replaced(0, 5, [KEY_LEFT] * 9)
+    at.screen.level.others.open([at.session.recording(other, "left")])
+    at.press("home")
+    at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
+    assert at.editor.track.inputs == other.inputs
+    assert at.app.notice == "From tick 0 on left from its tick 0 on, its start"
+    at.chord("z", pygame.KMOD_LCTRL)
+    assert at.app.notice.startswith("Undone: keys from tick 0 on")
 
 
 def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) -> None:
@@ -235,8 +247,9 @@ def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) ->
         column[:20] += 0.01
         column[back] += here - x[back]
     assert np.argmin(np.hypot(*(other.positions - at.session.timeline.positions[10]).T)) == back, "nearest by place"
+    editor.go(11)
     at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
-    assert "from its tick 10 on" in at.app.notice
+    assert "from its tick 11 on" in at.app.notice
 
 
 def test_a_run_beside_says_who_made_it(at: TasDriver, tmp_path: Path) -> None:
