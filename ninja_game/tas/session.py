@@ -116,11 +116,18 @@ class Session:
         self._look_back()
 
     def change(
-        self, track: InputTrack, *, ticks: int | None = None, taken: Contributions | None = None, whole: bool = False
+        self,
+        track: InputTrack,
+        *,
+        ticks: int | None = None,
+        taken: Contributions | None = None,
+        whole: bool = False,
+        edited: bool = True,
     ) -> None:
         """Another track, as a part of the stroke or an edit of its own. So many ticks of it are simulated at once.
 
-        ``ticks``: None: as many as are quick; ``taken``: of those whose keys are taken, ``whole``: and no others stay.
+        ``ticks``: None: as many as are quick; ``taken``: of those whose keys are taken, ``whole``: and no others stay;
+        ``edited``: by a person, who does more than to take what a search of ``taken`` has found.
         """
         if track == self.track:
             return
@@ -129,8 +136,9 @@ class Session:
         if self._undone is not None and self.history.can_redo:
             self._keep_undone(self._undone)
         began, opened = self.history.began, self._first.track
-        edits = began.made.edits + (track.inputs != began.inputs)
-        made = replace((NONE if whole else self.track.made) + (taken or NONE), edits=edits)
+        made = (NONE if whole else self.track.made) + (taken or NONE)
+        edits = max(began.made.edits, made.edits * whole) + (edited and track.inputs != began.inputs)
+        made = replace(made, edits=edits)
         self.history.change(replace(track, made=opened.made if track.inputs == opened.inputs else made))
         self._follow(ticks)
 

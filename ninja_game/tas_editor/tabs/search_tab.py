@@ -165,7 +165,8 @@ class SpanResults:
             return True
         editor.session.keep_version(f"before {self.title}")
         editor.places[editor.track] = cursor, anchor
-        if not editor.attempt(lambda: editor.session.change(made, taken=taken, whole=old)):
+        edited = self._whose(result) is not None  # a person's keys were taken, no search has found them
+        if not editor.attempt(lambda: editor.session.change(made, taken=taken, whole=old, edited=edited)):
             return False
         editor.session.keep_version(self.title)
         if old:

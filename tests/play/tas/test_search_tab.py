@@ -625,6 +625,7 @@ def test_the_whole_run_is_shortened_in_the_background_and_keeps_its_markers(at: 
     (marker,) = at.editor.track.markers
     assert (marker.name, marker.tick < 40) == ("begins", True)
     assert at.session.about.replay.made.searches == ("improve",)
+    assert at.session.about.replay.made.edits == 1, "that by hand: to take a result is none"
 
 
 def test_a_run_that_ends_before_the_exit_is_led_there_and_shortened(at: TasDriver, tab: SearchTab) -> None:
