@@ -82,7 +82,7 @@ class OtherRuns:
                 self.editor.app.notify(f"Ticks {first} to {last - 1} are those of {other.name}")
 
     def splice_here(self) -> None:
-        """From the cursor's tick on comes the rest of the other run, from where its ninja was nearest to ours before it.
+        """From the cursor's tick on comes the rest of the other run, from where its ninja was nearest before it.
 
         Nearest by place and by speed: a difference of speed counts as the distance after AHEAD ticks. All runs begin
         alike: in tick 0 it is the other one's tick 0.
