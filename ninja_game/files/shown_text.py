@@ -32,16 +32,16 @@ def counted(number: int, one: str, more: str = "") -> str:
     return f"{number:,} {one if number == 1 else more or f'{one}s'}"
 
 
-def unreadable(names: Sequence[str]) -> str:
-    """A sentence about files that cannot be read; '' without any.
+def files_text(what: str, names: Sequence[str]) -> str:
+    """A sentence about files; '' without any.
 
-    >>> unreadable(["a.txt"]), unreadable(["a.txt", "b.txt", "c.txt"])
-    ('Cannot be read: a.txt', 'Cannot be read: a.txt and 2 more files')
+    >>> files_text("Cannot be read", ["a.txt"]), files_text("Without runs", ["a.txt", "b.txt", "c.txt"])
+    ('Cannot be read: a.txt', 'Without runs: a.txt and 2 more files')
     """
     if not names:
         return ""
     more = f" and {counted(len(names) - 1, 'more file')}" if len(names) > 1 else ""
-    return f"Cannot be read: {names[0]}{more}"
+    return f"{what}: {names[0]}{more}"
 
 
 def shown_text(text: str, longest: int = MAX_SHOWN) -> str:

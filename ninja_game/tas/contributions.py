@@ -35,7 +35,8 @@ class Contributions:
         """A recording as it was opened, with a player's later contributions."""
         old, author = about.replay, about.author or player
         names = names_of_text(", ".join((*old.co_authors, player, *self.names)))
-        begun_by = about.begun_by if about.author != player else ""
+        # An empty run of the editor's was nobody's before; else its origin stays known, also if nobody says who edits.
+        begun_by = "" if player == about.author != "" or not old.inputs else about.begun_by
         made = old.made.edited(self.edits).searched(*self.commands, begun_by=begun_by)
         others = tuple(name for name in names if name != author)
         return replace(about, replay=replace(old, author=author, made=made, co_authors=others))

@@ -131,21 +131,28 @@ def open_recording(recording: Recording) -> OpenedRun:
 
 
 def runs_of_level(path: Path, about: Recording) -> list[Recording]:
-    """The recordings of a file or link that can be shown beside a run: all those of its level, with its body.
+    """The recordings of a file or link that can be shown beside a run: all others of its level, with its body.
 
     Those without a level get the run's. Raises ReplayError if there is none, and as ``load_replays`` does.
     """
     recordings = load_replays(path, level=about.level)
-    fitting = [recording for recording in recordings if same_level(recording, about)]
-    if not fitting:
-        raise ReplayError(
-            f"no run of {about.name or 'this level'} with its body", str(path), found=f"{len(recordings)} others"
-        )
-    return fitting
+    fitting = [each for each in recordings if same_level(each, about)]
+    others = [each for each in fitting if not same_place(each, about)]
+    if not others:
+        what = f"no {'other ' * bool(fitting)}run of {about.name or 'this level'} with its body"
+        raise ReplayError(what, str(path), found=f"{len(recordings)} others" if not fitting else "")
+    return others
 
 
 def same_level(recording: Recording, other: Recording) -> bool:
     return recording.body == other.body and level_digest(recording.level) == level_digest(other.level)
+
+
+def same_place(recording: Recording, other: Recording) -> bool:
+    """Whether both are the same record of the same file."""
+    if not other.file or recording.record != other.record or not Path(other.file).is_file():
+        return False
+    return Path(recording.file).resolve() == Path(other.file).resolve()
 
 
 def track_of(recording: Recording) -> InputTrack:

@@ -70,6 +70,11 @@ class Session:
         return self.history.draft
 
     @property
+    def at_home(self) -> Recording:
+        """``about`` in the file that the run has now; else where it was opened."""
+        return self.about if self.file.path is None else replace(self.about, file=str(self.file.path), record=0)
+
+    @property
     def name(self) -> str:
         return self.about.name or "run"
 
@@ -110,12 +115,18 @@ class Session:
         self._look_back()
 
     def change(
-        self, track: InputTrack, *, ticks: int | None = None, taken: Contributions | None = None, whole: bool = False
+        self,
+        track: InputTrack,
+        *,
+        ticks: int | None = None,
+        taken: Contributions | None = None,
+        whole: bool = False,
+        edited: bool = True,
     ) -> None:
         """Set another track, as a part of the stroke or an edit of its own, and simulate a number of ticks.
 
         ``ticks``: None: as many as are quick; ``taken``: the contributions of copied keys, ``whole``: which replace
-        all.
+        all; ``edited``: by a person, who does more than take the result of a search in ``taken``.
         """
         if track == self.track:
             return
@@ -124,8 +135,9 @@ class Session:
         if self._undone is not None and self.history.can_redo:
             self._keep_undone(self._undone)
         began, opened = self.history.began, self._first.track
-        edits = began.made.edits + (track.inputs != began.inputs)
-        made = replace((NONE if whole else self.track.made) + (taken or NONE), edits=edits)
+        made = (NONE if whole else self.track.made) + (taken or NONE)
+        edits = max(began.made.edits, made.edits * whole) + (edited and track.inputs != began.inputs)
+        made = replace(made, edits=edits)
         self.history.change(replace(track, made=opened.made if track.inputs == opened.inputs else made))
         self._follow(ticks)
 

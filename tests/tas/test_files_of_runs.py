@@ -16,6 +16,7 @@ from ninja_game.errors import ArgumentError, FileError, LevelError, NinjaGameErr
 from ninja_game.formats import load
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
+from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
@@ -23,7 +24,7 @@ from ninja_game.runs.archive import verify_all
 from ninja_game.runs.verify import Verdict
 from ninja_game.sim.inputs import fit_inputs
 from ninja_game.tas.contributions import Contributions
-from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, save_run, track_of
+from ninja_game.tas.files import OpenedRun, RunFile, branches_path, new_run, open_run, save_run, track_of
 from ninja_game.tas.journal import FOLDER, recovered
 from ninja_game.tas.session import Session
 from ninja_game.tas.tracks import Branches, InputTrack
@@ -356,6 +357,30 @@ def test_keys_that_are_taken_bring_their_authors_and_searches_along(tmp_path: Pa
     again.save(path)
     assert parse_replay(path.read_text("utf-8")).made == expected[0]
     again.close()
+
+
+@pytest.mark.parametrize("player", ["", "Bob"])
+def test_a_result_that_is_taken_is_no_edit_and_its_origin_stays(player: str, tmp_path: Path) -> None:
+    source = write_records(tmp_path / "person.txt", ("a", WALK, running(WALK_END)))
+    session = Session(open_run(source, record=0), tmp_path, player=player, memory="plain")
+    found = Contributions(commands=("improve",))
+    session.change(session.track.replaced(5, 6, [0]), taken=found, edited=False)
+    path = tmp_path / "new.replay.txt"
+    session.save(path)
+    saved = parse_replay(path.read_text("utf-8"))
+    assert (str(saved.made), saved.author) == ("searched (improve) from a run by unknown (person.txt)", player)
+    session.change(session.track.replaced(7, 8, [0]))
+    assert session.about.replay.made.edits == 1
+    session.change(session.track.replaced(9, 10, [0]), taken=found, edited=False, whole=True)
+    assert session.about.replay.made.edits == 1, "edits that were made stay"
+    session.close()
+
+
+def test_an_empty_run_was_nobodys_before(tmp_path: Path) -> None:
+    session = Session(new_run(NamedLevel("a room", "me", "", LEVEL, "")), tmp_path, memory="plain")
+    session.change(session.track.replaced(0, 0, [2] * 9))
+    assert str(session.about.replay.made) == "edited 1"
+    session.close()
 
 
 def test_what_is_undone_is_credited_no_longer(tmp_path: Path) -> None:

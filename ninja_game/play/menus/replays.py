@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from time import perf_counter
 from typing import NamedTuple
@@ -11,12 +12,12 @@ import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.reading import Skipped, files_below
-from ninja_game.files.shown_text import unreadable
+from ninja_game.files.shown_text import files_text
 from ninja_game.files.user_folder import REPLAY_SUFFIX, bundled_replays
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links import recording_link, replay_link
-from ninja_game.formats.load import load_replays
-from ninja_game.formats.recording import Recording
+from ninja_game.formats.load import load_replays, texts_of
+from ninja_game.formats.recording import Recording, holds_recordings
 from ninja_game.formats.replay.text import Replay, write_episode, write_replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import author_name
@@ -72,6 +73,7 @@ class ReplaysScreen(MenuScreen):
         super().__init__(app)
         self.rows: list[ReplayRow] = []
         self.problems: list[str] = []
+        self.without_runs: list[str] = []
         self._saved: list[ReplayRow] = []
         self._files: list[ReplayRow] = []
         self._unread = self._file_rows()
@@ -124,6 +126,10 @@ class ReplaysScreen(MenuScreen):
     def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
         return rows
 
+    def lists(self, recording: Recording) -> bool:
+        """Whether a run in a file is listed."""
+        return True
+
     def places(self) -> list[tuple[str, Iterable[Path | Skipped]]]:
         return [("Your folder", files_below(self.player.replay_folder)), ("Included", self.bundled())]
 
@@ -144,12 +150,12 @@ class ReplaysScreen(MenuScreen):
                 try:
                     recordings = load_replays(file)
                 except (NinjaGameError, OSError):
-                    self.problems.append(file.name)
+                    (self.problems if _may_have_runs(file) else self.without_runs).append(file.name)
                     continue
                 # An author's run for the exit may be the one for all gold too.
-                read = (_row_of_recording(recording, when) for recording in recordings)
-                rows = [row for row in read if row[:4] not in seen]
-                seen.update(row[:4] for row in rows)
+                read = (_row_of_recording(recording, when) for recording in recordings if self.lists(recording))
+                rows = [row for row in read if _looks(row) not in seen]
+                seen.update(map(_looks, rows))
                 yield rows
                 if len(self._files) > FILES_SHOWN:
                     break
@@ -212,7 +218,8 @@ class ReplaysScreen(MenuScreen):
         for text, (x, align) in zip(self.heads, places, strict=True):
             theme.text(surface, text, x, 100, size=10.5, colour=palette.faint, align=align)
         newest = f"The newest {NEWEST_SHOWN} of yours; a search finds all" if len(self._saved) == NEWEST_SHOWN else ""
-        message = self.message or unreadable(self.problems) or newest
+        unread = files_text("Cannot be read", self.problems)
+        message = self.message or unread or newest or files_text("No runs in", self.without_runs)
         theme.text(surface, message, 44, 545, size=10, colour=palette.faint, width=712)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
@@ -227,6 +234,18 @@ class ReplaysScreen(MenuScreen):
         colour = palette.good if row.good else palette.faint
         theme.text(surface, row.what, 612, top, size=12, colour=colour, align="right", width=140)
         theme.text(surface, row.when, 734, top + 1, size=10, colour=palette.faint, align="right", width=114)
+
+
+def _looks(row: ReplayRow) -> tuple[object, ...]:
+    """What tells one run in a file from another."""
+    return *row[:4], row.source.inputs if isinstance(row.source, Recording) else b""
+
+
+def _may_have_runs(file: Path) -> bool:
+    """Whether there are recordings in a file that cannot be read as such, as far as one can say."""
+    with suppress(NinjaGameError, OSError):
+        return any(holds_recordings(text) for _, text in texts_of(file, named=False))
+    return True
 
 
 def _row_of(saved: SavedReplay) -> ReplayRow:

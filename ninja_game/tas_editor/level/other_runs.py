@@ -24,7 +24,7 @@ from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay
 from ninja_game.runs.run import run_level
 from ninja_game.tas.contributions import Contributions
-from ninja_game.tas.files import runs_of_level, same_level, track_of
+from ninja_game.tas.files import runs_of_level, same_level, same_place, track_of
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.tas_editor.tabs.tab import EntryField
 from ninja_game.ui.input.bindings import InputEvent
@@ -82,22 +82,25 @@ class OtherRuns:
                 self.editor.app.notify(f"Ticks {first} to {last - 1} are those of {other.name}")
 
     def splice_here(self) -> None:
-        """Replace all ticks behind the cursor by the other run's, from the tick where its ninja was nearest to ours.
+        """Replace all ticks from the cursor on by the other run's, from the tick where its ninja was nearest to ours.
 
-        Nearest by place and by speed: a difference of speed counts as the distance after AHEAD ticks.
+        Nearest by place and by speed: a difference of speed counts as the distance after AHEAD ticks. All runs begin
+        alike: in tick 0 it is the other one's tick 0.
         """
         editor, other = self.editor, self.chosen
         tick, positions = editor.cursor, editor.session.timeline.positions
-        if other is None or tick >= len(positions):
+        if other is None or tick > len(positions):
             return
-        far = np.hypot(*(other.positions - positions[tick]).T)
-        ours = editor.session.timeline.trajectory().velocities[tick]
-        faster = np.hypot(*(other.trajectory.velocities - ours).T)
-        there = int(np.argmin(far + AHEAD * faster))
-        keys = [other.track.keys_at(k) for k in range(there + 1, len(other.track))]
-        if editor.edit(lambda track: track.replaced(tick + 1, max(tick + 1, len(track)), keys), other.made):
-            gap = f"{far[there]:.2f} px away, {faster[there]:.2f} px/tick other"
-            editor.app.notify(f"From here on {other.name} from its tick {there} on, {gap}")
+        there, gap = 0, "its start"
+        if tick:
+            far = np.hypot(*(other.positions - positions[tick - 1]).T)
+            ours = editor.session.timeline.trajectory().velocities[tick - 1]
+            faster = np.hypot(*(other.trajectory.velocities - ours).T)
+            before = int(np.argmin(far + AHEAD * faster))
+            there, gap = before + 1, f"{far[before]:.2f} px away, {faster[before]:.2f} px/tick other"
+        keys = [other.track.keys_at(k) for k in range(there, len(other.track))]
+        if editor.edit_selected(lambda track: track.replaced(tick, max(tick, len(track)), keys), other.made):
+            editor.app.notify(f"From tick {tick} on {other.name} from its tick {there} on, {gap}")
 
 
 def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
@@ -128,7 +131,8 @@ class OtherRunScreen(ReplaysScreen):
 
     def __init__(self, app: App, others: OtherRuns) -> None:
         self.others = others
-        self._digest = level_digest(others.editor.session.about.level)
+        self._about = others.editor.session.at_home
+        self._digest = level_digest(self._about.level)
         super().__init__(app)
 
     def build(self) -> Sequence[Widget]:
@@ -136,27 +140,26 @@ class OtherRunScreen(ReplaysScreen):
 
     def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
         """Those of the same level, fastest first, those without an exit last."""
-        return sorted(filter(self._is_of_the_level, rows), key=lambda row: (not row.good, _ticks(row)))
+        fitting = [row for row in rows if isinstance(row.source, Recording) or row.source.level == self._digest]
+        return sorted(fitting, key=lambda row: (not row.good, _ticks(row)))
 
     def _file_rows(self) -> Iterator[list[ReplayRow]]:
         for rows in super()._file_rows():
-            yield [_named(row) for row in rows if self._is_of_the_level(row)]
+            yield list(map(_named, rows))
 
     def places(self) -> list[tuple[str, Iterable[Path | Skipped]]]:
-        """Beside the file of the run, too."""
-        session = self.others.editor.session
-        file = session.file.path or Path(session.about.file)
+        """The file of the run and those beside it, too."""
+        file = Path(self._about.file)
         names = [name for name in files_in(file.parent) if name.lower().endswith(SUFFIXES)] if file.is_file() else []
-        siblings = [file.parent / name for name in names if name != file.name]
+        siblings = [file.parent / name for name in sorted(names, key=lambda name: name != file.name)]
         return [("Same folder", siblings[:FILES_SHOWN]), *super().places()]
 
     def bundled(self) -> list[Path]:
         """All bundled replays: an editor of runs needs no protection from solutions."""
         return bundled_replays()
 
-    def _is_of_the_level(self, row: ReplayRow) -> bool:
-        source = row.source
-        return (level_digest(source.level) if isinstance(source, Recording) else source.level) == self._digest
+    def lists(self, recording: Recording) -> bool:
+        return level_digest(recording.level) == self._digest and not same_place(recording, self._about)
 
     def handle(self, event: InputEvent) -> None:
         MenuScreen.handle(self, event)
@@ -190,8 +193,8 @@ class RunFiles(MenuScreen):
     def __init__(self, app: App, others: OtherRuns, done: Action) -> None:
         super().__init__(app)
         self.others, self._done = others, done
-        self._about = others.editor.session.about
-        file = others.editor.session.file.path or Path(self._about.file)
+        self._about = others.editor.session.at_home
+        file = Path(self._about.file)
         self.folder = file.absolute().parent if file.is_file() else Path.cwd()
         self.paths: list[Path] = []
         self.field = EntryField("Path or link", lambda: self.open_file(self.field.text), longest=2000)

@@ -138,7 +138,7 @@ class BranchesTab(Tab):
         if current:
             tip = left - 4
             theme.canvas.polygon(surface, palette.accent, [(tip - 6, y + 4), (tip - 6, y + h - 4), (tip, y + h / 2)])
-        changed = " (changed since)" if current and branch.track != self.editor.track else ""
+        changed = " (changed since)" if current and branch.track.inputs != self.editor.track.inputs else ""
         room = right - _COLUMNS[0] - left - 6
         theme.text(surface, branch.name + changed, left, y + 3, size=SMALL, bold=current, width=room)
         cells = (f"{branch.outcome} {branch.end}" if branch.end >= 0 else "no end", str(branch.gold))

@@ -128,7 +128,7 @@ class LeadTab(Tab):
         if last is not None:
             parts.append(f"{lead_text(last.ahead)} at {last.name}")
         if table.apart:
-            parts.append(f"no rows for {table.apart} s: over {NEAR:.0f} px apart there")
+            parts.append(f"{counted(table.apart, 'second')} not listed: over {NEAR:.0f} px apart")
         return "; ".join(parts)
 
     def render_key(self) -> tuple[object, ...]:

@@ -54,6 +54,7 @@ NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the ne
 NOTHING_YET = "Nothing yet."
 PATIENCE = 5.0  # seconds of a search before pieces of its span are proposed
 FORGET = "Forget earlier"
+WITHOUT_REST = "End at the goal, not then the rest"
 PIECES = "Nothing better so far. A click searches one of these:"
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
 
@@ -165,7 +166,8 @@ class SpanResults:
             return True
         editor.session.keep_version(f"before {self.title}")
         editor.places[editor.track] = cursor, anchor
-        if not editor.attempt(lambda: editor.session.change(made, taken=taken, whole=old)):
+        edited = self._whose(result) is not None  # a person's keys were taken, no search has found them
+        if not editor.attempt(lambda: editor.session.change(made, taken=taken, whole=old, edited=edited)):
             return False
         editor.session.keep_version(self.title)
         if old:
@@ -555,7 +557,10 @@ class SearchTab(Tab):
             return
         self.pieces = ()
         if known is not None and known[0] is track:
-            self._cut, self.pieces = track, tuple(pieces_of(SearchedSpan(session, *self._in_pieces), known[1]))
+            pieces = pieces_of(SearchedSpan(session, *self._in_pieces), known[1])
+            if task.rest and task.goal:
+                pieces.insert(0, RunPiece(*self._in_pieces, WITHOUT_REST, SpanGoal(task.goal)))
+            self._cut, self.pieces = track, tuple(pieces)
         elif self._asked is not track:
             self._asked = track
             self._splits.ask((track, session.recording()))  # in a thread: runs may be long
@@ -635,7 +640,7 @@ class SearchTab(Tab):
     def _draw_piece(self, surface: pygame.Surface, theme: Theme, piece: RunPiece, area: Area) -> None:
         x, y, w, _ = area
         ticks = f"ticks {piece.first} to {piece.last - 1}"
-        now = (piece.first, piece.last) == self.span
+        now = (piece.first, piece.last) == self.span and piece.wanted.rest == self.rest
         theme.text(surface, piece.name, x + _LEFT, y + 3, size=SMALL, bold=now, width=w - _COLUMNS[0] - _LEFT)
         theme.text(surface, ticks, x + w - _COLUMNS[0], y + 3, size=SMALL, width=104)
         what = "is searched" if now else "search it"

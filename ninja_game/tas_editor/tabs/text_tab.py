@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ninja_game.errors import FormatError
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.replay.input_text import Inputs
-from ninja_game.formats.replay.notations import KEY_NAMES, marker_word
+from ninja_game.formats.replay.notations import KEY_NAMES, Marker, marker_word
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.tas.files import inputs_of_text
 from ninja_game.tas.tracks import InputTrack
@@ -24,6 +24,7 @@ from ninja_game.ui.widgets import Button
 
 LONGEST = 300  # characters of a line
 _NAMED_END = re.compile(r'(?<=\s)#\s*([^"#]+)$')
+_NAME_AND_COMMENT = re.compile(r'(?<=\s)#([^\s"#]+\s+#\s+[^"]+)$')
 _WORD = re.compile(r'#"[^"]*"|\S+')
 
 
@@ -151,6 +152,8 @@ class TextTab(Tab):
             if done := self.editor.edit_selected(lambda track: track.named(first, text[1:])):
                 self._go_on(last)
             return done
+        commented = _NAME_AND_COMMENT.search(text)
+        text = text[: commented.start()] if commented else text
         try:
             try:
                 typed = _read(text)
@@ -164,6 +167,8 @@ class TextTab(Tab):
             error.line = error.column = 0
             self.editor.refuse(f"Not changed: {place}{error}")
             return False
+        if commented:  # a tick has one name: this is it, with what is said behind it
+            typed = typed._replace(markers=(*typed.markers, Marker(len(typed.keys), commented[1])))
         typed = _named_in_line(typed)
 
         def changed(track: InputTrack) -> InputTrack:

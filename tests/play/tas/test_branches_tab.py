@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from unittest.mock import patch
+
+import pygame
 import pytest
 
 from ninja_game.play.menus.menu_screen import Question
 from ninja_game.sim.inputs import Input
 from ninja_game.tas_editor.tabs.branches_tab import BranchesTab
+from ninja_game.ui.theme import Theme
 from tests.support.tas_driver import TasDriver
 
 
@@ -126,6 +130,11 @@ def test_comparing_opens_the_lead_over_the_branch(at: TasDriver, tab: BranchesTa
 def test_differences_are_told_between_runs_to_the_exit(at: TasDriver, tab: BranchesTab) -> None:
     keep(at, "")
     assert tab._difference(tab.branches.all[0]) == ("the same", 0)
+    at.editor.edit(lambda track: track.named(5, "hop"))
+    with patch.object(Theme, "text") as drawn:
+        row_area = 0.0, 0.0, 400.0, 18.0
+        tab._draw_row(pygame.Surface((400, 40)), at.editor.theme, 0, row_area, False)
+    assert drawn.call_args_list[0].args[1] == tab.branches.all[0].name, "not changed since: a marker is no key"
     at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
     assert tab._difference(tab.branches.all[0]) == ("3 shorter", 3)
     at.editor.edit(lambda track: track.replaced(10, len(track), []))

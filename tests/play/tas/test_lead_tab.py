@@ -115,7 +115,7 @@ def test_seconds_without_a_row_are_told(at: TasDriver, tab: LeadTab) -> None:
     there = sum(not row.at for row in tab.table.rows)
     seconds = (len(tab.table.comparison.positions[0]) - 1) // 40
     assert 0 < tab.table.apart == seconds - there
-    assert tab.summary.endswith(f"no rows for {tab.table.apart} s: over 24 px apart there")
+    assert tab.summary.endswith(f"{tab.table.apart} seconds not listed: over 24 px apart")
 
 
 def test_the_lead_over_a_run_beside_stands_in_the_roll(at: TasDriver) -> None:

@@ -16,10 +16,12 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ReplayError
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
+from ninja_game.formats.n14.demo import write_demo
+from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.menus.menu_screen import FormPanel
 from ninja_game.play.replay.screen import SPEEDS, ReplayScreen
-from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
+from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, Demo
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas.tracks import InputTrack
@@ -207,12 +209,24 @@ def test_the_rest_of_another_run_from_the_nearest_place(at: TasDriver) -> None:
     speed = at.session.timeline.trajectory().velocities[120]
     faster = np.hypot(*(editor.others[0].trajectory.velocities - speed).T)
     nearest = int(np.argmin(np.hypot(*(there - here).T) + AHEAD * faster))
+    editor.go(121)
     at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
     theirs = editor.others[0].track
     assert editor.track.inputs[:121] == mine.inputs[:121]
     assert [editor.track.keys_at(121 + k) for k in range(300)] == [theirs.keys_at(nearest + 1 + k) for k in range(300)]
     assert len(editor.track) == 121 + len(theirs) - nearest - 1
-    assert f"from its tick {nearest} on" in at.app.notice
+    assert at.app.notice.startswith(f"From tick 121 on {editor.others[0].name} from its tick {nearest + 1} on")
+
+
+def test_the_rest_of_another_run_from_its_start_has_tick_0_too(at: TasDriver) -> None:
+    other = at.editor.track.replaced(0, 5, [KEY_LEFT] * 9)
+    at.screen.level.others.open([at.session.recording(other, "left")])
+    at.press("home")
+    at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
+    assert at.editor.track.inputs == other.inputs
+    assert at.app.notice == "From tick 0 on left from its tick 0 on, its start"
+    at.chord("z", pygame.KMOD_LCTRL)
+    assert at.app.notice.startswith("Undone: keys from tick 0 on")
 
 
 def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) -> None:
@@ -233,8 +247,9 @@ def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) ->
         column[:20] += 0.01
         column[back] += here - x[back]
     assert np.argmin(np.hypot(*(other.positions - at.session.timeline.positions[10]).T)) == back, "nearest by place"
+    editor.go(11)
     at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
-    assert "from its tick 10 on" in at.app.notice
+    assert "from its tick 11 on" in at.app.notice
 
 
 def test_a_run_beside_says_who_made_it(at: TasDriver, tmp_path: Path) -> None:
@@ -281,6 +296,28 @@ def test_runs_that_reach_the_exit_are_listed_first_also_those_that_claim_nothing
     at.wait(lambda: len(listed.rows) == 3, "the list")
     assert [row.what.partition(",")[0] for row in listed.rows] == ["all gold", "all gold", "unfinished"]
     assert listed.rows[0].what == f"all gold, {seconds_text(WALK_END)} s"
+    at.close()
+
+
+def test_other_records_of_the_file_that_is_open_are_listed_and_never_the_run_itself(tmp_path: Path) -> None:
+    demos = write_demo(Demo(bytes([1] * 9), 9.0)), running(20), running(WALK_END), running(9)
+    file = write_records(tmp_path / "box.txt", *(("a run", WALK, demo) for demo in demos))
+    write_records(tmp_path / "levels.txt", ("a level", WALK, ""))
+    at = TasDriver(tmp_path / "player", file, record=1)
+    at.chord("o", pygame.KMOD_LCTRL)
+    listed = at.shown(OtherRunScreen)
+    at.wait(lambda: len(listed.rows) == 3, "the list")
+    records = [row.source.record for row in listed.rows if isinstance(row.source, Recording)]
+    assert records == [2, 0, 3], "of records 0 and 3 all but the keys is the same"
+    assert (listed.problems, listed.without_runs) == ([], ["levels.txt"])
+    at.choose("From a file ...")
+    at.shown(RunFiles).open_file("box.txt")
+    assert [other.name for other in at.editor.others] == ["box.txt", "box.txt 2", "box.txt 3"]
+    assert at.editor.beside is at.editor.others[0]
+    at.chord("s", pygame.KMOD_LCTRL)
+    at.choose("Save")
+    at.chord("o", pygame.KMOD_LCTRL)
+    at.wait(lambda: len(at.shown(OtherRunScreen).rows) == 4, "all of them: the run has its own file now")
     at.close()
 
 
@@ -344,7 +381,7 @@ def test_other_runs_come_from_any_file(at: TasDriver, tmp_path: Path) -> None:
     assert set(tmp_path.rglob("*")) == files, "nothing is written here"
     at.choose("From a file ...")
     files_shown = at.shown(RunFiles)
-    assert [path.name for path in files_shown.paths[1:]] == ["player", "other.replay.txt", "run.replay.txt"]
+    assert [path.name for path in files_shown.paths[1:]] == ["player", "other.replay.txt"], "not the run itself"
     for name in ("no such file", "notes.txt", "elsewhere.replay.txt"):
         files_shown.open_file(name)
         assert at.top() is files_shown
@@ -401,7 +438,7 @@ def test_of_a_long_run_the_way_near_the_cursor_is_shown(at: TasDriver) -> None:
 
 
 def test_another_run_is_in_the_first_picture_and_in_that_of_a_larger_window(at: TasDriver) -> None:
-    screen = TasScreen(at.app, open_run(RUN), runs_of_level(RUN, at.session.about))
+    screen = TasScreen(at.app, open_run(RUN), load_replays(RUN))
     screen.editor.go(100)
     at.app.replace(screen)
     picture = screen.level.picture
@@ -465,7 +502,7 @@ def test_other_runs_in_the_folder_of_a_run_that_was_saved_anew_are_listed(at: Ta
         at.session.save(folder / name)
     screen = OtherRunScreen(at.app, at.screen.level.others)
     assert [(name, [each.name for each in files if isinstance(each, Path)]) for name, files in screen.places()][:1] == [
-        ("Same folder", ["other.replay.txt"])
+        ("Same folder", ["saved.replay.txt", "other.replay.txt"])
     ]
 
 

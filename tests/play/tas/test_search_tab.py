@@ -263,9 +263,15 @@ def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
     wish(at, "Same end, sooner")
     at.wait(lambda: bool(tab.pieces), "pieces")
     expected = [(100, 115, "To tick 114"), (115, 130, "To tick 129")]
-    assert [piece[:3] for piece in tab.pieces] == expected
-    assert all(piece.wanted.rest for piece in tab.pieces)
+    assert [piece[:3] for piece in tab.pieces[1:]] == expected
+    assert all(piece.wanted.rest for piece in tab.pieces[1:])
     assert current_thread() not in threads
+    goal = tab.goal.text
+    at.frames()
+    row(at, tab, len(tab.found))
+    task = results_of(tab).task
+    assert (task.first, task.last, task.goal, task.rest) == (100, 130, goal, False)
+    assert tab.pieces[0].name == module.WITHOUT_REST
 
 
 def test_a_taken_result_leaves_the_cursor_in_its_place_and_undo_too(at: TasDriver, tab: SearchTab) -> None:
@@ -625,6 +631,7 @@ def test_the_whole_run_is_shortened_in_the_background_and_keeps_its_markers(at: 
     (marker,) = at.editor.track.markers
     assert (marker.name, marker.tick < 40) == ("begins", True)
     assert at.session.about.replay.made.searches == ("improve",)
+    assert at.session.about.replay.made.edits == 1, "that by hand: to take a result is none"
 
 
 def test_a_run_that_ends_before_the_exit_is_led_there_and_shortened(at: TasDriver, tab: SearchTab) -> None:

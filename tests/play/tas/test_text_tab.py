@@ -122,6 +122,13 @@ def test_a_marker_on_either_side_of_keys_names_their_first_tick(at: TasDriver, t
     assert texts(tab)[:2] == ["#turn L*5", "#hop R*3"]
 
 
+def test_a_comment_behind_a_marker_stays_with_it_as_written(at: TasDriver, tab: TextTab) -> None:
+    typed(at, tab, "10,R,J #hop2 # test note, #2")
+    assert texts(tab)[:2] == ['#"hop2 # test note, #2" RJ*10', "#hop R*3"]
+    typed(at, tab, "5,R #two #three")
+    assert "#three" in " ".join(texts(tab)), "two names are two"
+
+
 def test_a_marker_between_keys_or_behind_named_ones_names_what_comes_next(at: TasDriver, tab: TextTab) -> None:
     typed(at, tab, "#one L*2 #two J")
     assert texts(tab)[:3] == ["#one L*2", "#two J*1", "#hop R*3"]
