@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
+from ninja_game.editor.certify import place_before
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
@@ -193,6 +194,12 @@ class EditorCommands(DocumentCommands):
             return
         self.app.push(screen)
 
+    def test_message(self, place: Point | None, says: str) -> None:
+        """Play the level with these messages, from just before a place, as the solver's run or the last test came."""
+        session = self.session
+        routes = session.certifier.search.route if session.way else (), session.last_try
+        self.test(place and place_before(session.draft, routes, place), says)
+
     def certify(self) -> None:
         certifier = self.session.certifier
         self.session.tools.finish()
@@ -342,7 +349,7 @@ class EditorCommands(DocumentCommands):
 
         entry = self._entry()
         mood = entry.mood if entry else Mood()
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.test, mood, self.session.way, at))
+        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.test_message, mood, self.session.way, at))
 
     def _entry(self) -> Entry | None:
         """The level's file as it is played: in its place in a pack, or alone; None without a file."""

@@ -9,11 +9,10 @@ from functools import partial
 
 import pygame
 
-from ninja_game.editor.brush import EMPTY
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import BODY, SWITCH, object_type_name, points
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
+from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
 from ninja_game.formats.messages import (
     BAR,
     KEYS,
@@ -135,22 +134,10 @@ class _Stage:
             open_exit(self.world)
 
 
-def _cells_before(draft: Draft, place: Point) -> Point:
-    """Where a test of a message begins, px: just too far from its place, where a floor or at least air leads there."""
-    column, row = cell_of(*place)
-    best, at = 0, place
-    for step in (-1, 1):
-        way = [(column + step * k, row) for k in range(1, 4)]
-        floor = sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way)
-        if 1 + floor > best and all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way):
-            best, at = 1 + floor, middle_of(way[-1])
-    return at
-
-
 class MessagesScreen(MenuScreen):
     """``here``: the cell that a message near a place begins with. ``put``: takes the header's value.
 
-    ``test``: plays the level from a point, or from its start, with such a value. ``at``: the message of this cell gets
+    ``test``: plays the level from before a place, or from its start, with such a value. ``at``: the message of this cell gets
     the focus. ``mood``: in which the level is played. ``way``: the inputs of its author's run, if there is one.
     """
 
@@ -287,7 +274,7 @@ class MessagesScreen(MenuScreen):
     def _try(self) -> None:
         if self._is_sound():
             eye = self._eye(self.selected) if self.selected else None
-            self._test(eye and _cells_before(self._draft, eye), self.source)
+            self._test(eye, self.source)
 
     def close(self) -> None:
         """Ask what is to become of changes."""

@@ -10,7 +10,7 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
-from ninja_game.editor.certify import search_of
+from ninja_game.editor.certify import place_before, search_of
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.formats.messages import MAX_MESSAGES, MOST_LETTERS, parse_messages
 from ninja_game.levels.episodes import Mood
@@ -26,7 +26,7 @@ from ninja_game.player.playthrough import LevelContext
 from ninja_game.search.certificate import verified_run
 from ninja_game.sim.events import LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.kinds import GOLD
+from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Palette
@@ -231,6 +231,24 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
     room.choose("Test")
     assert room.top() is screen
     assert "Type what is said" in drawn(room.app)
+
+
+def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room: Maker) -> None:
+    mines = tuple(ObjectSpec(MINE, (24 * column + 12.0, 540.0)) for column in range(8, 12))
+    block = Stamp(dict.fromkeys([(column, 19) for column in range(14, 26)], 1))
+    draft = put(put(room.draft, block), Stamp({}, mines))
+    # On a block: from the side of the start, though both sides are alike.
+    assert place_before(draft, (), (19 * 24 + 12.0, 18 * 24 + 12.0)) == (16 * 24 + 12.0, 18 * 24 + 12.0)
+    # Both sides of this one are deadly, so it is the level's start.
+    assert place_before(draft, (), (14 * 24 + 12.0, 540.0)) == (17 * 24 + 12.0, 540.0)
+    assert place_before(draft, (), (8 * 24 + 12.0, 540.0)) == (5 * 24 + 12.0, 540.0)
+    tight = put(draft, Stamp({}, (ObjectSpec(MINE, (5 * 24 + 12.0, 540.0)),)))
+    assert place_before(tight, (), (8 * 24 + 12.0, 540.0)) is None
+    # Where a run comes in from the right in a jump, it is where the run last stood.
+    came = tuple((500.0 - 4 * k, 542.0) for k in range(20)) + tuple((420.0 - 4 * k, 540.0 - k) for k in range(40))
+    for routes in ((came,), ((), came)):
+        assert place_before(draft, routes, (300.0, 500.0)) == (424.0, 542.0)
+    assert place_before(draft, ((came[0], *came[30:]),), (300.0, 500.0)) is None, "it never stood"
 
 
 def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Maker) -> None:
