@@ -97,8 +97,8 @@ class Sayings:
 
     @property
     def is_start(self) -> bool:
-        """Whether the present text is one of the start."""
-        return self.text in [saying.text for saying in self._starts()]
+        """Whether the present text is one of the start, also when it is said no more."""
+        return self.text in [saying.text for saying in self._sayings if saying.when == "start"]
 
     @property
     def seen(self) -> float:

@@ -24,7 +24,7 @@ from ninja_game.play.level.sayings import Sayings
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.search.certificate import verified_run
-from ninja_game.sim.events import LOCK_OPENED, TRAP_CLOSED
+from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.level import Level, ObjectSpec
@@ -346,6 +346,15 @@ def test_a_locked_door_and_a_trap_have_their_words() -> None:
 
 
 def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
+def test_the_text_of_the_start_stays_in_its_place_while_it_is_shown() -> None:
+    told = Sayings(parse_messages("start: Go"))
+    assert told.is_start
+    assert not told.on_tick(SimpleNamespace(events=[SimpleNamespace(kind=EXIT_OPENED)], event_count=1))  # type: ignore[arg-type]
+    assert (told.text, told.is_start) == ("Go", True), "it may lie where it did"
+    told.at_start()
+    assert told.text == ""
+
+
     room: Maker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown: list[tuple[str, float, float]] = []
