@@ -188,7 +188,7 @@ class MessagesScreen(MenuScreen):
         add = Button((36, y, 160, 28), words, None if full else self._add)
         hint = "Play from just before the selected message; Esc comes back"
         test = Button((342, y, 132, 28), "Test", self._try, hint=hint)
-        end = [Button((488, y, 132, 28), "OK", self._accept), Button((632, y, 132, 28), "Cancel", self.app.pop)]
+        end = [Button((488, y, 132, 28), "OK", self._accept), Button((632, y, 132, 28), "Cancel", self.close)]
         return [*rows, add, test, *end]
 
     def _row(self, number: int) -> list[Widget]:

@@ -148,6 +148,7 @@ def test_every_message_comes_back_as_it_was(room: Maker) -> None:
     room.choose("Cancel")
     assert room.draft.says == ALL.partition(" | ")[2]
 
+    room.choose("Discard changes")
 
 @pytest.mark.parametrize(
     "message, in_detail, said",
@@ -305,19 +306,27 @@ def test_the_selected_message_is_shown_as_the_level_says_it_with_its_letters_cou
     assert not room.app.notice, "nothing lies over the buttons"
 
 
-def test_escape_asks_about_changed_messages(room: Maker) -> None:
+@pytest.mark.parametrize("button", [False, True])
+def test_escape_and_cancel_ask_about_changed_messages(room: Maker, button: bool) -> None:
+    def leave() -> None:
+        if button:
+            room.choose("Cancel")
+        else:
+            room.press("escape")
+
     for answer, says in (("Cancel", ""), ("Discard changes", ""), ("Keep the changes", "start: on")):
         screen = opened(room)
-        room.press("escape")
+        leave()
         assert isinstance(room.top(), EditorScreen), "nothing is changed"
         screen = opened(room)
         room.choose("Add a message")
         room.type("on")
-        room.press("escape")
+        leave()
         room.choose(answer)
         if answer == "Cancel":
             assert room.top() is screen
-            room.choose("Cancel")
+            leave()
+            room.choose("Discard changes")
         assert isinstance(room.top(), EditorScreen)
         assert room.draft.says == says
 
