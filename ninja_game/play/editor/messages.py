@@ -67,7 +67,8 @@ _SAID_AT = {
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
-    f"Write {' or '.join(f'{{{thing}}}' for thing in TARGETS)}: arrows in the level then point at both.",
+    f"{' or '.join(f'{{{thing}}}' for thing in TARGETS)} in any message: from the start on arrows point at both,",
+    "at an exit alone once it is open.",
 )
 
 
