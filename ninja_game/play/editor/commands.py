@@ -188,7 +188,7 @@ class EditorCommands(DocumentCommands):
         session = self.session
         try:
             level = session.level_to_test(at)
-            screen = TryScreen(self.app, session, level, session.draft.says if says is None else says)
+            screen = TryScreen(self.app, session, level, session.draft.says if says is None else says, self._mood)
         except LevelError as error:
             self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
             return
@@ -347,16 +347,16 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        entry = self._entry()
-        mood = entry.mood if entry else Mood()
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.test_message, mood, self.session.way, at))
+        way, test = partial(getattr, self.session, "way"), self.test_message
+        self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, self._mood, way, at))
 
-    def _entry(self) -> Entry | None:
-        """The level's file as it is played: in its place in a pack, or alone; None without a file."""
+    @property
+    def _mood(self) -> Mood:
+        """In which the level is played: that of its file's place in a pack, if it has one."""
         alone = self.session.entry
         packs = self.app.player.catalogue.packs() if alone else ()
         levels = (level for pack in packs for level in pack.levels)
-        return alone and next((level for level in levels if level.named.file == alone.named.file), alone)
+        return next((level.mood for level in levels if alone and level.named.file == alone.named.file), Mood())
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
@@ -450,11 +450,16 @@ class TryScreen(LevelScreen):
 
     music = SILENCE
 
-    def __init__(self, app: App, session: EditorSession, level: Level, says: str) -> None:
+    def __init__(self, app: App, session: EditorSession, level: Level, says: str, mood: Mood) -> None:
+        self._mood = mood
         title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
         self._trying = TryContext(session, Entry(named, YOURS))
         super().__init__(app, self._trying)
+
+    @property
+    def mood(self) -> Mood:
+        return self._mood
 
     def leave(self) -> None:
         super().leave()

@@ -123,11 +123,11 @@ def messages_of(says: str) -> list[Message]:
 
 
 class _Stage:
-    """The level's picture, and its world; ``opened``: with an open exit."""
+    """The level's picture, and its world; ``opened``: with an open exit; ``shown``: the look in play."""
 
-    def __init__(self, level: Level, palette: Palette, width: int, text_size: int, *, opened: bool) -> None:
+    def __init__(self, level: Level, palette: Palette, width: int, shown: Theme, text_size: int, *, opened: bool) -> None:
         self.picture = thumbnail(level, palette, width, opened=opened)
-        self.hud = Hud(Theme(palette, Canvas(self.picture.get_size()), text_size))
+        self.hud = Hud(Theme(palette, Canvas(self.picture.get_size()), text_size), shown)
         self.world: World | None = None
         with suppress(LevelError):
             self.world = Simulation(level).world
@@ -139,7 +139,7 @@ class MessagesScreen(MenuScreen):
     """``here``: the cell that a message near a place begins with. ``put``: takes the header's value.
 
     ``test``: plays the level from before a place, or from its start, with such a value. ``at``: the message of this cell gets
-    the focus. ``mood``: in which the level is played. ``way``: the inputs of its author's run, if there is one.
+    the focus. ``mood``: in which the level is played. ``way``: gives the inputs of its author's run, if there is one.
     """
 
     title = "Messages to the player"
@@ -153,7 +153,7 @@ class MessagesScreen(MenuScreen):
         put: Callable[[str], object],
         test: Callable[[Point | None, str], object],
         mood: Mood,
-        way: bytes,
+        way: Callable[[], bytes],
         at: Cell | None = None,
     ) -> None:
         super().__init__(app)
@@ -161,7 +161,7 @@ class MessagesScreen(MenuScreen):
         self._draft = draft
         self._selected = 0
         self._stages: dict[tuple[object, ...], _Stage] = {}
-        self._kept: dict[bool, Things] = {}
+        self._kept: dict[tuple[bool, bytes], Things] = {}
         self._ground = Ground(draft.level)
         self._look, self._way = mood, way
         self._before = self.source
@@ -342,7 +342,7 @@ class MessagesScreen(MenuScreen):
     def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
         """The level with a message as in play. The level is drawn once, the message each time."""
         theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*PICTURE)
-        size, opened = (place.width, self.app.settings.text_size), bool(message and message.when == "switch")
+        size, opened = (place.width, theme, self.app.settings.text_size), bool(message and message.when == "switch")
         palette = self.app.palette_in(self._look)
         key = palette.name, size, opened
         if key not in self._stages:
@@ -369,10 +369,10 @@ class MessagesScreen(MenuScreen):
                 theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
 
     def _things(self, stage: _Stage, texts: Sequence[str]) -> Things:
-        tagged = bool(arrow_targets(texts))
-        if stage.world and tagged not in self._kept:
-            self._kept[tagged] = things_at_start(self._draft.level, stage.world, texts, self._way)
-        return self._kept.get(tagged, ())
+        key = bool(arrow_targets(texts)), self._way()
+        if stage.world and key not in self._kept:
+            self._kept[key] = things_at_start(self._draft.level, stage.world, texts, key[1])
+        return self._kept.get(key, ())
 
     def _eye(self, message: Message) -> Point | None:
         """Where the ninja is when a message is said, px; None at the start, or where that is not known."""

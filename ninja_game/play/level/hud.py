@@ -146,10 +146,13 @@ class HudView:
 
 
 class Hud:
-    """Draws on a theme's canvas. Every method gives the px rectangle that it covered, or several small ones."""
+    """Draws on a theme's canvas. Every method gives the px rectangle that it covered, or several small ones.
 
-    def __init__(self, theme: Theme) -> None:
-        self.theme = theme
+    ``measures``: whose letters tell where a text lies, if they are others than those that are drawn.
+    """
+
+    def __init__(self, theme: Theme, measures: Theme | None = None) -> None:
+        self.theme, self._measures = theme, measures or theme
 
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """All of it; the px rectangles that it covers."""
@@ -308,7 +311,7 @@ class Hud:
         nothing that it is to keep clear of, nor the ninja, or else in the border below, beside the gold. One that is
         about its place lies at most two cells from it. ``keys``: room before its lines, px.
         """
-        return _box(self.theme, said, keys)
+        return _box(self._measures, said, keys)
 
     def said(
         self, surface: pygame.Surface, box: Box, moves: Sequence[int] = (), letters: Sequence[str] = ()
