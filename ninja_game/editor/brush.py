@@ -112,14 +112,18 @@ def snapped(x: float, y: float, snap: str) -> tuple[float, float]:
     return step * round(x / step), step * round(y / step)
 
 
-def placed(spec: ObjectSpec, x: float, y: float, snap: str, *, nearest: bool = True) -> ObjectSpec:
+def placed(
+    spec: ObjectSpec, x: float, y: float, snap: str, *, nearest: bool = True, upright: bool | None = None
+) -> ObjectSpec:
     """The brush's object put at a point; doors on their side of the cell or the ``nearest``, the switch at the point.
+
+    ``upright``: whether the nearest is to be the left or the right one, or of top and bottom; None: whichever is.
 
     Drones sit in the middle of their cell, guards on its floor, whatever the snap.
     """
     px, py = snapped(x, y, snap)
     if spec.kind == kinds.DOOR:
-        return _placed_door(spec, x, y, (px, py), nearest=nearest)
+        return _placed_door(spec, x, y, (px, py), nearest, upright)
     if spec.kind == kinds.DRONE:
         px, py = snapped(x, y, "cell")
     elif spec.kind == kinds.FLOOR_GUARD:
@@ -132,13 +136,15 @@ def placed(spec: ObjectSpec, x: float, y: float, snap: str, *, nearest: bool = T
     return spec._replace(values=values)
 
 
-def _placed_door(spec: ObjectSpec, x: float, y: float, switch: tuple[float, float], *, nearest: bool) -> ObjectSpec:
+def _placed_door(
+    spec: ObjectSpec, x: float, y: float, switch: tuple[float, float], nearest: bool, upright: bool | None
+) -> ObjectSpec:
     column, row = cell_of(x, y)
     right, down = x - CELL * column - HALF, y - CELL * row - HALF
-    if nearest and (right, down) != (0.0, 0.0):
-        wide = abs(right) >= abs(down)
-        side = ("right" if right > 0 else "left") if wide else ("bottom" if down > 0 else "top")
-        spec = with_word(spec, "side", side)
+    wide = abs(right) >= abs(down) if upright is None else upright
+    sides = ("left", "right") if wide else ("top", "bottom")
+    if nearest and ((right, down) != (0.0, 0.0) or (upright is not None and word(spec, "side") not in sides)):
+        spec = with_word(spec, "side", sides[(right if wide else down) > 0])
     values = (*switch, *spec.values[2:4], float(column), float(row), *spec.values[6:])
     return settled(spec._replace(values=values))
 

@@ -242,7 +242,13 @@ class EditorTools:
     # --- drawing ---
 
     def placed(self, x: float, y: float, snap: str = "") -> ObjectSpec:
-        return brush.placed(self.spec, x, y, snap or self.snap, nearest=self.nearest)
+        (column, row), full = cell_of(x, y), brush.FULL
+        # A door to the nearest side closes the gap between two full cells.
+        upright, level = (
+            all(self.draft.tile((column + k * i, row + k * j)) == full for k in (-1, 1)) for i, j in ((0, 1), (1, 0))
+        )
+        gap = None if upright == level else upright
+        return brush.placed(self.spec, x, y, snap or self.snap, nearest=self.nearest, upright=gap)
 
     def _change(self, stamp: stamps.Stamp, draft: Draft | None = None) -> None:
         self.history.change(self._with(stamp, draft or self.draft))

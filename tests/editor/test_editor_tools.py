@@ -135,6 +135,15 @@ def test_doors_go_to_the_nearest_side_and_the_rest_where_it_sits_in_a_cell(tools
     assert tools.draft.objects[-1].values == (433.0, 421.0)
 
 
+def test_a_door_in_a_gap_closes_it(tools: EditorTools) -> None:
+    walls = dict.fromkeys([(10, 9), (10, 11), (19, 15), (21, 15), (4, 4), (4, 6), (3, 5), (5, 5)], 1)
+    tools.history.change(tools.draft.with_tiles(walls))
+    tools.pick_up(object_of_type("automatic door"))
+    places = (251, 242), (254, 262), (252, 252), (482, 371), (503, 383), (492, 372), (108, 124), (360, 482)
+    sides = [word(tools.placed(*at), "side") for at in places]
+    assert sides == ["left", "right", "right", "top", "bottom", "top", "top", "left"]
+
+
 def test_there_is_one_ninja_and_a_second_press_moves_it(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("gold"))
     drag(tools, (100, 100))
