@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.task import Progress
 
-COMPILING = "The solver is compiled, the first time on a machine a minute or more"
+COMPILING = "Compiling the solver, the first time on a machine a minute or more"
 
 SECONDS, STOPPED = 20.0, "Stopped"
 """How long the solver looks for better runs; the end of a search that nobody wants any more."""
@@ -219,9 +219,8 @@ class Certifier:
         if search.end or search.level is None:
             return search.end
         if search.progress is None:
-            queued = self.waited[0] == "#"
-            waits = f"Another level's search comes first: {self.waited} in the queue" if queued else COMPILING
-            return f"{waits}. Go on editing, or save and leave"
+            waits = f"Another level's search comes first: {self.waited} in the queue"
+            return f"{f'{COMPILING}: {self.waited}' if self.compiling else waits}. Go on editing, or save and leave"
         ticks = search.progress.ticks
         tried = f"{ticks / 1e6:.1f} million" if ticks >= 1e6 else f"{ticks // 1000} thousand"
         return f"Looking for a run: {tried} ticks tried"
@@ -239,6 +238,11 @@ class Certifier:
         return self.search.level is not None and not self.search.end
 
     @property
+    def compiling(self) -> bool:
+        """Whether the solver is made ready for the search: nothing can be stopped."""
+        return self.busy and self.search.progress is None and self.waited[0] != "#"
+
+    @property
     def waits(self) -> bool:
         """Whether the search has begun with nothing yet."""
         return self.busy and self.search.progress is None and self.search.run is None
@@ -249,13 +253,13 @@ class Certifier:
 
     def start(self, level: Level) -> None:
         """Begin with a level, for twice as long as a time that found nothing; known runs of this level stay."""
+        before, waits = self.search, self.waits
         self.stop()
-        before = self.search
         longer = 2 * before.seconds if before.obstacles and not before.run and before.level == level else self.seconds
         if not compiled_available():
             self.search = Search(end=f"Certifying needs Numba: {install_hint('fast')}")
             return
-        self.search = Search(level, seconds=longer)
+        self.search = Search(level, seconds=longer, began=before.began if waits else monotonic())
         for run in (before.run, before.full) if before.level == level else ():
             if run:
                 self.search.take(run)

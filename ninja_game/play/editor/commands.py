@@ -204,6 +204,9 @@ class EditorCommands(DocumentCommands):
         certifier = self.session.certifier
         self.session.tools.finish()
         level = self.session.draft.level
+        if certifier.compiling and not certifier.is_stale(level):
+            self.app.notify("Still compiling: F7 stops the search that follows", here=True)
+            return
         if certifier.busy and not certifier.is_stale(level):
             certifier.stop()
             text = certifier.text

@@ -251,7 +251,8 @@ class EditorSession:
         """What F7 does now."""
         certifier = self.certifier
         stops = certifier.busy and not certifier.is_stale(self.draft.level)
-        return f"Stop {certifier.waited}" if stops else "Certify"
+        stop = f"Stop {certifier.waited}"
+        return "Certify" if not stops else certifier.waited if certifier.compiling else stop[:9].strip()
 
     @property
     def test_map(self) -> TestMap | None:

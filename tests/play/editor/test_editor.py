@@ -864,6 +864,7 @@ def test_f7_after_a_change_looks_at_the_level_as_it_is(room: Maker) -> None:
         assert asked[1].end == "Stopped"
 
 
+        asked[1].progress = Progress()
 def test_the_panel_says_what_becomes_of_the_run(room: Maker, tmp_path: Path) -> None:
     session = room.editor.session
     assert session.keeping == "Kept when the level is saved"
