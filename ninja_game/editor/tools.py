@@ -256,11 +256,13 @@ class EditorTools:
     def _with(self, stamp: stamps.Stamp, draft: Draft) -> Draft:
         """The draft with a stamp on it, in all images of the symmetry, and with slopes where they set themselves."""
         after = stamps.put(draft, stamp, SYMMETRIES[self.symmetry])
-        return (
-            stamps.sloped(draft, after)
-            if self.slopes and set(stamp.tiles.values()) <= {brush.EMPTY, brush.FULL}
-            else after
-        )
+        sloped = self.sets_slopes and set(stamp.tiles.values()) <= {brush.EMPTY, brush.FULL}
+        return stamps.sloped(draft, after) if sloped else after
+
+    @property
+    def sets_slopes(self) -> bool:
+        """Whether slopes set themselves where the tool draws: a box has the corners that it is given."""
+        return self.slopes and not self.objects and self.tool not in ("rectangle", "select", "pick")
 
     @property
     def preview(self) -> Tiles:

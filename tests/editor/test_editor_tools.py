@@ -334,16 +334,20 @@ def test_slopes_set_themselves_on_steps_and_corners(tools: EditorTools) -> None:
     tools.slopes = True
     tools.tool = "rectangle"
     drag(tools, (60, 60), (156, 132))
-    assert picture(tools, range(1, 8), range(2, 6)) == [".s###a.", ".#####.", ".#####.", ".w###q."]
+    assert picture(tools, range(1, 8), range(2, 6)) == [".#####."] * 4, "a box has corners"
+    assert not tools.sets_slopes
+    tools.tool = "line"
     drag(tools, (372, 564), (756, 564))
     for left, row in ((16, 22), (18, 21), (19, 20), (20, 19), (20, 18), (21, 17)):
         drag(tools, (24 * left + 12, 24 * row + 12), (732, 24 * row + 12))
     hill = ["......fF###", ".....s#####", ".....######", "....s######", "...s#######", ".fF########", "s##########"]
     assert picture(tools, range(15, 26), range(17, 24)) == hill
     tools.tile = 0
-    drag(tools, (588, 420), (660, 492))
+    for row in range(4):
+        drag(tools, (588, 420 + 24 * row), (660, 420 + 24 * row))
     assert picture(tools, range(15, 26), range(17, 24))[:2] == ["......fFa..", ".....s###.."]
-    tools.undo()
+    for _ in range(4):
+        tools.undo()
     assert picture(tools, range(15, 26), range(17, 24)) == hill
 
 

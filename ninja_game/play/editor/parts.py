@@ -463,9 +463,7 @@ class StatusLine(EditorPart):
         if self.view.hovering and tools.draft.says and tools.cell in (cells := said_cells(tools.draft.says)):
             text = parse_messages(tools.draft.says)[cells.index(tools.cell)].text
             return f"Double click opens the message, Select drags it: {text}"
-        slopes = "Slopes by themselves. " * (
-            tools.slopes and not tools.objects and tools.tool not in ("select", "pick")
-        )
+        slopes = "Slopes by themselves. " * tools.sets_slopes
         start = self.session.start
         shown = slopes + _TOOL_HINTS[tools.effective_tool] if start == "off" else _REACH.format(start)
         return self.view.hint or (shown if start == "off" or self.session.reach else _NO_REACH)
