@@ -594,6 +594,10 @@ def test_the_list_of_objects_finds_selects_and_orders_them_by_clicks(room: Maker
     toggle = listed.widgets[1]
     room.mouse(*toggle.centre)
     assert not room.editor.view.listing
+    there = room.editor.sides[0].widgets[1].centre
+    for listing in (True, False):
+        room.mouse(*there)
+        assert room.editor.view.listing == listing, "a second click leads back"
 
 
 def test_the_palette_says_what_is_in_hand_or_under_the_mouse(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
