@@ -63,9 +63,6 @@ class TestMap(NamedTuple):
     deaths: Route
 
 
-NO_TESTS = TestMap({}, ())
-
-
 @lru_cache(maxsize=300)
 def _played(level: Level, inputs: bytes) -> RunResult | None:
     """The run of these inputs; None where it cannot be played, or costs too much."""

@@ -116,6 +116,7 @@ class EditorSession:
         self._start_asked: Ask | None = None
         self.tries: tuple[Try, ...] = ()
         self.last_try: Route = ()
+        self.last_death: Route = ()
         self._file_stamp, self._looked_at = NO_FILE, 0.0
         self._certified: tuple[object, ...] = ()
         self._asked: Question | None = None
@@ -388,13 +389,13 @@ class EditorSession:
         return with_ninja_at(self.draft, at) if at else self.draft.level
 
     def tried(self, level: Level, inputs: bytes, *, over: bool = False) -> None:
-        """A test was left, or is ``over``: its route is shown. One that was left and goes on is the same."""
+        """A test was left, or is ``over``: its route and death are shown. One that was left and goes on is the same."""
         if not inputs:
             return
         last = self.tries[-1] if self.tries else None
         goes_on = last is not None and not last.over and last.level is level and inputs.startswith(last.inputs)
         self.tries = (*(self.tries[:-1] if goes_on else self.tries), Try(level, inputs, over))
-        self.last_try = route_of(level, inputs)
+        self.last_try, self.last_death = route_of(level, inputs), map_of(self.tries[-1:]).deaths
         self._maps.ask(self.tries)
 
     def passed(self, level: Level, attempt: Attempt) -> bool:

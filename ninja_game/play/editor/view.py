@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.editor.certify import NO_TESTS, SQUARE, Reach, Route
+from ninja_game.editor.certify import SQUARE, Reach, Route, TestMap
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
@@ -385,6 +385,7 @@ class EditorView(Pane):
         state = (
             session.draft.objects, self.lines, self.paths, session.last_try, certifier.search.route, stale,
             session.findings, session.tools.symmetry, session.draft.says, self.tests and session.test_map,
+            session.last_death,
         )  # fmt: skip
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
             return
@@ -400,7 +401,7 @@ class EditorView(Pane):
             signs=self._signs(),
             said=said_places(session.draft.says),
             routes=routes if self.paths else (),
-            tests=(self.tests and session.test_map) or NO_TESTS,
+            tests=(self.tests and session.test_map) or TestMap({}, session.last_death if self.paths else ()),
             axes=_AXES.get(session.tools.symmetry, ()),
         )
         self.sheet.show_marks(marks)
