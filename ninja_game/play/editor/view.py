@@ -399,7 +399,7 @@ class EditorView(Pane):
             self.sheet.marks,
             lines=self.lines,
             signs=self._signs(),
-            said=said_places(session.draft.says),
+            said=said_places(session.draft),
             routes=routes if self.paths else (),
             tests=(self.tests and session.test_map) or TestMap({}, session.last_death if self.paths else ()),
             axes=_AXES.get(session.tools.symmetry, ()),

@@ -194,7 +194,9 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     room.mouse(*in_picture(0, 4))
     room.choose("OK")
     assert room.draft.says == "at 20,4: here"
-    assert said_places(room.draft.says) == [(24 * 20 + 12, 24 * 4 + 12)]
+    assert said_places(room.draft) == [(24 * 20 + 12, 24 * 4 + 12)]
+    both = replace(room.draft, says=f"{room.draft.says} | start: Go")
+    assert said_places(both) == [(24 * 20 + 12, 24 * 4 + 12), (76.0, 524.0)], "beside the ninja"
     room.frames()
     assert ("said", (492.0, 108.0)) in room.editor.view.sheet.marks
     tools.history.change(put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
