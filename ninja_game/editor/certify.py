@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ninja_game.backend.memories import compiled_available, open_worlds
 from ninja_game.editor.brush import EMPTY, object_of_type, placed
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.specs import BODY, object_type_name, points
+from ninja_game.editor.specs import object_type_name
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.files.user_folder import install_hint
@@ -28,7 +28,7 @@ from ninja_game.runs.run import RunResult, run_level
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.events import LOCK_OPENED
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
-from ninja_game.sim.kinds import MOVING_ENEMIES, NINJA
+from ninja_game.sim.kinds import MOVING_ENEMIES
 from ninja_game.sim.level import Level, makes_object
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND, TOP_SPEED, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import FALLING, JUMPING, OUTCOME_DEAD
@@ -371,29 +371,22 @@ def with_ninja_at(draft: Draft, place: tuple[float, float]) -> Level:
 def place_before(draft: Draft, routes: Iterable[Route], place: tuple[float, float]) -> tuple[float, float] | None:
     """Where a test of what is said near a place begins, px; None: at the level's start.
 
-    It is where the first of these routes that comes there last stood; else a cell beside the place where a ninja that
-    presses nothing lives, with a floor and on the side of the level's start rather than without.
+    It is where the first of these routes that comes there last stood; else a cell beside the place, with a floor and
+    on the side of the start rather than without. A ninja that presses nothing lives there.
     """
-    near = NEAR + CELL
-    for route in routes:
-        came = next((k for k, (x, y) in enumerate(route) if max(abs(x - place[0]), abs(y - place[1])) <= near), -1)
-        if came >= 0:
-            stood = [there for before, there in pairwise(route[:came]) if before[1] == there[1]]
-            return stood[-1] if stood and _lives_at(draft, stood[-1]) else None
     column, row = cell_of(*place)
-    starts = [points(spec)[BODY][0] for spec in draft.objects if spec.kind == NINJA and BODY in points(spec)]
-    ways = []
-    for step in (-1, 1):
-        way = [(column + step * k, row) for k in range(1, 4)]
-        if all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way):
-            floor = sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way)
-            ways.append((floor, step * (starts[0] - place[0]) > 0 if starts else False, middle_of(way[-1])))
-    return next((at for *_, at in sorted(ways, reverse=True) if _lives_at(draft, at)), None)
-
-
-def _lives_at(draft: Draft, place: tuple[float, float]) -> bool:
-    run = _played(with_ninja_at(draft, place), bytes(TICKS))
-    return run is not None and run.outcome != "dead"
+    start = next(iter(route_of(draft.level, bytes(1))), place)
+    near, places = NEAR + CELL, []
+    if max(abs(start[0] - place[0]), abs(start[1] - place[1])) <= near and start != place:
+        return None
+    for route in routes:
+        came = next((k for k, (x, y) in enumerate(route) if max(abs(x - place[0]), abs(y - place[1])) <= near), 0)
+        places += [there for before, there in pairwise(route[:came]) if before[1] == there[1]][-1:]
+    ways = [[(column + step * k, row) for k in range(1, 4)] for step in ((1, -1) if start > place else (-1, 1))]
+    for way in sorted(ways, key=lambda way: -sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way)):
+        places += [middle_of(way[-1])] * all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way)
+    runs = ((at, _played(with_ninja_at(draft, at), bytes(TICKS))) for at in places)
+    return next((at for at, run in runs if run and run.outcome != "dead"), None)
 
 
 def find_reach(ask: Ask) -> Reach:

@@ -14,6 +14,7 @@ from ninja_game.editor import brush, stamp as stamps
 from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, has_switch, points, properties, with_word, word
+from ninja_game.formats.ascii.object_lines import SIDES
 from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
 from ninja_game.formats.messages import parse_messages, with_message_moved
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, LAUNCH_PAD, MINE, NINJA
@@ -242,13 +243,12 @@ class EditorTools:
     # --- drawing ---
 
     def placed(self, x: float, y: float, snap: str = "") -> ObjectSpec:
-        (column, row), full = cell_of(x, y), brush.FULL
-        # A door to the nearest side closes the gap between two full cells.
-        upright, level = (
-            all(self.draft.tile((column + k * i, row + k * j)) == full for k in (-1, 1)) for i, j in ((0, 1), (1, 0))
-        )
-        gap = None if upright == level else upright
-        return brush.placed(self.spec, x, y, snap or self.snap, nearest=self.nearest, upright=gap)
+        def is_gap(i: int, j: int) -> bool:
+            return all(self.draft.tile((column + k * i, row + k * j)) == brush.FULL for k in (-1, 1))
+
+        column, row = cell_of(x, y)
+        closing = ("left", "right") * is_gap(0, 1) + ("top", "bottom") * is_gap(1, 0)
+        return brush.placed(self.spec, x, y, snap or self.snap, (closing or SIDES) if self.nearest else ())
 
     def _change(self, stamp: stamps.Stamp, draft: Draft | None = None) -> None:
         self.history.change(self._with(stamp, draft or self.draft))
@@ -362,7 +362,8 @@ class EditorTools:
 
     def _choose(self, *, add: bool) -> None:
         part = self.near(PICK_REACH)
-        if not add and (part in self.selection.parts or self._in_area()):
+        area = self.selection.area
+        if not add and (part in self.selection.parts or (area and self.cell in stamps.cells_of(area))):
             self._begin_drag()
             return
         self._chosen_before = self.selection if add else stamps.Selection()
@@ -376,9 +377,6 @@ class EditorTools:
         else:
             self.selection = self._joined(stamps.Selection(parts=frozenset({part})))
             self._begin_drag()
-
-    def _in_area(self) -> bool:
-        return self.selection.area is not None and self.cell in stamps.cells_of(self.selection.area)
 
     def _begin_drag(self) -> None:
         self.history.begin()

@@ -11,7 +11,6 @@ import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.level.screen import play_level
@@ -170,7 +169,7 @@ def test_each_screen_asks_for_its_music() -> None:
         play_level(app, replace(entry, episode=""))
         assert app.top.music in BY_COLUMN
         app.pop()
-        app.push(TryScreen(app, EditorSession(app), entry.named.level, "", Mood()))
+        app.push(TryScreen(app, EditorSession(app), entry.named.level, "", None))
         assert app.top.music == SILENCE
         app.pop()
         play_level(app, entry, practice=True)

@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
-from ninja_game.editor.certify import place_before
+from ninja_game.editor.certify import place_before, with_ninja_at
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
@@ -185,10 +185,11 @@ class EditorCommands(DocumentCommands):
 
     def test(self, at: Point | None = None, says: str | None = None) -> None:
         """Play the level. ``at``: where the ninja begins, if not at its place; ``says``: its messages, if others."""
-        session = self.session
+        session, entry = self.session, self._entry()
+        session.tools.finish()
         try:
-            level = session.level_to_test(at)
-            screen = TryScreen(self.app, session, level, session.draft.says if says is None else says, self._mood)
+            level = with_ninja_at(session.draft, at) if at else session.draft.level
+            screen = TryScreen(self.app, session, level, session.draft.says if says is None else says, entry)
         except LevelError as error:
             self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
             return
@@ -350,16 +351,16 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        way, test = partial(getattr, self.session, "way"), self.test_message
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, self._mood, way, at))
+        entry, way, test = self._entry(), partial(getattr, self.session, "way"), self.test_message
+        mood = entry.mood if entry else Mood()
+        self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, mood, way, at))
 
-    @property
-    def _mood(self) -> Mood:
-        """In which the level is played: that of its file's place in a pack, if it has one."""
+    def _entry(self) -> Entry | None:
+        """The level's file as it is played: in its place in a pack, or alone; None without a file."""
         alone = self.session.entry
         packs = self.app.player.catalogue.packs() if alone else ()
         levels = (level for pack in packs for level in pack.levels)
-        return next((level.mood for level in levels if alone and level.named.file == alone.named.file), Mood())
+        return alone and next((level for level in levels if level.named.file == alone.named.file), alone)
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
@@ -449,20 +450,15 @@ class TryContext(LevelContext):
 
 
 class TryScreen(LevelScreen):
-    """Plays a level; the back key leaves at once, whatever is going on. Raises LevelError for one without a ninja."""
+    """Plays a level, in the colours of ``there``; the back key leaves at once. Raises LevelError without a ninja."""
 
     music = SILENCE
 
-    def __init__(self, app: App, session: EditorSession, level: Level, says: str, mood: Mood) -> None:
-        self._mood = mood
+    def __init__(self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None) -> None:
         title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
-        self._trying = TryContext(session, Entry(named, YOURS))
+        self._trying = TryContext(session, Entry(named, YOURS, there.episode if there else ""))
         super().__init__(app, self._trying)
-
-    @property
-    def mood(self) -> Mood:
-        return self._mood
 
     def leave(self) -> None:
         super().leave()

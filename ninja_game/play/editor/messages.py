@@ -71,7 +71,6 @@ _HELP = (
     "at an exit alone once it is open.",
 )
 
-
 _WORDS = ", ".join(f"{{{name}}}" for name in KEYS + TARGETS)
 
 
@@ -125,7 +124,9 @@ def messages_of(says: str) -> list[Message]:
 class _Stage:
     """The level's picture, and its world; ``opened``: with an open exit; ``shown``: the look in play."""
 
-    def __init__(self, level: Level, palette: Palette, width: int, shown: Theme, text_size: int, *, opened: bool) -> None:
+    def __init__(
+        self, level: Level, palette: Palette, width: int, shown: Theme, text_size: int, *, opened: bool
+    ) -> None:
         self.picture = thumbnail(level, palette, width, opened=opened)
         self.hud = Hud(Theme(palette, Canvas(self.picture.get_size()), text_size), shown)
         self.world: World | None = None
@@ -138,8 +139,8 @@ class _Stage:
 class MessagesScreen(MenuScreen):
     """``here``: the cell that a message near a place begins with. ``put``: takes the header's value.
 
-    ``test``: plays the level from before a place, or from its start, with such a value. ``at``: the message of this cell gets
-    the focus. ``mood``: in which the level is played. ``way``: gives the inputs of its author's run, if there is one.
+    ``test``: plays the level from before a place, or its start, with such a value. ``at``: the message of this cell
+    gets the focus. ``mood``: in which the level is played. ``way``: gives the inputs of its author's run, if any.
     """
 
     title = "Messages to the player"
@@ -349,11 +350,13 @@ class MessagesScreen(MenuScreen):
             kept = {old: stage for old, stage in self._stages.items() if old[:2] == key[:2]}
             self._stages = kept | {key: _Stage(draft.level, palette, *size, opened=opened)}
         stage, message_said, texts = self._stages[key], None, [other.text for other in self.messages]
-        picture = stage.picture.copy()
+        picture, known = stage.picture.copy(), (bool(arrow_targets(texts)), self._way())
+        if stage.world and known not in self._kept:
+            self._kept[known] = things_at_start(draft.level, stage.world, texts, known[1])
         if message:
             controls, when = self.app.controls, message.when
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
-            where = draft.level.tiles, self._things(stage, texts), self._eye(message), when == "start", when == "at"
+            where = draft.level.tiles, self._kept.get(known, ()), self._eye(message), when == "start", when == "at"
             message_said = Said(text, *where) if text else None
             if when == "at" and (eye := self._eye(message)):
                 frame = eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR
@@ -367,12 +370,6 @@ class MessagesScreen(MenuScreen):
                 x, y = (start + at * PICTURE[2] / WIDTH for start, at in zip(PICTURE, eye, strict=False))
                 theme.canvas.circle(surface, theme.palette.accent, (x, y), 6)
                 theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
-
-    def _things(self, stage: _Stage, texts: Sequence[str]) -> Things:
-        key = bool(arrow_targets(texts)), self._way()
-        if stage.world and key not in self._kept:
-            self._kept[key] = things_at_start(self._draft.level, stage.world, texts, key[1])
-        return self._kept.get(key, ())
 
     def _eye(self, message: Message) -> Point | None:
         """Where the ninja is when a message is said, px; None at the start, or where that is not known."""

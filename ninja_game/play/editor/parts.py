@@ -481,7 +481,7 @@ class StatusLine(EditorPart):
         theme.text(surface, self._text(), 140, top, size=9.5, colour=colour, width=584)
 
 
-_REACH = "In 1 s, {}, the ninja can be where it is green, and dies where red; red lines: enemies; bars: last jumps. Y: next"
+_REACH = "In 1 s, {}, the ninja can be in the green, dies in the red; red lines: enemies; bars: last jumps. Y: next"
 _NO_REACH = "What is reached comes in a moment; the first time, what finds it is compiled for some minutes"
 _TOOL_HINTS = {
     "brush": "Left button draws, right erases, middle picks; wheel zooms, middle drag moves. F1: help",

@@ -22,7 +22,6 @@ from ninja_game.editor.certify import (
     map_of,
     route_of,
     search_of,
-    with_ninja_at,
 )
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, open_source, save
@@ -49,7 +48,6 @@ from ninja_game.runtime import NewestJob
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.ui.canvas import Point
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
 
@@ -382,11 +380,6 @@ class EditorSession:
             self.app.notify("The level of the clipboard; undo brings yours back")
         except NinjaGameError:
             self.app.notify("There is no level in the clipboard: copy its text first")
-
-    def level_to_test(self, at: Point | None = None) -> Level:
-        """The level, with the ninja at a point if there is one."""
-        self.tools.finish()
-        return with_ninja_at(self.draft, at) if at else self.draft.level
 
     def tried(self, level: Level, inputs: bytes, *, over: bool = False) -> None:
         """A test was left, or is ``over``: its route and death are shown. One that was left and goes on is the same."""

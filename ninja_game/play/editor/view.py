@@ -390,6 +390,7 @@ class EditorView(Pane):
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
             return
         self._marked = state
+        signs = [p for f in session.findings for p in finding_points(session.examined or session.draft.level, f)]
         routes: list[tuple[Route, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(
@@ -398,18 +399,13 @@ class EditorView(Pane):
             session.draft,
             self.sheet.marks,
             lines=self.lines,
-            signs=self._signs(),
+            signs=list(dict.fromkeys(signs)),
             said=said_places(session.draft),
             routes=routes if self.paths else (),
             tests=(self.tests and session.test_map) or TestMap({}, session.last_death if self.paths else ()),
             axes=_AXES.get(session.tools.symmetry, ()),
         )
         self.sheet.show_marks(marks)
-
-    def _signs(self) -> list[Point]:
-        examined = self.session.examined
-        signs = [p for finding in self.session.findings for p in finding_points(examined, finding)] if examined else []
-        return list(dict.fromkeys(signs))
 
 
 _X, _Y = MIDDLE

@@ -146,13 +146,10 @@ class HudView:
 
 
 class Hud:
-    """Draws on a theme's canvas. Every method gives the px rectangle that it covered, or several small ones.
-
-    ``measures``: whose letters tell where a text lies, if they are others than those that are drawn.
-    """
+    """Draws on a theme's canvas. Every method gives the px rectangle that it covered, or several small ones."""
 
     def __init__(self, theme: Theme, measures: Theme | None = None) -> None:
-        self.theme, self._measures = theme, measures or theme
+        self.theme, self._measures = theme, measures or theme  # the letters that tell where a text lies
 
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """All of it; the px rectangles that it covers."""

@@ -14,7 +14,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, object_type_of, placed
-from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Reach, Search
+from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Reach, Search, with_ninja_at
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, open_source
 from ninja_game.editor.specs import SWITCH, points
@@ -456,7 +456,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     status = next(each for each in room.editor.parts if isinstance(each, StatusLine))
     assert session.reach or "compiled" in status._text()
     standing = shown(396, 541)
-    assert status._text().startswith("In 1 s, standing, the ninja can be where it is green, ")
+    assert status._text().startswith("In 1 s, standing, the ninja can be in the green, ")
     room.mouse(*LAYOUT.file[:2], click=False)
     assert status._text().startswith("In 1 s, "), "as long as it is shown"
     standing = shown(396, 541)
@@ -464,7 +464,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     assert abs((396 - left) - (right - 396)) <= 2 * SQUARE, "standing, both sides are alike"
     # A jump straight up is the world's own: the highest square is where the highest of a run is.
     jump = run_level(
-        room.editor.session.level_to_test(room.editor.session.tools.pointer),
+        with_ninja_at(room.draft, room.editor.session.tools.pointer),
         with_press_bits(bytes([0] * LANDED + [4] * (40 - LANDED))),
         memory="plain",
     )

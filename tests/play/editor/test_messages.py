@@ -244,6 +244,7 @@ def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room:
     draft = put(put(room.draft, block), Stamp({}, mines))
     # On a block: from the side of the start, though both sides are alike.
     assert place_before(draft, (), (19 * 24 + 12.0, 18 * 24 + 12.0)) == (16 * 24 + 12.0, 18 * 24 + 12.0)
+    assert place_before(draft, (), (5 * 24 + 12.0, 540.0)) is None, "that near is the level's start"
     # Both sides of this one are deadly, so it is the level's start.
     assert place_before(draft, (), (14 * 24 + 12.0, 540.0)) == (17 * 24 + 12.0, 540.0)
     assert place_before(draft, (), (8 * 24 + 12.0, 540.0)) == (5 * 24 + 12.0, 540.0)
@@ -253,7 +254,7 @@ def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room:
     came = tuple((500.0 - 4 * k, 542.0) for k in range(20)) + tuple((420.0 - 4 * k, 540.0 - k) for k in range(40))
     for routes in ((came,), ((), came)):
         assert place_before(draft, routes, (300.0, 500.0)) == (424.0, 542.0)
-    assert place_before(draft, ((came[0], *came[30:]),), (300.0, 500.0)) is None, "it never stood"
+    assert place_before(draft, ((came[0], *came[30:]),), (300.0, 500.0)) == (372.0, 492.0), "it never stood"
 
 
 def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Maker) -> None:
