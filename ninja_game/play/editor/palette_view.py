@@ -308,8 +308,8 @@ class PaletteView(Widget):
 def _said(what: Entry) -> str:
     if isinstance(what, brush.ObjectType):
         return f"{what.name.capitalize()} (key {key_label_of(what.key)})"
-    name, key = brush.tile_name(what), brush.tile_key(what)
-    return f"{name[0].upper()}{name[1:]}" + (f" (key{'s' * (' ' in key)} {key})" if key else "")
+    name = brush.tile_name(what)
+    return f"{name[0].upper()}{name[1:]}: {brush.tile_key(what)}"
 
 
 @lru_cache(maxsize=200)
