@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import NamedTuple
 
 from ninja_game.editor.motion import TILE_IDS, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, settled, with_word, word
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.formats.ascii.object_lines import ListedObject, natural_offset, read_object_line
+from ninja_game.formats.ascii.object_lines import SIDES, ListedObject, natural_offset, read_object_line
 from ninja_game.formats.ascii.places import Cell, cell_of, middle_of
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
@@ -112,14 +113,14 @@ def snapped(x: float, y: float, snap: str) -> tuple[float, float]:
     return step * round(x / step), step * round(y / step)
 
 
-def placed(spec: ObjectSpec, x: float, y: float, snap: str, *, nearest: bool = True) -> ObjectSpec:
-    """The brush's object at a point; doors on their side of the cell or the ``nearest``, the switch at the point.
+def placed(spec: ObjectSpec, x: float, y: float, snap: str, sides: Collection[str] = SIDES) -> ObjectSpec:
+    """The brush's object at a point; doors on the nearest of these ``sides``, () for their own, the switch there.
 
     Drones sit in the middle of their cell, guards on its floor, whatever the snap.
     """
     px, py = snapped(x, y, snap)
     if spec.kind == kinds.DOOR:
-        return _placed_door(spec, x, y, (px, py), nearest=nearest)
+        return _placed_door(spec, x, y, (px, py), sides)
     if spec.kind == kinds.DRONE:
         px, py = snapped(x, y, "cell")
     elif spec.kind == kinds.FLOOR_GUARD:
@@ -132,14 +133,13 @@ def placed(spec: ObjectSpec, x: float, y: float, snap: str, *, nearest: bool = T
     return spec._replace(values=values)
 
 
-def _placed_door(spec: ObjectSpec, x: float, y: float, switch: tuple[float, float], *, nearest: bool) -> ObjectSpec:
+def _placed_door(spec: ObjectSpec, x: float, y: float, at: tuple[float, float], sides: Collection[str]) -> ObjectSpec:
     column, row = cell_of(x, y)
     right, down = x - CELL * column - HALF, y - CELL * row - HALF
-    if nearest and (right, down) != (0.0, 0.0):
-        wide = abs(right) >= abs(down)
-        side = ("right" if right > 0 else "left") if wide else ("bottom" if down > 0 else "top")
-        spec = with_word(spec, "side", side)
-    values = (*switch, *spec.values[2:4], float(column), float(row), *spec.values[6:])
+    towards = {"left": -right, "right": right, "top": -down, "bottom": down}
+    if sides and ((right, down) != (0.0, 0.0) or word(spec, "side") not in sides):
+        spec = with_word(spec, "side", max(sides, key=towards.__getitem__))
+    values = (*at, *spec.values[2:4], float(column), float(row), *spec.values[6:])
     return settled(spec._replace(values=values))
 
 

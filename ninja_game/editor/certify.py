@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
-from itertools import takewhile
+from itertools import pairwise, takewhile
 from math import isfinite
 from struct import iter_unpack
 from threading import Event
@@ -14,13 +14,14 @@ from time import monotonic
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ninja_game.backend.memories import compiled_available, open_worlds
-from ninja_game.editor.brush import object_of_type, placed
+from ninja_game.editor.brush import EMPTY, object_of_type, placed
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import object_type_name
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.files.user_folder import install_hint
-from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
+from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
+from ninja_game.formats.messages import NEAR
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.levels.warnings import object_name
@@ -30,7 +31,7 @@ from ninja_game.sim.events import LOCK_OPENED
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import MOVING_ENEMIES
 from ninja_game.sim.level import Level, makes_object
-from ninja_game.sim.rules import TICKS_PER_SECOND, TOP_SPEED, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.rules import CELL, TICKS_PER_SECOND, TOP_SPEED, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import FALLING, JUMPING, OUTCOME_DEAD
 from ninja_game.simulation import Simulation
 
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.task import Progress
 
-COMPILING = "The solver is compiled, the first time on a machine a minute or more"
+COMPILING = "Compiling the solver, the first time on a machine a minute or more"
 
 SECONDS, STOPPED = 20.0, "Stopped"
 """How long the solver looks for better runs; the end of a cancelled search."""
@@ -61,9 +62,6 @@ class TestMap(NamedTuple):
 
     visits: Mapping[Cell, int]
     deaths: PathPoints
-
-
-NO_TESTS = TestMap({}, ())
 
 
 @lru_cache(maxsize=300)
@@ -219,9 +217,8 @@ class Certifier:
         if search.end or search.level is None:
             return search.end
         if search.progress is None:
-            place = self.place_in_queue
-            waits = f"Another level's search comes first: #{place} in the queue" if place else COMPILING
-            return f"{waits}. Go on editing, or save and leave"
+            waits = f"Another level's search comes first: {self.waited} in the queue"
+            return f"{f'{COMPILING}: {self.waited}' if self.compiling else waits}. Go on editing, or save and leave"
         ticks = search.progress.ticks
         tried = f"{ticks / 1e6:.1f} million" if ticks >= 1e6 else f"{ticks // 1000} thousand"
         return f"Looking for a run: {tried} ticks tried"
@@ -244,6 +241,11 @@ class Certifier:
         return self.search.level is not None and not self.search.end
 
     @property
+    def compiling(self) -> bool:
+        """Whether the solver is made ready for the search: nothing can be stopped."""
+        return self.busy and self.search.progress is None and not self.place_in_queue
+
+    @property
     def waits(self) -> bool:
         """Whether the search has begun without any report yet."""
         return self.busy and self.search.progress is None and self.search.run is None
@@ -254,13 +256,13 @@ class Certifier:
 
     def start(self, level: Level) -> None:
         """Begin to search a level, for twice as long as an earlier search that failed; known runs stay."""
+        before, waits = self.search, self.waits
         self.stop()
-        before = self.search
         longer = 2 * before.seconds if before.obstacles and not before.run and before.level == level else self.seconds
         if not compiled_available():
             self.search = Certification(end=f"Certifying needs Numba: {install_hint('fast')}")
             return
-        self.search = Certification(level, seconds=longer)
+        self.search = Certification(level, seconds=longer, began=before.began if waits else monotonic())
         for run in (before.run, before.full) if before.level == level else ():
             if run:
                 self.search.take(run)
@@ -370,6 +372,27 @@ _FIRST_WALL = next(number for number, plan in enumerate(FAN) if plan.wall)
 
 def with_ninja_at(draft: Draft, place: tuple[float, float]) -> Level:
     return put(draft, Stamp({}, (placed(object_of_type("ninja"), *place, "px"),))).level
+
+
+def place_before(draft: Draft, routes: Iterable[PathPoints], place: tuple[float, float]) -> tuple[float, float] | None:
+    """Where a test of what is said near a place begins, px; None: at the level's start.
+
+    It is where the first of these routes that comes there last stood; else a cell beside the place, with a floor and
+    on the side of the start rather than without. A ninja that presses nothing lives there.
+    """
+    column, row = cell_of(*place)
+    start = next(iter(route_of(draft.level, bytes(1))), place)
+    near, places = NEAR + CELL, []
+    if max(abs(start[0] - place[0]), abs(start[1] - place[1])) <= near and start != place:
+        return None
+    for route in routes:
+        came = next((k for k, (x, y) in enumerate(route) if max(abs(x - place[0]), abs(y - place[1])) <= near), 0)
+        places += [there for before, there in pairwise(route[:came]) if before[1] == there[1]][-1:]
+    ways = [[(column + step * k, row) for k in range(1, 4)] for step in ((1, -1) if start > place else (-1, 1))]
+    for way in sorted(ways, key=lambda way: -sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way)):
+        places += [middle_of(way[-1])] * all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way)
+    runs = ((at, _played(with_ninja_at(draft, at), bytes(TICKS))) for at in places)
+    return next((at for at, run in runs if run and run.outcome != "dead"), None)
 
 
 def find_reach(ask: Ask) -> Reach:

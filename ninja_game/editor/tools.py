@@ -14,6 +14,7 @@ from ninja_game.editor import brush, stamp as stamps
 from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, has_switch, points, properties, with_word, word
+from ninja_game.formats.ascii.object_lines import SIDES
 from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
 from ninja_game.formats.messages import parse_messages, with_message_moved
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, LAUNCH_PAD, MINE, NINJA
@@ -240,7 +241,12 @@ class EditorTools:
     # --- drawing ---
 
     def placed(self, x: float, y: float, snap: str = "") -> ObjectSpec:
-        return brush.placed(self.spec, x, y, snap or self.snap, nearest=self.nearest)
+        def is_gap(i: int, j: int) -> bool:
+            return all(self.draft.tile((column + k * i, row + k * j)) == brush.FULL for k in (-1, 1))
+
+        column, row = cell_of(x, y)
+        closing = ("left", "right") * is_gap(0, 1) + ("top", "bottom") * is_gap(1, 0)
+        return brush.placed(self.spec, x, y, snap or self.snap, (closing or SIDES) if self.nearest else ())
 
     def _change(self, stamp: stamps.Stamp, draft: Draft | None = None) -> None:
         self.history.change(self._with(stamp, draft or self.draft))
@@ -248,11 +254,13 @@ class EditorTools:
     def _with(self, stamp: stamps.Stamp, draft: Draft) -> Draft:
         """The draft with a stamp on it, in all images of the symmetry, and with automatic slopes."""
         after = stamps.put(draft, stamp, SYMMETRIES[self.symmetry])
-        return (
-            stamps.sloped(draft, after)
-            if self.slopes and set(stamp.tiles.values()) <= {brush.EMPTY, brush.FULL}
-            else after
-        )
+        sloped = self.sets_slopes and set(stamp.tiles.values()) <= {brush.EMPTY, brush.FULL}
+        return stamps.sloped(draft, after) if sloped else after
+
+    @property
+    def sets_slopes(self) -> bool:
+        """Whether slopes set themselves where the tool draws: a box has the corners that it is given."""
+        return self.slopes and not self.objects and self.tool not in ("rectangle", "select", "pick")
 
     @property
     def preview(self) -> Tiles:
@@ -352,6 +360,7 @@ class EditorTools:
 
     def _choose(self, *, add: bool) -> None:
         part, area = self.near(PICK_REACH), self.selection.area
+        area = self.selection.area
         if not add and (part in self.selection.parts or (area and self.cell in stamps.cells_of(area))):
             self._begin_drag()
             return

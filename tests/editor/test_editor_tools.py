@@ -135,6 +135,15 @@ def test_doors_go_to_the_nearest_side_and_the_rest_where_it_sits_in_a_cell(tools
     assert tools.draft.objects[-1].values == (433.0, 421.0)
 
 
+def test_a_door_in_a_gap_closes_it(tools: EditorTools) -> None:
+    walls = dict.fromkeys([(10, 9), (10, 11), (19, 15), (21, 15), (4, 4), (4, 6), (3, 5), (5, 5)], 1)
+    tools.history.change(tools.draft.with_tiles(walls))
+    tools.pick_up(object_of_type("automatic door"))
+    places = (251, 242), (254, 262), (252, 252), (482, 371), (503, 383), (492, 372), (108, 124), (360, 482)
+    sides = [word(tools.placed(*at), "side") for at in places]
+    assert sides == ["left", "right", "right", "top", "bottom", "top", "top", "left"]
+
+
 def test_there_is_one_ninja_and_a_second_press_moves_it(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("gold"))
     drag(tools, (100, 100))
@@ -325,16 +334,20 @@ def test_slopes_set_themselves_on_steps_and_corners(tools: EditorTools) -> None:
     tools.slopes = True
     tools.tool = "rectangle"
     drag(tools, (60, 60), (156, 132))
-    assert picture(tools, range(1, 8), range(2, 6)) == [".s###a.", ".#####.", ".#####.", ".w###q."]
+    assert picture(tools, range(1, 8), range(2, 6)) == [".#####."] * 4, "a box has corners"
+    assert not tools.sets_slopes
+    tools.tool = "line"
     drag(tools, (372, 564), (756, 564))
     for left, row in ((16, 22), (18, 21), (19, 20), (20, 19), (20, 18), (21, 17)):
         drag(tools, (24 * left + 12, 24 * row + 12), (732, 24 * row + 12))
     hill = ["......fF###", ".....s#####", ".....######", "....s######", "...s#######", ".fF########", "s##########"]
     assert picture(tools, range(15, 26), range(17, 24)) == hill
     tools.tile = 0
-    drag(tools, (588, 420), (660, 492))
+    for row in range(4):
+        drag(tools, (588, 420 + 24 * row), (660, 420 + 24 * row))
     assert picture(tools, range(15, 26), range(17, 24))[:2] == ["......fFa..", ".....s###.."]
-    tools.undo()
+    for _ in range(4):
+        tools.undo()
     assert picture(tools, range(15, 26), range(17, 24)) == hill
 
 

@@ -216,7 +216,7 @@ def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
     said: list[str] = []
     make_ready(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
-    assert said[0].startswith("The solver is compiled, the first time on a machine a minute or more. You can go on")
+    assert said[0].startswith("Compiling the solver, the first time on a machine a minute or more. You can go on")
     assert said[1] == "Starting the search", "compiled once, it takes its time too"
     assert said[2].startswith(
         "Looking for a run to the exit and a run with all gold of First Steps: 2 s; 0 of 2 levels"

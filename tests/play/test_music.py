@@ -169,7 +169,7 @@ def test_each_screen_asks_for_its_music() -> None:
         play_level(app, replace(entry, episode=""))
         assert app.top.music in BY_COLUMN
         app.pop()
-        app.push(TryScreen(app, EditorSession(app), entry.named.level, ""))
+        app.push(TryScreen(app, EditorSession(app), entry.named.level, "", None))
         assert app.top.music == SILENCE
         app.pop()
         play_level(app, entry, practice=True)

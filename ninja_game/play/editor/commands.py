@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
+from ninja_game.editor.certify import place_before, with_ninja_at
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
@@ -183,19 +184,29 @@ class EditorCommands(DocumentCommands):
 
     def test(self, at: Point | None = None, says: str | None = None) -> None:
         """Play the level. ``at``: where the ninja begins, by default at its place; ``says``: other messages."""
-        session = self.session
+        session, entry = self.session, self._entry()
+        session.tools.finish()
         try:
-            level = session.level_to_test(at)
-            screen = TryScreen(self.app, session, level, session.draft.says if says is None else says)
+            level = with_ninja_at(session.draft, at) if at else session.draft.level
+            screen = TryScreen(self.app, session, level, session.draft.says if says is None else says, entry)
         except LevelError as error:
             self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
             return
         self.app.push(screen)
 
+    def test_message(self, place: Point | None, says: str) -> None:
+        """Play the level with these messages, from just before a place, as the solver's run or the last test came."""
+        session = self.session
+        routes = session.certifier.search.route if session.way else (), session.last_try
+        self.test(place and place_before(session.draft, routes, place), says)
+
     def certify(self) -> None:
         certifier = self.session.certifier
         self.session.tools.finish()
         level = self.session.draft.level
+        if certifier.compiling and not certifier.is_stale(level):
+            self.app.notify("Still compiling: F7 stops the search that follows", here=True)
+            return
         if certifier.busy and not certifier.is_stale(level):
             certifier.stop()
             self.app.notify("Stopped. " * (certifier.search.run is not None) + certifier.text, here=True)
@@ -338,9 +349,9 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        entry = self._entry()
+        entry, way, test = self._entry(), partial(getattr, self.session, "way"), self.test_message
         mood = entry.mood if entry else Mood()
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.test, mood, self.session.way, at))
+        self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, mood, way, at))
 
     def _entry(self) -> Entry | None:
         """The level's file as a level to play: in its pack, or alone; None without a file."""
@@ -437,14 +448,14 @@ class TryContext(LevelContext):
 
 
 class TryScreen(LevelScreen):
-    """Plays a level; the back key leaves at once in every phase. Raises LevelError for one without a ninja."""
+    """Plays a level, in the colours of ``there``; the back key leaves at once. Raises LevelError without a ninja."""
 
     music = SILENCE
 
-    def __init__(self, app: App, session: EditorSession, level: Level, says: str) -> None:
+    def __init__(self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None) -> None:
         title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
-        self._trying = TryContext(session, Entry(named, YOURS))
+        self._trying = TryContext(session, Entry(named, YOURS, there.episode if there else ""))
         super().__init__(app, self._trying)
 
     def leave(self) -> None:

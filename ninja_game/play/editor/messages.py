@@ -9,11 +9,10 @@ from functools import partial
 
 import pygame
 
-from ninja_game.editor.brush import EMPTY
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import BODY, SWITCH, object_type_name, points
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.places import Cell, Point, cell_of, is_inside, middle_of
+from ninja_game.formats.ascii.places import Cell, Point, cell_of, is_inside
 from ninja_game.formats.messages import (
     BAR,
     KEYS,
@@ -68,9 +67,9 @@ _SAID_AT = {
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
-    f"Write {' or '.join(f'{{{thing}}}' for thing in TARGETS)}: arrows in the level then point at both.",
+    f"{' or '.join(f'{{{thing}}}' for thing in TARGETS)} in any message: from the start on arrows point at both,",
+    "at an exit alone once it is open.",
 )
-
 
 _WORDS = ", ".join(f"{{{name}}}" for name in KEYS + TARGETS)
 
@@ -123,11 +122,13 @@ def messages_of(says: str) -> list[Message]:
 
 
 class _Stage:
-    """The level's picture and its world; ``opened``: with an open exit."""
+    """The level's picture and its world; ``opened``: with an open exit; ``shown``: the look in play."""
 
-    def __init__(self, level: Level, palette: Palette, width: int, text_size: int, *, opened: bool) -> None:
+    def __init__(
+        self, level: Level, palette: Palette, width: int, shown: Theme, text_size: int, *, opened: bool
+    ) -> None:
         self.picture = thumbnail(level, palette, width, opened=opened)
-        self.hud = Hud(Theme(palette, Canvas(self.picture.get_size()), text_size))
+        self.hud = Hud(Theme(palette, Canvas(self.picture.get_size()), text_size), shown)
         self.world: World | None = None
         with suppress(LevelError):
             self.world = Simulation(level).world
@@ -135,23 +136,11 @@ class _Stage:
             open_exit(self.world)
 
 
-def _cells_before(draft: Draft, place: Point) -> Point:
-    """Where the test of a message begins, px: just outside its range, where the ninja stands or at least has air."""
-    column, row = cell_of(*place)
-    best, at = 0, place
-    for step in (-1, 1):
-        way = [(column + step * k, row) for k in range(1, 4)]
-        floor = sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way)
-        if 1 + floor > best and all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way):
-            best, at = 1 + floor, middle_of(way[-1])
-    return at
-
-
 class MessagesScreen(MenuScreen):
     """``here``: the default cell of a new message near a place. ``put``: gets the new value of the header.
 
-    ``test``: plays the level from a point, or from its start, with such a value. ``at``: the cell of the message that
-    gets the focus. ``mood``: in which the level is played. ``way``: the inputs of its author's run, if there is one.
+    ``test``: plays the level from before a place, or its start, with such a value. ``at``: the cell of the message that
+    gets the focus. ``mood``: in which the level is played. ``way``: gives the inputs of its author's run, if any.
     """
 
     title = "Messages to the player"
@@ -165,7 +154,7 @@ class MessagesScreen(MenuScreen):
         put: Callable[[str], object],
         test: Callable[[Point | None, str], object],
         mood: Mood,
-        way: bytes,
+        way: Callable[[], bytes],
         at: Cell | None = None,
     ) -> None:
         super().__init__(app)
@@ -173,7 +162,7 @@ class MessagesScreen(MenuScreen):
         self._draft = draft
         self._selected = 0
         self._stages: dict[tuple[object, ...], _Stage] = {}
-        self._kept: dict[bool, Things] = {}
+        self._kept: dict[tuple[bool, bytes], Things] = {}
         self._ground = Ground(draft.level)
         self._look, self._way = mood, way
         self._before = self.source
@@ -201,7 +190,7 @@ class MessagesScreen(MenuScreen):
         add = Button((36, y, 160, 28), words, None if full else self._add)
         hint = "Play from just before the selected message; Esc comes back"
         test = Button((342, y, 132, 28), "Test", self._try, hint=hint)
-        end = [Button((488, y, 132, 28), "OK", self._accept), Button((632, y, 132, 28), "Cancel", self.app.pop)]
+        end = [Button((488, y, 132, 28), "OK", self._accept), Button((632, y, 132, 28), "Cancel", self.close)]
         return [*rows, add, test, *end]
 
     def _row(self, number: int) -> list[Widget]:
@@ -287,7 +276,7 @@ class MessagesScreen(MenuScreen):
     def _try(self) -> None:
         if self._is_sound():
             eye = self._eye(self.selected) if self.selected else None
-            self._test(eye and _cells_before(self._draft, eye), self.source)
+            self._test(eye, self.source)
 
     def close(self) -> None:
         """Leave; ask first whether changes are kept."""
@@ -354,18 +343,20 @@ class MessagesScreen(MenuScreen):
     def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
         """The level with a message as in play. The level is drawn once, the message in each picture."""
         theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*PICTURE)
-        size, opened = (place.width, self.app.settings.text_size), bool(message and message.when == "switch")
+        size, opened = (place.width, theme, self.app.settings.text_size), bool(message and message.when == "switch")
         palette = self.app.palette_in(self._look)
         key = palette.name, size, opened
         if key not in self._stages:
             kept = {old: stage for old, stage in self._stages.items() if old[:2] == key[:2]}
             self._stages = kept | {key: _Stage(draft.level, palette, *size, opened=opened)}
         stage, message_said, texts = self._stages[key], None, [other.text for other in self.messages]
-        picture = stage.picture.copy()
+        picture, known = stage.picture.copy(), (bool(arrow_targets(texts)), self._way())
+        if stage.world and known not in self._kept:
+            self._kept[known] = things_at_start(draft.level, stage.world, texts, known[1])
         if message:
             controls, when = self.app.controls, message.when
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
-            where = draft.level.tiles, self._things(stage, texts), self._eye(message), when == "start", when == "at"
+            where = draft.level.tiles, self._kept.get(known, ()), self._eye(message), when == "start", when == "at"
             message_said = PlacedMessage(text, *where) if text else None
             if when == "at" and (eye := self._eye(message)):
                 frame = eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR
@@ -379,12 +370,6 @@ class MessagesScreen(MenuScreen):
                 x, y = (start + at * PICTURE[2] / WIDTH for start, at in zip(PICTURE, eye, strict=False))
                 theme.canvas.circle(surface, theme.palette.accent, (x, y), 6)
                 theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
-
-    def _things(self, stage: _Stage, texts: Sequence[str]) -> Things:
-        tagged = bool(arrow_targets(texts))
-        if stage.world and tagged not in self._kept:
-            self._kept[tagged] = things_at_start(self._draft.level, stage.world, texts, self._way)
-        return self._kept.get(tagged, ())
 
     def _eye(self, message: Message) -> Point | None:
         """Where the ninja is when a message appears, px; None at the start, or where that is unknown."""

@@ -306,7 +306,7 @@ class PaletteView(Widget):
 
 def _said(what: Entry) -> str:
     if isinstance(what, brush.ObjectType):
-        return f"{what.name.capitalize()}: {key_label_of(what.key)}"
+        return f"{what.name.capitalize()} (key {key_label_of(what.key)})"
     name = brush.tile_name(what)
     return f"{name[0].upper()}{name[1:]}: {brush.tile_key(what)}"
 

@@ -470,9 +470,7 @@ class StatusLine(EditorPart):
         if self.view.hovering and tools.draft.says and tools.cell in (cells := said_cells(tools.draft.says)):
             text = parse_messages(tools.draft.says)[cells.index(tools.cell)].text
             return f"Double click opens the message, Select drags it: {text}"
-        slopes = "Slopes by themselves. " * (
-            tools.slopes and not tools.objects and tools.tool not in ("select", "pick")
-        )
+        slopes = "Slopes by themselves. " * tools.sets_slopes
         start = self.session.start
         shown = slopes + _TOOL_HINTS[tools.effective_tool] if start == "off" else _REACH.format(start)
         return self.view.hint or (shown if start == "off" or self.session.reach else _NO_REACH)
@@ -490,7 +488,7 @@ class StatusLine(EditorPart):
         theme.text(surface, self._text(), 140, top, size=9.5, colour=colour, width=584)
 
 
-_REACH = "Reached in 1 s, {}: squares, red deadly; red lines: dangers; dots: each 1/4 s; upright: last jumps. Y: next"
+_REACH = "In 1 s, {}, the ninja can be in the green, dies in the red; red lines: enemies; bars: last jumps. Y: next"
 _NO_REACH = "What is reached comes in a moment; the first time, what finds it is compiled for some minutes"
 _TOOL_HINTS = {
     "brush": "Left button draws, right erases, middle picks; wheel zooms, middle drag moves. F1: help",
@@ -545,15 +543,16 @@ class ObjectList(EditorPart):
         self._state: tuple[object, ...] = ()
         hint = "A click selects it, with Shift too; what comes first is made first, and moves first"
         self.list = ListView((x + 2, y + 26, w - 6, h - 50), 15, self._draw_row, self._choose, empty="None", hint=hint)
-        self._find = _Find((x + 4, y + 3, w - 60, 18), "Find: drone left", "", lambda _: None)
+        self._find = _Find((x + 4, y + 3, w - 84, 18), "Find: drone left", "", lambda _: None)
         self._find.hint = "Objects whose lines have all these words"
         moves = [
             Button((x + 2 + 52 * k, y + h - 22, 49, 19), text, partial(self._move, by), size=9, hint=hint)
             for k, (text, by, hint) in enumerate(_MOVES)
         ]
-        every = Button((x + 106, y + h - 22, 70, 19), "Select all", self._choose_shown, size=9)
+        every = Button((x + w - 78, y + 3, 70, 18), "Select all", self._choose_shown, size=9)
         every.hint = "Select all that are shown; a property that all of them have is changed at once, below"
-        palette = ToolButton((x + w - 54, y + 3, 46, 17), "list", "Palette", run, view)
+        # Where the palette has its button for the list: a second click there leads back.
+        palette = ToolButton((x + w - 54, y + h - 21, 50, 18), "list", "Palette", run, view)
         self.widgets = [self._find, palette, self.list, *moves, every]
 
     def _move(self, by: int) -> None:

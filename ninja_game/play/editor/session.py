@@ -22,7 +22,6 @@ from ninja_game.editor.certify import (
     map_of,
     route_of,
     search_of,
-    with_ninja_at,
 )
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, open_source, save
@@ -30,7 +29,6 @@ from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import NO_FILE, stamp_of
 from ninja_game.files.user_folder import LEVELS
-from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel
@@ -121,6 +119,7 @@ class EditorSession:
         self._start_asked: Ask | None = None
         self.tries: tuple[Try, ...] = ()
         self.last_try: PathPoints = ()
+        self.last_death: PathPoints = ()
         self._file_stamp, self._looked_at = NO_FILE, 0.0
         self._certified: tuple[object, ...] = ()
         self._asked: Question | None = None
@@ -256,7 +255,8 @@ class EditorSession:
         """What F7 does now."""
         certifier = self.certifier
         stops = certifier.busy and not certifier.is_stale(self.draft.level)
-        return f"Stop {certifier.waited}" if stops else "Certify"
+        stop = f"Stop {certifier.waited}"
+        return "Certify" if not stops else certifier.waited if certifier.compiling else stop[:9].strip()
 
     @property
     def test_map(self) -> TestMap | None:
@@ -385,19 +385,17 @@ class EditorSession:
         except NinjaGameError:
             self.app.notify("There is no level in the clipboard: copy its text first")
 
-    def level_to_test(self, at: Point | None = None) -> Level:
-        """The level, with the ninja at a point if one is given."""
-        self.tools.finish()
-        return with_ninja_at(self.draft, at) if at else self.draft.level
-
     def tried(self, level: Level, inputs: bytes, *, over: bool = False) -> None:
-        """Show the route of a test that was left or is ``over``. A test that continues after that is the same one."""
+        """Show the route and death of a test that was left or is ``over``.
+
+        A test that continues after that is the same one.
+        """
         if not inputs:
             return
         last = self.tries[-1] if self.tries else None
         goes_on = last is not None and not last.over and last.level is level and inputs.startswith(last.inputs)
         self.tries = (*(self.tries[:-1] if goes_on else self.tries), Try(level, inputs, over))
-        self.last_try = route_of(level, inputs)
+        self.last_try, self.last_death = route_of(level, inputs), map_of(self.tries[-1:]).deaths
         self._maps.ask(self.tries)
 
     def passed(self, level: Level, attempt: Attempt) -> bool:

@@ -276,9 +276,12 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
     return LevelMark(draw, (canvas.rect(x - 12, y - 11, 24, 24),))
 
 
-def said_places(says: str) -> list[Point]:
-    """The centres of the cells with messages, px."""
-    return [message.place for message in parse_messages(says) if message.place]
+def said_places(draft: Draft) -> list[Point]:
+    """The centres of the cells with messages, and beside the ninja for its start, px."""
+    messages = parse_messages(draft.says)
+    starts = any(message.when == "start" for message in messages)
+    begins = [points(spec).get(BODY) for spec in draft.objects if starts and spec.kind == kinds.NINJA]
+    return [message.place for message in messages if message.place] + [(at[0] + 16, at[1] - 18) for at in begins if at]
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.editor.certify import NO_TESTS, SQUARE, PathPoints, Reach
+from ninja_game.editor.certify import SQUARE, PathPoints, Reach, TestMap
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
@@ -383,10 +383,13 @@ class EditorView(Pane):
         state = (
             session.draft.objects, self.lines, self.paths, session.last_try, certifier.search.route, stale,
             session.findings, session.tools.symmetry, session.draft.says, self.tests and session.test_map,
+            session.last_death,
         )  # fmt: skip
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
             return
         self._marked = state
+        told = [finding for finding in session.findings if finding.code not in session.accepted]
+        signs = [p for finding in told for p in finding_points(session.examined or session.draft.level, finding)]
         routes: list[tuple[PathPoints, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(
@@ -395,19 +398,13 @@ class EditorView(Pane):
             session.draft,
             self.sheet.marks,
             lines=self.lines,
-            signs=self._signs(),
-            said=said_places(session.draft.says),
+            signs=list(dict.fromkeys(signs)),
+            said=said_places(session.draft),
             routes=routes if self.paths else (),
-            tests=(self.tests and session.test_map) or NO_TESTS,
+            tests=(self.tests and session.test_map) or TestMap({}, session.last_death if self.paths else ()),
             axes=_AXES.get(session.tools.symmetry, ()),
         )
         self.sheet.show_marks(marks)
-
-    def _signs(self) -> list[Point]:
-        examined, accepted = self.session.examined, self.session.accepted
-        told = [finding for finding in self.session.findings if finding.code not in accepted] if examined else []
-        signs = [p for finding in told for p in finding_points(examined, finding)] if examined else []
-        return list(dict.fromkeys(signs))
 
 
 _X, _Y = MIDDLE

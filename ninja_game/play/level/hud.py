@@ -150,8 +150,8 @@ class HudView:
 class Hud:
     """Draws on a theme's canvas. Every method gives the px rectangle that it covered, or several small ones."""
 
-    def __init__(self, theme: Theme) -> None:
-        self.theme = theme
+    def __init__(self, theme: Theme, measures: Theme | None = None) -> None:
+        self.theme, self._measures = theme, measures or theme  # the letters that tell where a text lies
 
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """Draw everything; the covered px rectangles."""
@@ -310,7 +310,7 @@ class Hud:
         over the ninja or what it must not hide, and else in the border below, beside the gold. A message with a place
         lies at most two cells from it. ``keys``: room before its lines, px.
         """
-        return _box(self.theme, said, keys)
+        return _box(self._measures, said, keys)
 
     def said(
         self, surface: pygame.Surface, box: Box, moves: Sequence[int] = (), letters: Sequence[str] = ()

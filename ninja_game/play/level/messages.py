@@ -97,8 +97,8 @@ class MessageQueue:
 
     @property
     def is_start(self) -> bool:
-        """Whether the present text belongs to the start."""
-        return self.text in [message.text for message in self._starts()]
+        """Whether the present text belongs to the start, also when it is said no more."""
+        return self.text in [message.text for message in self._messages if message.when == "start"]
 
     @property
     def seen(self) -> float:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from math import ceil, dist
 from pathlib import Path
 from threading import Event
+from time import monotonic
 from unittest.mock import patch
 
 import pygame
@@ -63,7 +65,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     session, levels = room.editor.session, tmp_path / "levels"
     room.chord("s", pygame.KMOD_LCTRL)
     room.press("f7")
-    assert session.certifier.text.startswith("The solver is compiled, ")
+    assert session.certifier.text.startswith("Compiling the solver, ")
     room.chord("n", pygame.KMOD_LCTRL)
     room.choose("A room")
     assert session.certifier.text == "", "nothing is asked, and the new level has no search"
@@ -106,7 +108,7 @@ def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
     room.press("f7")
     room.wait(lambda: failed.end)
     assert (failed.end, certifier.busy) == ("there is not enough memory", True)
-    assert certifier.text.startswith("The solver is compiled, ")
+    assert certifier.text.startswith("Compiling the solver, ")
 
 
 def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(room: Maker) -> None:
@@ -116,11 +118,10 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(room: Maker)
     for progress, best, said in (
         (Progress(seconds=12.2), None, "Stopped: no exit found in 12 s"),
         (Progress(seconds=3.0), run, "Stopped. Certified: 0.975 s"),
-        (None, None, "Stopped"),
+        (Progress(seconds=122.2), None, "Stopped: no exit found in 122 s"),
     ):
         session.certifier.search = Certification(room.draft.level, seconds=20.0, run=best, progress=progress)
-        if progress:
-            assert f"text 'Stop {progress.seconds:.0f} s'" in drawn(room.app)
+        assert f"text 'Stop {progress.seconds:.0f}{' s' * (progress.seconds < 100)}'" in drawn(room.app), "it fits"
         room.mouse(*next(each for each in room.editor.widgets if getattr(each, "name", "") == "certify").centre)
         assert (room.app.notice, session.certify_text) == (said, "Certify")
     session.certifier.search = Certification(room.draft.level, seconds=20.0, progress=Progress(seconds=1.0))
@@ -129,6 +130,23 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(room: Maker)
     assert "The solver looks at" in drawn(room.app), "and so says the card"
     room.chord("z", pygame.KMOD_LCTRL)
     assert (session.certify_text, "The solver looks at" in drawn(room.app)) == ("Stop 1 s", False)
+
+
+def test_while_the_solver_is_compiled_its_seconds_are_shown_and_nothing_stops(
+    room: Maker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session = room.editor.session
+    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr(session.certifier.solver.job, "ask", lambda _: None)
+    session.certifier.search = Certification(room.draft.level, began=monotonic() - 300)
+    shown = drawn(room.app)
+    assert "text '30" in shown
+    assert re.search("a minute or more: 30[0-9] s", " ".join(re.findall("text '(.*)'", shown)))
+    room.press("f7")
+    assert (session.certifier.busy, room.app.notice) == (True, "Still compiling: F7 stops the search that follows")
+    room.drag((300, 300))
+    assert session.certifier.search.level == room.draft.level
+    assert session.certify_text[0] == "3", "it goes on with the level as it is now, and counts on"
 
 
 def test_a_search_that_waits_is_of_the_level_as_it_is_by_then(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:

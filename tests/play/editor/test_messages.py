@@ -10,7 +10,7 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
-from ninja_game.editor.certify import search_of
+from ninja_game.editor.certify import place_before, search_of
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.formats.messages import MAX_MESSAGES, MOST_LETTERS, parse_messages
 from ninja_game.levels.episodes import Mood
@@ -24,9 +24,9 @@ from ninja_game.play.level.messages import MessageQueue
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.search.certificate import verified_run
-from ninja_game.sim.events import LOCK_OPENED, TRAP_CLOSED
+from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.kinds import GOLD
+from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Palette
@@ -34,6 +34,8 @@ from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker
 
+LONG = "to the right and take the gold before you leave and then look for"
+"""Its lines are broken elsewhere if they are measured in small letters."""
 ALL = "start: {jump} jumps | switch: Now the exit | death 3: Wait | at 12,5: Jump: here"
 
 
@@ -146,6 +148,7 @@ def test_every_message_comes_back_as_it_was(room: Maker) -> None:
     opened(room)
     room.choose("Remove")
     room.choose("Cancel")
+    room.choose("Discard changes")
     assert room.draft.says == ALL.partition(" | ")[2]
 
 
@@ -191,7 +194,9 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     room.mouse(*in_picture(0, 4))
     room.choose("OK")
     assert room.draft.says == "at 20,4: here"
-    assert said_places(room.draft.says) == [(24 * 20 + 12, 24 * 4 + 12)]
+    assert said_places(room.draft) == [(24 * 20 + 12, 24 * 4 + 12)]
+    both = replace(room.draft, says=f"{room.draft.says} | start: Go")
+    assert said_places(both) == [(24 * 20 + 12, 24 * 4 + 12), (76.0, 524.0)], "beside the ninja"
     room.frames()
     assert ("said", (492.0, 108.0)) in room.editor.view.sheet.marks
     tools.history.change(put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
@@ -231,6 +236,25 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
     room.choose("Test")
     assert room.top() is screen
     assert "Type what is said" in drawn(room.app)
+
+
+def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room: Maker) -> None:
+    mines = tuple(ObjectSpec(MINE, (24 * column + 12.0, 540.0)) for column in range(8, 12))
+    block = Stamp(dict.fromkeys([(column, 19) for column in range(14, 26)], 1))
+    draft = put(put(room.draft, block), Stamp({}, mines))
+    # On a block: from the side of the start, though both sides are alike.
+    assert place_before(draft, (), (19 * 24 + 12.0, 18 * 24 + 12.0)) == (16 * 24 + 12.0, 18 * 24 + 12.0)
+    assert place_before(draft, (), (5 * 24 + 12.0, 540.0)) is None, "that near is the level's start"
+    # Both sides of this one are deadly, so it is the level's start.
+    assert place_before(draft, (), (14 * 24 + 12.0, 540.0)) == (17 * 24 + 12.0, 540.0)
+    assert place_before(draft, (), (8 * 24 + 12.0, 540.0)) == (5 * 24 + 12.0, 540.0)
+    tight = put(draft, Stamp({}, (ObjectSpec(MINE, (5 * 24 + 12.0, 540.0)),)))
+    assert place_before(tight, (), (8 * 24 + 12.0, 540.0)) is None
+    # Where a run comes in from the right in a jump, it is where the run last stood.
+    came = tuple((500.0 - 4 * k, 542.0) for k in range(20)) + tuple((420.0 - 4 * k, 540.0 - k) for k in range(40))
+    for routes in ((came,), ((), came)):
+        assert place_before(draft, routes, (300.0, 500.0)) == (424.0, 542.0)
+    assert place_before(draft, ((came[0], *came[30:]),), (300.0, 500.0)) == (372.0, 492.0), "it never stood"
 
 
 def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Maker) -> None:
@@ -287,19 +311,27 @@ def test_the_selected_message_is_shown_as_the_level_says_it_with_its_letters_cou
     assert not room.app.notice, "nothing lies over the buttons"
 
 
-def test_escape_asks_about_changed_messages(room: Maker) -> None:
+@pytest.mark.parametrize("button", [False, True])
+def test_escape_and_cancel_ask_about_changed_messages(room: Maker, button: bool) -> None:
+    def leave() -> None:
+        if button:
+            room.choose("Cancel")
+        else:
+            room.press("escape")
+
     for answer, says in (("Cancel", ""), ("Discard changes", ""), ("Keep the changes", "start: on")):
         screen = opened(room)
-        room.press("escape")
+        leave()
         assert isinstance(room.top(), EditorScreen), "nothing is changed"
         screen = opened(room)
         room.choose("Add a message")
         room.type("on")
-        room.press("escape")
+        leave()
         room.choose(answer)
         if answer == "Cancel":
             assert room.top() is screen
-            room.choose("Cancel")
+            leave()
+            room.choose("Discard changes")
         assert isinstance(room.top(), EditorScreen)
         assert room.draft.says == says
 
@@ -315,6 +347,15 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
     screen = room.shown(MessagesScreen)
     assert screen.focus is screen._row_widgets[3][-1]
     assert room.draft == before
+
+
+def test_the_text_of_the_start_stays_in_its_place_while_it_is_shown() -> None:
+    told = MessageQueue(parse_messages("start: Go"))
+    assert told.is_start
+    assert not told.on_tick(SimpleNamespace(events=[SimpleNamespace(kind=EXIT_OPENED)], event_count=1))  # type: ignore[arg-type]
+    assert (told.text, told.is_start) == ("Go", True), "it may lie where it did"
+    told.at_start()
+    assert told.text == ""
 
 
 def test_a_locked_door_and_a_trap_have_their_words() -> None:
@@ -333,11 +374,11 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
     shown: list[tuple[str, float, float]] = []
 
     def said(_: Hud, __: pygame.Surface, box: Box, *___: object) -> pygame.Rect:
-        shown.append((box.lines[0], box.x, box.y))
+        shown.append((" / ".join(box.lines), box.x, box.y))
         return pygame.Rect(0, 0, 1, 1)
 
     monkeypatch.setattr(Hud, "said", said)
-    room.editor.session.tools.history.change(replace(room.draft, says="start: Go | at 20,12: Here"))
+    room.editor.session.tools.history.change(replace(room.draft, says=f"start: {LONG} | at 20,12: Here"))
     screen = opened(room)
     room.frames()
     start = shown[-1]
@@ -356,7 +397,7 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
     shown.clear()
     room.press("f5")
     room.frames(2)
-    assert [each for each in shown if each[0] == "Go"][-1][1:] == pytest.approx(start[1:], abs=4), "but for its letters"
+    assert shown[-1] == start, "broken into lines as in play, though the letters of the preview are others"
 
 
 @pytest.mark.parametrize("count", range(MAX_MESSAGES + 1))
@@ -417,6 +458,10 @@ def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(maker: Make
     look = app.palette_in(Mood(1, 0)).name
     assert painted == [look]
     assert look != app.palette_in(Mood()).name
+    maker.press("escape")
+    maker.editor.session.tools.history.change(replace(ROOM, says=maker.draft.says))
+    maker.press("f5")
+    assert maker.shown(TryScreen).mood == Mood(1, 0), "and so has a test"
 
 
 def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
