@@ -133,8 +133,9 @@ def test_runs_of_both_ladders_stand_side_by_side(runs: Path, levels: Path, tmp_p
     board_of(runs, levels, tmp_path / "site")
     page = level.read_text("utf-8")
     splits = page.partition('<section id="splits">')[2]
-    assert re.findall('<th scope="col">([^<]+)', splits) == ["No.", "Split", "Ann", "Fastest segment", "Bot, assisted"]
-    assert "<td>-0.125</td>" in splits
+    assert re.findall('<th scope="col">([^<]+)', splits) == ["No.", "Split", "Bot, assisted", "Fastest segment", "Ann"]
+    assert "<caption>Seconds; later than Bot, assisted: +;" in splits
+    assert "<td>+0.125</td>" in splits, "from the fastest, which is not the first in the picture"
     (path,) = (each for each in (tmp_path / "site" / "replays").glob("*.html") if "<dd>edited" in each.read_text())
     assert "#splits" in path.read_text("utf-8")
 
@@ -216,8 +217,13 @@ def test_a_level_tells_in_which_second_time_goes(runs: Path, levels: Path, tmp_p
     put(runs, "b.txt", slow_walk(26, author="Bea"))
     page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     part = page.partition("<h2>Where time goes</h2>")[2].partition("</section>")[0]
-    assert re.findall("<p>([^<]+)</p>", part) == ["Bea loses most between 0 s and 1 s of the first: 0.150 s."]
+    assert re.findall("<p>([^<]+)</p>", part) == ["Bea loses most between 0 s and 1 s of Ann: 0.150 s."]
     assert re.findall("<td>([^<]+)</td>", part) == ["1 s", "+0.150"]
+    put(runs, "tas.txt", replay(bytes(18) + WALKING + b"\2", author="TAS", made=Provenance(edits=7)))
+    page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    lost = ("Ann", "0.050"), ("Bea", "0.200")
+    told = [f"{name} loses most between 0 s and 1 s of TAS, assisted: {time} s." for name, time in lost]
+    assert re.findall("<p>([^<]+)</p>", page.partition("<h2>Where time goes</h2>")[2]) == told
 
 
 def test_who_does_not_say_how_a_run_was_made_is_told_by_the_name(runs: Path, levels: Path, tmp_path: Path) -> None:

@@ -378,27 +378,30 @@ class LevelPages:
         if len(runs) == 1:
             return paths(UP + picture_name(runs[0].level), [(names[0], runs[0].path)]), None
         ghosts = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
-        rows, kept = _split_rows(ghosts), runs[0].folder.drawn
-        known = [kept.get(run.key) or path_data(ghost.positions) for run, ghost in zip(runs, ghosts, strict=True)]
-        places = [(row.split.x, row.split.y) for row in rows]
-        drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)), places)
+        by_time = sorted(zip(names, ghosts, strict=True), key=lambda each: each[1].ticks)
+        rows, kept = _split_rows([ghost for _, ghost in by_time]), runs[0].folder.drawn
+        ways = [
+            (name, kept.get(run.key) or path_data(ghost.positions))
+            for run, name, ghost in zip(runs, names, ghosts, strict=True)
+        ]
+        drawn = paths(UP + picture_name(runs[0].level), ways, [(row.split.x, row.split.y) for row in rows])
         said = f"Watch the first {len(runs)} together"
         together = tag("p", f"{category.name}: ", self.watch_link(runs, UP, said))
         pairs = [
-            (tag("div", swatch(number), " ", names[number], class_="text"), *(self._pair(run, other) for other in runs))
-            for number, run in enumerate(runs)
+            (tag("div", swatch(number), " ", name, class_="text"), *(self._pair(run, other) for other in runs))
+            for number, (run, name) in enumerate(zip(runs, names, strict=True))
         ]
         races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
         lines = [
             (tag("a", number, href=f"#{PLACE}{number}"), row.split.kind, *_cells(row))
             for number, row in enumerate(rows, 1)
         ]
-        note = "Seconds; later than the first: +; numbers are those in the picture"
-        splits = table(note, ("No.", "Split", names[0], "Fastest segment", *names[1:]), lines)
+        fastest, *others = [name for name, _ in by_time]
+        note = f"Seconds; later than {fastest}: +; numbers are those in the picture"
+        splits = table(note, ("No.", "Split", fastest, "Fastest segment", *others), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
-        drawn = joined(drawn, together)
-        where = _where_time_goes(names, ghosts) if len(rows) < ENOUGH_SPLITS else None
-        return drawn, joined(
+        where = _where_time_goes(by_time) if len(rows) < ENOUGH_SPLITS else None
+        return joined(drawn, together), joined(
             section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS),
             section("Where time goes", *where) if where else None,
         )  # fmt: skip
@@ -407,26 +410,26 @@ class LevelPages:
         return "" if run is other else self.watch_link([run, other], UP, signed(run.tick - other.tick))
 
 
-def _where_time_goes(names: Sequence[str], runs: Sequence[RunSplits]) -> list[Markup]:
-    """Where each run loses most on the first, and a table of how much later it is there at each of its seconds."""
-    first, *others = runs
-    if max(run.ticks for run in runs) > LONGEST_ALIGNED:
+def _where_time_goes(runs: Sequence[tuple[str, RunSplits]]) -> list[Markup]:
+    """Where each named run loses most on the first, the fastest, and how much later it is at each of its seconds."""
+    (fastest, first), *others = runs
+    if max(run.ticks for _, run in runs) > LONGEST_ALIGNED:
         return []
     ticks = range(step := TICKS_PER_SECOND * (1 + first.ticks // MOST_SECONDS), first.ticks, step)
-    late = [_leads(first.positions, other.positions, ticks) for other in others]
+    late = [_leads(first.positions, other.positions, ticks) for _, other in others]
     sentences = []
-    for name, leads in zip(names[1:], late, strict=True):
+    for (name, _), leads in zip(others, late, strict=True):
         near = [(0, 0), *((tick, lead) for tick, lead in zip(ticks, leads, strict=True) if lead is not None)]
         lost, start, end = max(((b[1] - a[1], a[0], b[0]) for a, b in pairwise(near)), default=(0, 0, 0))
-        span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of the first"
+        span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of {fastest}"
         sentences += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
     rows = [
         (f"{tick // TICKS_PER_SECOND} s", *("" if ahead is None else signed(ahead) for ahead in leads))
         for tick, *leads in zip(ticks, *late, strict=True)
     ]
-    caption = f"Seconds by which each is later where {names[0]} is then; empty: it goes another way"
+    caption = f"Seconds by which each is later where {fastest} is then; empty: it goes another way"
     rows = [row for row in rows if any(row[1:])]
-    return [*sentences, table(caption, (names[0], *names[1:]), rows)] if rows else sentences
+    return [*sentences, table(caption, [name for name, _ in runs], rows)] if rows else sentences
 
 
 def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
@@ -441,13 +444,12 @@ def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequen
 
 
 def _split_rows(runs: Sequence[RunSplits]) -> list[SplitRow]:
-    """Rows of splits of the fastest run; gold that only others take is left out, all of it where it is too much."""
-    best = min(range(len(runs)), key=lambda number: runs[number].ticks)
-    gold, rows = SPLIT_EVENTS[0], split_table(runs, runs[best])
+    """Rows of splits of the first, the fastest; gold that only others take is left out, all of it where too much."""
+    gold, rows = SPLIT_EVENTS[0], split_table(runs, runs[0])
     if len(rows) > MOST_SPLITS:
         runs = [replace(run, splits=tuple(split for split in run.splits if split.event != gold)) for run in runs]
-        rows = split_table(runs, runs[best])
-    return [row for row in rows if row.ticks[best] is not None or row.split.event != gold][:MOST_SPLITS]
+        rows = split_table(runs, runs[0])
+    return [row for row in rows if row.ticks[0] is not None or row.split.event != gold][:MOST_SPLITS]
 
 
 def _cells(row: SplitRow) -> Iterator[str]:
