@@ -44,10 +44,10 @@ BROKEN = """
 Array.from(document.querySelectorAll(innerWidth > 704 ? "td, th" : "td")).filter((cell) => {
   const range = document.createRange();
   range.selectNodeContents(cell);
-  return !cell.querySelector(".text, a") && range.getBoundingClientRect().height > 36;
+  return !cell.querySelector(".text, .made, a") && range.getBoundingClientRect().height > 36;
 }).map((cell) => cell.textContent)
 """
-"""Cells that have more than a line, and no long text or name; a narrow page breaks heads."""
+"""Cells that have more than a line, and no long text, name or way of making; a narrow page breaks heads."""
 
 SAID = """
 Array.from(new Set(Array.from(document.querySelectorAll(".wide"))
@@ -750,6 +750,8 @@ def test_the_page_of_a_run_shows_its_path(runs: Path, levels: Path, tmp_path: Pa
 def test_no_number_and_no_date_is_broken(width: int, chromium: Any, runs: Path, levels: Path, tmp_path: Path) -> None:
     """Only long texts have more than a line, also beside a remark."""
     put(runs, "ann.txt", slow_walk(40, author="Ann"))
+    made = Provenance(searches=("improve",), begun_by="unknown (a-person-whose-name-is-long.txt)")
+    put(runs, "tool.txt", replay(author="Tool", made=made))
     put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
     now = "2026-01-31T12:00:00Z"
     shown = published_levels(levels)
