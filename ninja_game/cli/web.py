@@ -214,7 +214,7 @@ def board(
     """
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
-    from ninja_game.web.board.report import board_text, changes, gone, moderate, plain, summary
+    from ninja_game.web.board.report import board_text, changes, gone, moderate, plain, summary, unnamed
     from ninja_game.web.pages.frame import GAME
 
     if (confirm or reject or ladder or dates) and not data:
@@ -240,6 +240,8 @@ def board(
         for line in gone(ranking, before):
             click.echo(line)
         click.echo(summary(judged))
+        if how := unnamed(judged):
+            click.echo(how, err=True)
         return 0
     rows = list(changes(ranking, before))
     for _, line in rows:

@@ -173,6 +173,8 @@ def test_levels_whose_records_were_not_beaten_go_by_how_close_the_second_is(
     put(runs, "b.txt", replay(level=GOLD_LATER, author="Bea"))
     page = (board_of(runs, levels, tmp_path / "one") / "index.html").read_text("utf-8")
     assert "Most contested" not in page, "nobody is second, and no record was beaten"
+    newest = page.partition("<h2>Levels of the newest runs")[2]
+    assert newest.count("<img") == 2, "there are levels with pictures even so"
     put(runs, "c.txt", replay(bytes(8) + WALKING + b"\2", GOLD_LATER, author="Ann"))
     put(runs, "d.txt", replay(author="Bea"))
     page = (board_of(runs, levels, tmp_path / "site") / "index.html").read_text("utf-8")
@@ -180,6 +182,12 @@ def test_levels_whose_records_were_not_beaten_go_by_how_close_the_second_is(
     assert "By how close the second is, in Fastest" in contested
     assert "beaten" not in contested
     assert re.findall("second ([0-9.]+) behind", contested) == ["0.125", "0.200"]
+    for name, wait in (("e.txt", 9), ("f.txt", 10)):
+        walk = replay(bytes(wait) + WALKING + b"\2", GOLD_LATER, author=name, made=Provenance(edits=3))
+        put(runs, name, walk)
+    page = (board_of(runs, levels, tmp_path / "site") / "index.html").read_text("utf-8")
+    spreads = re.findall("(played|assisted): second ([0-9.]+) behind", words_of(page.partition("<h2>Most cont")[2]))
+    assert spreads == [("played", "0.200"), ("assisted", "0.025"), ("played", "0.125")], "the closest of all ladders"
 
 
 def test_the_most_contested_levels_are_in_the_order_of_their_count(runs: Path, levels: Path, tmp_path: Path) -> None:

@@ -178,6 +178,10 @@ def test_a_run_without_an_author_is_a_player_of_its_own(runs: Path, levels: Path
     board(runs, levels, "--json", str(data := tmp_path / "board.json"))
     players = [row["player"] for row in json.loads(data.read_text("utf-8"))["runs"]]
     assert players == ["unknown (a.txt)", "unknown (b.txt)", "unknown (searched.txt)"]
+    words = ["board", str(runs), "--levels", str(levels), "--site", str(tmp_path / "site"), "--jobs", "1"]
+    said = "3 runs by unknown players; name their players with: ninja-game convert FILE OUT --to replay --author NAME"
+    assert said in CliRunner().invoke(cli, words).stderr
+    assert said in (tmp_path / "site" / "board" / "players.html").read_text("utf-8")
     assert board(runs, levels, "--check", str(data)).startswith("nothing has changed")
     assert "moderated: a.txt" in board(runs, levels, "--json", str(data), "--reject", "a.txt", "--reason", "whose?")
 

@@ -275,6 +275,13 @@ def plain(text: str) -> str:
     return shown_text(text, 300).replace("`", "'")
 
 
+def unnamed(judged: ValidatedRuns) -> str:
+    """How to name the players of runs that do not say who played, such as demos of N; "" where all say it."""
+    nameless = sum(run.player.startswith("unknown (") for run in judged.runs)
+    how = "name their players with: ninja-game convert FILE OUT --to replay --author NAME"
+    return f"{counted(nameless, 'run')} by unknown players; {how}" if nameless else ""
+
+
 def summary(judged: ValidatedRuns) -> str:
     players, levels = {run.player for run in judged.runs}, {run.level for run in judged.runs}
     counts = ("run", judged.runs), ("player", players), ("level", levels)
