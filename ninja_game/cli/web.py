@@ -217,7 +217,8 @@ def board(
     from ninja_game.web.board.report import board_text, changes, gone, moderate, plain, summary, unnamed
     from ninja_game.web.pages.frame import GAME
 
-    if (confirm or reject or ladder or dates) and not data:
+    keeps = bool(confirm or reject or ladder or dates)
+    if keeps and not data:
         raise click.UsageError("--confirm, --reject, --ladder, --dates: name the ledger, which notes it, with --json")
     if site:
         check_site(site, folder)
@@ -226,7 +227,10 @@ def board(
         check_ledger(data, folder)
     decisions = [*((name, "rejected") for name in reject), *ladder]
     decide = partial(moderate, confirm=confirm, decisions=decisions, reason=reason.strip())
-    ranking, before = _ranking(folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, dates=dates)
+    ranking, before = _ranking(
+        folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, dates=dates,
+        same=keeps or check is not None,
+    )  # fmt: skip
     judged = ranking.judged
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
@@ -260,10 +264,12 @@ def _ranking(
     again: bool = False,
     decide: Callable[[Ledger, datetime, ValidatedRuns], bool] | None = None,
     dates: Path | None = None,
+    same: bool = True,
 ) -> tuple[Ranking, Ledger]:
     """The ranking of a folder's runs by the board's rules, and the ledger before, with what is decided now.
 
-    ``levels``, ``ledger``, ``rules``: where nothing is decided, without them those of the folder's last board.
+    ``same``: ``levels`` and ``rules`` that are not given are those of the folder's last board; so is ``ledger`` where
+    nothing is decided.
     """
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
@@ -278,8 +284,10 @@ def _ranking(
     memo = memo_of("runs", folder, folder, again=again)
     known_before = memo_of("runs", folder, folder, again=False) if again else memo
     last, kept, ruled = (_remembered(known_before, key) for key in (LAST_LEVELS, LAST_LEDGER, LAST_RULES))
+    if same:
+        levels, rules = levels or last, rules or ruled
     if not decide:
-        levels, ledger, rules = levels or last, ledger or kept, rules or ruled
+        ledger = ledger or kept
     categories = read_categories(rules) if rules else USUAL
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
     if decide:
