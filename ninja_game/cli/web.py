@@ -424,7 +424,7 @@ def _answer(
 
 
 def _line(form: str, row: Mapping[str, Any]) -> str:
-    waits = "" if row["confirmed"] else "waits for confirmation, "
+    waits = "" if row["counts"] else "waits for confirmation, "
     note = f"; note: {waits}{row['remark']}" if row["remark"] else ""
     text, *keys = form.format(**{**row, "place": row["place"] or "-"}).rstrip().split("\n")
     return "\n".join([shown_text(text + note, LONGEST), *keys])
@@ -481,7 +481,7 @@ def _row(ranked: Ranked, category: Category) -> dict[str, Any]:
         "result": category.text(ranked.values[0]), "ticks": run.tick, "gold": run.gold, "score": run.score,
         "presses": run.presses, "jumps": run.jumps, "made": run.made or "unknown", "co_authors": run.co_authors,
         "date": run.day, "file": run.file, "record": run.record, "remark": run.remark, "ladder": run.ladder,
-        "confirmed": not run.near,
+        "counts": not run.near,
     }  # fmt: skip
 
 

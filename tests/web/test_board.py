@@ -319,9 +319,9 @@ def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path
     tables = page.split("<caption>Best run of each player</caption>")[1:]
     heads = [re.findall("<th [^>]*>([^<]+)", each.partition("</thead>")[0]) for each in tables]
     others = ["Watch", "Made", "Gold", "Date", "File"]
-    assert heads == [
-        ["Place", "Player", *units, "Behind", *others] for units in (["Fastest", "Highest score"], ["Time"])
-    ], "same order, once"
+    assert heads == [["Place", "Player", *units, "Behind", *others] for units in (["Time", "Score"], ["Time"])], (
+        "same order, once"
+    )
     contents = page.partition('aria-label="On this page"')[2].partition("</nav>")[0]
     assert re.findall('<a href="#([^"]+)">([^<]+)</a>', contents) == [("records", "Records"), ("splits", "Splits")]
     leaders = re.findall('<li class="card leader">(.*?)</li>', page)
@@ -334,10 +334,30 @@ def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path
     picture, parts = page.partition("<main")[2].partition("<section")[::2]
     assert ('class="paths"' in picture, "<img" in picture, 'class="paths"' in parts) == (True, False, False)
     assert "<details>" not in page, "one record was beaten"
-    said = "64 of its 65 ticks have the inputs of"
-    assert [(each.count(said), each.count("as above")) for each in tables] == [(1, 0), (0, 1)]
+    said = "64 of its 65 ticks have the inputs of the run by Ann in ann."
+    assert [(each.count(f"{said}txt"), each.count(f"{said}..")) for each in tables] == [(1, 0), (0, 1)], "then cut"
     assert "Sum of the fastest segments, each from the row above: 1.575 s." in page
     assert re.findall("<td>([^<]+)</td>", tables[0].partition(">Bob<")[2])[1] == "0.025"
+
+
+def test_categories_stand_in_the_order_of_the_rules(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """Also where two with another one between them share a table."""
+    for wait, edits in ((4, 0), (7, 0), (5, 3), (9, 3)):
+        made = Provenance(played=not edits, edits=edits)
+        put(runs, f"{wait}.txt", replay(bytes(wait) + WALKING + b"\2", author=f"P{wait}", made=made))
+    categories = FASTEST, Category("Slowest", ("-ticks",)), Category("Any", ("ticks",)), HIGHEST
+    shown = published_levels(levels)
+    BoardPages(tmp_path, Ranking(judge(runs, shown, jobs=1), shown, categories)).write()
+    page = (tmp_path / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    leaders = re.findall('<li class="card leader"><a href="#(ranks-[0-9])">([^<]+)', page)
+    names, tables = ["Fastest", "Slowest", "Any", "Highest score"], [1, 2, 1, 1]
+    assert leaders == [
+        (f"ranks-{table + more}", f"{name}, {ladder}")
+        for more, ladder in ((0, PLAYED), (2, ASSISTED))
+        for name, table in zip(names, tables, strict=True)
+    ]
+    first = page.partition('id="ranks-1"')[2].partition("</thead>")[0]
+    assert re.findall("<th [^>]*>([^<]+)", first)[2:5] == ["Time", "Score", "Behind"], "each number once"
 
 
 def test_the_sum_of_segments_is_not_slower_than_the_fastest_run(runs: Path, tmp_path: Path) -> None:

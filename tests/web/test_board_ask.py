@@ -82,6 +82,8 @@ def test_a_faster_run_that_waits_is_told(runs: Path, levels: Path, tmp_path: Pat
     assert code == 0
     assert [line.partition(": ")[0] for line in text.splitlines()[1:]] == ["1. Ann", "2. Bob", "-. Bob"]
     assert "; note: waits for confirmation, " in text.splitlines()[-1]
+    rows = answer(runs, levels, "rank", "Walk", "--ledger", str(data))
+    assert [(row["counts"], "confirmed" in row) for row in rows] == [(True, False)] * 2 + [(False, False)]
 
 
 @pytest.mark.parametrize("level", ["Walk", "walk", "00-0", "wal", "00-0-LEVEL"])

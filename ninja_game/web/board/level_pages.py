@@ -11,7 +11,7 @@ from hashlib import sha256
 from itertools import pairwise
 from operator import itemgetter
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,6 +61,7 @@ from ninja_game.web.pages.memo import Memo, digest_of
 PER_PAGE = 100  # rows of a table that goes on on another page: a page has at most 100 KB
 
 LONGEST_NAME = 40  # characters of a name in a table
+LONGEST_AGAIN = 60  # characters of a remark that stands in a table above
 
 RUN_HEADS = ("Watch", "Made", "Gold", "Date", "Medal", "File")
 LESSER = {"No.", "Behind", "Better by", "Score", "With", "On", *RUN_HEADS[2:], *map(str.capitalize, MEDALS)}
@@ -92,6 +93,15 @@ BESIDE, BELOW = 72, 28  # what the labels take
 
 PLACE = "place-"  # the anchor of a numbered place in a picture
 MARK_APART = 14  # px from one number to the next, at least
+
+
+class _Ranks(NamedTuple):
+    """A table of a level: its first ``rows`` without those far behind, these, and near copies that are better."""
+
+    leaderboard: Leaderboard
+    rows: list[Ranked]
+    far: list[Ranked]
+    waiting: list[Ranked]
 
 
 class LevelPages:
@@ -280,27 +290,22 @@ class LevelPages:
         fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > 1]
         first, *others = [self._progression(entry, each, RECORDS * (not at)) for at, each in enumerate(fell)] or [None]
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
-        same: dict[str, dict[Leaderboard, list[Ranked]]] = defaultdict(dict)
-        far: dict[Leaderboard, list[Ranked]] = {}
+        merged: dict[Any, list[_Ranks]] = defaultdict(list)
         for each, table_ in tables.items():
-            far[each] = [row for row in table_ if each[1].far(row.values[0], table_[0].values[0])]
-            rows = [row for row in table_ if row not in far[each]]
-            same[f"{each[0]} {[(row.place, row.run.key) for row in rows[:FIRST]]}"][each] = rows[:FIRST]
-        near = {row.run.key for rows in tables.values() for row in rows[:FIRST] if row.run.near}
-        remarks: set[str] = set()
-        shown, leaders = list[Content](), list[Markup]()
-        for number, leaderboards in enumerate(same.values(), 1):
-            waiting = [
-                row for board in leaderboards for row in self.ranking.waiting(entry.digest, board, tables[board])
-            ]
-            near |= {row.run.key for row in waiting}
-            shown.append(self._table(leaderboards, remarks, marks, anchor := f"ranks-{number}"))
-            shown.append(self._said_of("More than twice as slow", [row for each in leaderboards for row in far[each]]))
-            shown.append(self._said_of("Better, and waiting", waiting))
-            leaders += [self._leader(each, best, anchor) for each, (best, *_) in leaderboards.items()]
+            far = [row for row in table_ if each[1].far(row.values[0], table_[0].values[0])]
+            rows = [row for row in table_ if row not in far][:FIRST]
+            ranks = _Ranks(each, rows, far, self.ranking.waiting(entry.digest, each, table_))
+            merged[each[0], *((row.place, row.run.key) for row in rows)].append(ranks)
+        remarks, shown, leaders = set[str](), list[Content](), dict[Leaderboard, Markup]()
+        for number, same in enumerate(merged.values(), 1):
+            shown.append(self._table(same, remarks, marks, anchor := f"ranks-{number}"))
+            shown.append(self._said_of("More than twice as slow", [row for each in same for row in each.far]))
+            shown.append(self._said_of("Better, and waiting", [row for each in same for row in each.waiting]))
+            leaders |= {each.leaderboard: self._leader(each, anchor) for each in same}
+        near = any(row.run.near for same in merged.values() for each in same for row in (*each.rows, *each.waiting))
         leads = [(each, each.capitalize()) for each, content in ((RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
-        top = tag("ul", *leaders, class_="cards"), on_this_page(leads) if leads else None
+        top = tag("ul", *(leaders[each] for each in tables), class_="cards"), on_this_page(leads) if leads else None
         return joined(*top), drawn, joined(*shown, note, link, first, folded, beside)
 
     def _said_of(self, what: str, rows: Sequence[Ranked]) -> Content:
@@ -311,8 +316,9 @@ class LevelPages:
         ]
         return tag("p", f"{what}: {', '.join(said)}.") if said else None
 
-    def _leader(self, leaderboard: Leaderboard, best: Ranked, anchor: str) -> Markup:
+    def _leader(self, ranks: _Ranks, anchor: str) -> Markup:
         """Who leads a table, and a link to it; none leads where all wait for confirmation."""
+        leaderboard, best = ranks.leaderboard, ranks.rows[0]
         link = tag("a", self.leaderboard_name(leaderboard), href=f"#{anchor}")
         if best.place != 1:
             return tag("li", link, class_="card leader")
@@ -320,32 +326,28 @@ class LevelPages:
         about = tag("p", self.player_link(run.player, UP), run.day, self.watch_link([run], UP), class_="facts")
         return tag("li", link, result, about, class_="card leader")
 
-    def _table(
-        self,
-        leaderboards: Mapping[Leaderboard, Sequence[Ranked]],
-        above: set[str],
-        marks: Mapping[Key, Content],
-        anchor: str,
-    ) -> Markup:
+    def _table(self, same: Sequence[_Ranks], above: set[str], marks: Mapping[Key, Content], anchor: str) -> Markup:
         """A table of categories with the same runs in order.
 
-        ``above``: remarks of tables above; ``marks``: colours of the runs in the picture.
+        ``above``: remarks of tables above, which are cut here; ``marks``: colours of the runs in the picture.
         """
-        rows, categories = [], [category for _, category in leaderboards]
-        timed = any(category.unit == FASTEST.unit for category in categories)
-        for same in zip(*leaderboards.values(), strict=True):
-            place, run = same[0].place, same[0].run
-            shown = replace(run, remark="as above") if run.remark in above else run
-            results = [category.text(row.values[0]) for category, row in zip(categories, same, strict=True)]
-            late = self.behind(categories[0], same[0], next(iter(leaderboards.values()))[0])
+        rows, categories = [], [each.leaderboard[1] for each in same]
+        several = len(same) > 1
+        heads = [each.name if several and each.unit == "Value" else each.unit for each in categories]
+        names = [*dict.fromkeys(heads)]  # a time is the same in all categories
+        for ranked in zip(*(each.rows for each in same), strict=True):
+            place, run = ranked[0].place, ranked[0].run
+            shown = replace(run, remark=shown_text(run.remark, LONGEST_AGAIN)) if run.remark in above else run
+            results = [categories[at].text(ranked[at].values[0]) for at in map(heads.index, names)]
+            late = self.behind(categories[0], ranked[0], same[0].rows[0])
             unsaid = NOT_SAID * (0 < place <= PODIUM and not run.made)
-            cells = self.run_cells(shown, *results, late, timed=timed, remark=unsaid, mark=marks.get(run.key))
+            timed, mark = FASTEST.unit in heads, marks.get(run.key)
+            cells = self.run_cells(shown, *results, late, timed=timed, remark=unsaid, mark=mark)
             rows.append((place_mark(place), *cells))
             above |= {run.remark} - {""}
-        names = [category.name if len(leaderboards) > 1 else category.unit for category in categories]
-        heads = ("Place", "Player", *names, "Behind", *RUN_HEADS)
-        ranked = table("Best run of each player", heads, rows, LESSER.union(names[1:]) - {names[0]})
-        return section("; ".join(map(self.leaderboard_name, leaderboards)), ranked, anchor=anchor)
+        lesser = LESSER.union(names[1:]) - {names[0]}
+        best = table("Best run of each player", ("Place", "Player", *names, "Behind", *RUN_HEADS), rows, lesser)
+        return section("; ".join(self.leaderboard_name(each.leaderboard) for each in same), best, anchor=anchor)
 
     def _progression(self, entry: Entry, leaderboard: Leaderboard, anchor: str) -> Content:
         category, runs = leaderboard[1], self.ranking.history[entry.digest, leaderboard]
