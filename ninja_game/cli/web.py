@@ -298,10 +298,11 @@ def _ranking(
         click.echo(NO_DATES, err=True)
     shown = published_levels(levels or data_folder("levels"))
     dates_by_file = read_dates(dates, now) if dates else {}
-    known = dates_of(before, now, dates_by_file) if ledger else None
-    judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
+    added, taken = dates_of(before, now, dates_by_file) if ledger else (None, None)
+    judged_now = partial(judge, folder, shown, dates=added, taken=taken, jobs=jobs, memo=memo, ledger=before)
+    judged = judged_now()
     if decide and decide(before, now, judged):
-        judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
+        judged = judged_now()
     here = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
     memo.save()
     if unknown := dates_by_file.keys() - here:

@@ -54,14 +54,15 @@ def judge(
     shown: PublishedLevels,
     *,
     dates: Dates | None = None,
+    taken: Dates | None = None,
     jobs: int | None = None,
     memo: Memo | None = None,
     ledger: Ledger = NO_LEDGER,
 ) -> ValidatedRuns:
     """Simulate every run below a folder again, on the levels that are shown. Raises OSError.
 
-    ``dates``: those of the board's ``ledger``; without it runs go by the names of their files. ``memo``: what was found
-    out before, of the same files, levels and rules; it is not simulated again.
+    ``dates``, ``taken``: of the board's ``ledger``, as ``added`` and ``taken`` of Run; without it runs go by the names
+    of their files. ``memo``: what was found out before, of the same files, levels and rules; it is not simulated again.
     """
     memo = memo or Memo()
     sent = RunFolder(folder, {digest: entry.named.level for digest, entry in shown.entries.items()})
@@ -75,14 +76,15 @@ def judge(
                 title = entry.title if entry else ""
                 rejected.append(Rejected(file.name, row.record, row.kind, row.why, row.author, title))
                 continue
-            added = dates((file.name, row.record), row.way) if dates else ""
-            runs.append(_run(file, row, entry, sent, added))
+            key = file.name, row.record
+            added, later = (of(key, row.way) if of else "" for of in (dates, taken))
+            runs.append(replace(_run(file, row, entry, sent, added), taken=later))
     known = {(run.level, run.way, run.added) for run in runs}
     for number, run in enumerate(runs):
         # A run that was withdrawn, or comes in another file, is still its player's.
         owner = owners.get(way := (run.level, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
-            runs[number] = replace(run, added=owner["added"], again=True)
+            runs[number] = replace(run, added=owner["added"], taken=owner.get("taken", ""), again=True)
     credited, moderated = list[Run](), list[Rejected]()
     for run in _of_players(sorted(runs, key=lambda run: run.order), players):
         decision = ledger.decisions.get((run.level, run.way, folded(run.player)))

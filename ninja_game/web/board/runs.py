@@ -93,7 +93,8 @@ class Run(Judged):
 
     ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``remark``: what a reader should know;
     ``near``: which run it nearly copies, a sentence, until it is ``confirmed``: it leads no table; ``again``: it was
-    withdrawn, and is the first of its moment; ``digest``: of its file.
+    withdrawn, and is the first of its moment; ``taken``: where ``added`` is that of an older board, when this one took
+    it in; ``digest``: of its file.
     """
 
     file: str
@@ -106,6 +107,7 @@ class Run(Judged):
     near: str = ""
     confirmed: bool = False
     again: bool = False
+    taken: str = ""
 
     @cached_property
     def key(self) -> Key:
