@@ -476,6 +476,19 @@ def test_a_trick_is_refused_with_its_reason(trick: str, runs: Path, levels: Path
     assert time.process_time() - start < 10
 
 
+def test_what_no_keyboard_can_do_counts_on_the_ladder_of_tools(runs: Path, levels: Path) -> None:
+    """Marked there, and refused where nobody says that a tool made it."""
+    keys = b"\4" + WALKING + b"\2"
+    for name, made in (("played", Provenance(played=True)), ("tool", Provenance(edits=3)), ("unknown", Provenance())):
+        put(runs, f"{name}.txt", replay(keys, author="\u0410nn", made=made))
+    found = with_demands(runs, levels)
+    (run,) = found.runs
+    told = "no keyboard can do that: in tick 0 (jump down) the jump key is down and was never pressed"
+    mixed = "letters of the player's name look like those of another script"
+    assert (run.file, run.ladder, run.remark) == ("tool.txt", ASSISTED, f"{mixed}; {told}")
+    assert [each.kind for each in found.rejected] == ["refused", "refused"]
+
+
 def test_copies_are_named_and_the_first_one_counts(runs: Path, levels: Path) -> None:
     put(runs, "ann.txt", replay(author="Ann"), day=1)
     put(runs, "again.txt", replay(author="Ann").replace("name: walk", "name: other"), day=2)

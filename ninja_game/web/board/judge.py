@@ -206,8 +206,9 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
 
 def _run(file: JudgedFile, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
     return Run(
-        **vars(row), file=file.name, player=row.author, entry=entry, added=added, digest=file.digest, folder=folder
-    )
+        **vars(row), file=file.name, player=row.author, entry=entry, added=added, digest=file.digest, folder=folder,
+        remark=row.why,
+    )  # fmt: skip
 
 
 def _with_row(run: Run, owner: Mapping[str, Any], own: Mapping[str, Any]) -> Run:
@@ -232,7 +233,10 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     if isinstance(result, Unreadable):
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # which a board has not
         return Judged(sent.chunk.first, "unreadable", why)
-    problems = [_worded(problem, result, sent) for problem in result.problems]
+    # What a tool made needs no keyboard: it is marked.
+    marked = [each for each in result.problems if result.assisted and str(each).startswith("possible_by_keyboard")]
+    marks = [_worded(each, result, sent).partition(";")[0] for each in marked]
+    problems = [_worded(problem, result, sent) for problem in result.problems if problem not in marked]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
         other = run_problem("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
         problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
@@ -244,7 +248,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     pressed = [new & ~old & KEYS_DOWN for old, new in pairwise(b"\0" + inputs)]
     jumps = sum(bool(keys & JUMP_HELD) for keys in pressed)
     return Judged(
-        result.record, "", "", result.author, result.level_digest, result.end_tick, result.gold,
+        result.record, "", "".join(marks), result.author, result.level_digest, result.end_tick, result.gold,
         result.score_ticks or 0, result.xy_sha256, sum(map(int.bit_count, pressed)), jumps,
         result.made, result.assisted, result.co_authors, result.episode,
     )  # fmt: skip
@@ -281,7 +285,8 @@ def _of_players(runs: list[Run], players: Players) -> list[Run]:
     credited = []
     for run in runs:
         player, remark = players.meet(run.player)
-        same = player == run.player and not remark
+        remark = "; ".join(filter(None, (remark, run.remark)))
+        same = player == run.player and remark == run.remark
         credited.append(run if same else replace(run, player=player, remark=remark))
     return credited
 

@@ -45,8 +45,8 @@ OWN = "own"  # what a level of an episode is that its player has sent before
 class Judged:
     """What a recording of a file comes to, as plain values that can be remembered.
 
-    ``kind``: "" for a run that counts, else as in Rejected, with ``why``; ``level``: its digest; ``way``: digest of the
-    ninja's positions; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
+    ``kind``: "" for a run that counts, else as in Rejected; ``why``: that, or a remark; ``level``: its digest;
+    ``way``: digest of the ninja's positions; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
     """
 
     record: int
