@@ -230,6 +230,10 @@ def test_a_level_tells_in_which_second_time_goes(runs: Path, levels: Path, tmp_p
     put(runs, "tas.txt", replay(bytes(18) + WALKING + b"\2", author="TAS", made=Provenance(edits=7)))
     page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     lost = ("Ann", "0.050"), ("Bea", "0.200")
+    races = page.partition("<h2>Any two of the first")[2].partition("</table>")[0]
+    assert re.findall("#watch=[0-9a-f]{16}-([0-9]),[0-9a-f]{16}-([0-9])", races) == [
+        ("0", "1"), ("0", "2"), ("1", "0"), ("1", "2"), ("2", "0"), ("2", "1"),
+    ], "in the colours of the picture"  # fmt: skip
     told = [f"{name} loses most between 0 s and 1 s of TAS, assisted: {time} s." for name, time in lost]
     assert re.findall("<p>([^<]+)</p>", page.partition("<h2>Where time goes</h2>")[2]) == told
 

@@ -162,9 +162,11 @@ class LevelPages:
 
             self.pages.make(file, [title, caption, heads, part, lead, more, links], content)
 
-    def watch_link(self, runs: Sequence[Run], up: str, text: str = "Watch") -> Markup:
-        """A link that watches a run, the others as ghosts."""
-        address = watch_address(up + self.game, *(self.stems[run.key] for run in runs))
+    def watch_link(self, runs: Sequence[Run], up: str, text: str = "Watch", colours: Sequence[int] = ()) -> Markup:
+        """A link that watches a run, the others as ghosts; ``colours``: of all, by number, if not in their order."""
+        marks = [f"-{number}" for number in colours] or [""] * len(runs)
+        stems = (self.stems[run.key] + mark for run, mark in zip(runs, marks, strict=True))
+        address = watch_address(up + self.game, *stems)
         said = f"{text}: {runs[0].player} on {runs[0].entry.title}"
         return tag("a", text, href=address, aria_label=said, class_="watch" if text == "Watch" else None)
 
@@ -389,9 +391,10 @@ class LevelPages:
         drawn = paths(UP + picture_name(runs[0].level), ways, [(row.split.x, row.split.y) for row in rows])
         said = f"Watch the first {len(runs)} together"
         together = tag("p", f"{category.name}: ", self.watch_link(runs, UP, said))
+        every = range(len(runs))
         pairs = [
-            (tag("div", swatch(number), " ", name, class_="text"), *(self._pair(run, other) for other in runs))
-            for number, (run, name) in enumerate(zip(runs, names, strict=True))
+            (tag("div", swatch(at), " ", names[at], class_="text"), *(self._pair(runs, at, other) for other in every))
+            for at in every
         ]
         races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
         lines = [
@@ -408,8 +411,10 @@ class LevelPages:
             section("Where time goes", *where) if where else None,
         )  # fmt: skip
 
-    def _pair(self, run: Run, other: Run) -> Content:
-        return "" if run is other else self.watch_link([run, other], UP, signed(run.tick - other.tick))
+    def _pair(self, runs: Sequence[Run], at: int, other: int) -> Content:
+        """A race of two of the runs, in their colours."""
+        both = [runs[at], runs[other]]
+        return self.watch_link(both, UP, signed(both[0].tick - both[1].tick), (at, other)) if at != other else ""
 
 
 def _where_time_goes(runs: Sequence[tuple[str, RunSplits]]) -> list[Markup]:
