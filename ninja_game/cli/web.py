@@ -227,10 +227,10 @@ def board(
         check_ledger(data, folder)
     decisions = [*((name, "rejected") for name in reject), *ladder]
     decide = partial(moderate, confirm=confirm, decisions=decisions, reason=reason.strip())
+    same = keeps or check is not None
     ranking, before = _ranking(
-        folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, dates=dates,
-        same=keeps or check is not None,
-    )  # fmt: skip
+        folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, dates=dates, same=same
+    )
     judged = ranking.judged
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()

@@ -205,10 +205,8 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
 
 
 def _run(file: JudgedFile, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
-    return Run(
-        **vars(row), file=file.name, player=row.author, entry=entry, added=added, digest=file.digest, folder=folder,
-        remark=row.why,
-    )  # fmt: skip
+    values = vars(row) | {"file": file.name, "digest": file.digest, "player": row.author, "remark": row.why}
+    return Run(**values, entry=entry, added=added, folder=folder)
 
 
 def _with_row(run: Run, owner: Mapping[str, Any], own: Mapping[str, Any]) -> Run:
