@@ -16,6 +16,7 @@ from ninja_game.errors import FileError, LevelError
 from ninja_game.files.shown_text import counted, file_stem, name_key, name_problem, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
+from ninja_game.formats.lines import MOST_NAME
 from ninja_game.formats.links import is_link, level_link, recording_link
 from ninja_game.formats.run_time import seconds_text
 
@@ -42,6 +43,7 @@ FORM_OF_NAME = {
 @click.option("--to", "form", type=click.Choice(FORMS), help="The form to write, whatever OUT is called.")
 @click.option("--legend", is_flag=True, help="End readable levels with the meaning of all characters, as comments.")
 @options.level_option
+@click.option("--author", metavar="NAME", help="Who made the recordings that do not say it, such as demos of N.")
 @options.budget_option
 @click.option("--force", is_flag=True, help="Replace files that exist. IN is never replaced.")
 def convert(
@@ -50,6 +52,7 @@ def convert(
     form: str | None,
     legend: bool,
     level_path: Path | None,
+    author: str | None,
     budget: int,
     force: bool,
 ) -> None:
@@ -75,7 +78,7 @@ def convert(
       ninja-game convert my-levels/ userlevels.txt
       ninja-game convert first.txt second.txt pack.txt
       ninja-game convert my-levels/first.txt first.nlevel
-      ninja-game convert demos.txt replays/ --to replay
+      ninja-game convert demos.txt replays/ --to replay --author Ann
       ninja-game convert 0.replay.txt 1.replay.txt 2.replay.txt 3.replay.txt 4.replay.txt 00.episode.txt
       ninja-game convert run.replay.txt run.demo
       ninja-game convert first.nlevel -
@@ -83,7 +86,7 @@ def convert(
     from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
     from ninja_game.formats.load import load_levels, load_replays, texts_of
     from ninja_game.formats.n14.level_string import write_level_string
-    from ninja_game.runs.conversion import episode_text, input_texts, left_out, level_file_text, replay_texts
+    from ninja_game.runs.conversion import by_player, episode_text, input_texts, left_out, level_file_text, replay_texts
 
     output = Output(target, sources, force=force)
     texts = [named for source in sources for named in texts_of(source)]
@@ -91,9 +94,13 @@ def convert(
     form = form or next((form for suffix, form in FORM_OF_NAME.items() if target.lower().endswith(suffix)), "")
     if level and form in ("ascii", "string"):
         raise click.UsageError("--level is for recordings: add --to replay or --to file")
+    if author and form not in ("replay", "inputs", "episode"):
+        raise click.UsageError("--author is for recordings: add --to replay")
+    player = shown_text(author or "", MOST_NAME).strip()
     holdings: Sequence[NamedLevel | Recording]
     if form in RUN_FORMS or form == "episode" or level:
-        holdings = recordings = [recording for source in sources for recording in load_replays(source, level=level)]
+        found = (recording for source in sources for recording in load_replays(source, level=level))
+        holdings = recordings = [by_player(recording, player) for recording in found]
         form = form or "file"
         if form in RUN_FORMS:
             written = replay_texts(recordings, budget) if form == "replay" else input_texts(recordings, form)

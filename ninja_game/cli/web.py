@@ -214,10 +214,11 @@ def board(
     """
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
-    from ninja_game.web.board.report import board_text, changes, gone, moderate, plain, summary
+    from ninja_game.web.board.report import board_text, changes, gone, moderate, plain, summary, unnamed
     from ninja_game.web.pages.frame import GAME
 
-    if (confirm or reject or ladder or dates) and not data:
+    keeps = bool(confirm or reject or ladder or dates)
+    if keeps and not data:
         raise click.UsageError("--confirm, --reject, --ladder, --dates: name the ledger, which notes it, with --json")
     if site:
         check_site(site, folder)
@@ -226,7 +227,10 @@ def board(
         check_ledger(data, folder)
     decisions = [*((name, "rejected") for name in reject), *ladder]
     decide = partial(moderate, confirm=confirm, decisions=decisions, reason=reason.strip())
-    ranking, before = _ranking(folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, dates=dates)
+    same = keeps or check is not None
+    ranking, before = _ranking(
+        folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, dates=dates, same=same
+    )
     judged = ranking.judged
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
@@ -240,6 +244,8 @@ def board(
         for line in gone(ranking, before):
             click.echo(line)
         click.echo(summary(judged))
+        if how := unnamed(judged):
+            click.echo(how, err=True)
         return 0
     rows = list(changes(ranking, before))
     for _, line in rows:
@@ -258,10 +264,12 @@ def _ranking(
     again: bool = False,
     decide: Callable[[Ledger, datetime, ValidatedRuns], bool] | None = None,
     dates: Path | None = None,
+    same: bool = True,
 ) -> tuple[Ranking, Ledger]:
     """The ranking of a folder's runs by the board's rules, and the earlier ledger with the present decisions.
 
-    ``levels``, ``ledger``, ``rules``: by default, without decisions, those of the folder's last board.
+    ``same``: ``levels`` and ``rules`` that are not given are those of the folder's last board; so is ``ledger`` where
+    nothing is decided.
     """
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
@@ -276,8 +284,10 @@ def _ranking(
     memo = memo_of("runs", folder, folder, again=again)
     known_before = memo_of("runs", folder, folder, again=False) if again else memo
     last, kept, ruled = (_remembered(known_before, key) for key in (LAST_LEVELS, LAST_LEDGER, LAST_RULES))
+    if same:
+        levels, rules = levels or last, rules or ruled
     if not decide:
-        levels, ledger, rules = levels or last, ledger or kept, rules or ruled
+        ledger = ledger or kept
     categories = read_categories(rules) if rules else USUAL
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
     if decide:
@@ -288,10 +298,11 @@ def _ranking(
         click.echo(NO_DATES, err=True)
     shown = published_levels(levels or data_folder("levels"))
     dates_by_file = read_dates(dates, now) if dates else {}
-    known = dates_of(before, now, dates_by_file) if ledger else None
-    judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
+    added, taken = dates_of(before, now, dates_by_file) if ledger else (None, None)
+    judged_now = partial(judge, folder, shown, dates=added, taken=taken, jobs=jobs, memo=memo, ledger=before)
+    judged = judged_now()
     if decide and decide(before, now, judged):
-        judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
+        judged = judged_now()
     here = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
     memo.save()
     if unknown := dates_by_file.keys() - here:
@@ -414,7 +425,7 @@ def _answer(
 
 
 def _line(form: str, row: Mapping[str, Any]) -> str:
-    waits = "" if row["confirmed"] else "waits for confirmation, "
+    waits = "" if row["counts"] else "waits for confirmation, "
     note = f"; note: {waits}{row['remark']}" if row["remark"] else ""
     text, *keys = form.format(**{**row, "place": row["place"] or "-"}).rstrip().split("\n")
     return "\n".join([shown_text(text + note, LONGEST), *keys])
@@ -471,7 +482,7 @@ def _row(ranked: Ranked, category: Category) -> dict[str, Any]:
         "result": category.text(ranked.values[0]), "ticks": run.tick, "gold": run.gold, "score": run.score,
         "presses": run.presses, "jumps": run.jumps, "made": run.made or "unknown", "co_authors": run.co_authors,
         "date": run.day, "file": run.file, "record": run.record, "remark": run.remark, "ladder": run.ladder,
-        "confirmed": not run.near,
+        "counts": not run.near,
     }  # fmt: skip
 
 

@@ -47,7 +47,7 @@ MOST_BYTES = 4 * 2**20  # size of its text when unpacked
 MOST_TEXTS = 9  # in a link of replays: the watched one, and as many ghosts as the viewer shows
 
 _PART = re.compile(r"(level|pack|replay)=([0-9]{1,4})\.([A-Za-z0-9_-]*)")
-_STEM = re.compile(r"[0-9a-f]{16}")
+_STEM = re.compile(r"([0-9a-f]{16})(?:-([0-9]))?")
 _ADDRESS = re.compile(r"[a-z]{2}:/", re.IGNORECASE)
 _AROUND = "\0 \t\r\n.,;:!?)>]}\"'"
 """Characters that people and programs write behind a link."""
@@ -173,7 +173,16 @@ def watched(fragment: str) -> list[str]:
     parts = names.split(",") if mark else []
     if len(parts) > MOST_TEXTS or not all(_STEM.fullmatch(name) for name in parts):
         raise LinkError("not a link of runs of this page", LINK, found=ascii(names[:40]), hint="copy it again, whole")
-    return [f"replays/{name}.txt" for name in parts]
+    return [f"replays/{name.partition('-')[0]}.txt" for name in parts]
+
+
+def watched_colours(fragment: str) -> list[int]:
+    """The numbers of the runs' colours in a picture that a fragment of ``watched`` may have, one for each run.
+
+    >>> watched_colours("#watch=0123456789abcdef-2,fedcba9876543210-0"), watched_colours("#watch=0123456789abcdef")
+    ([2, 0], [])
+    """
+    return [int(match[2]) for match in _STEM.finditer(fragment) if match[2]]
 
 
 _NAME_LIMIT = 100  # characters of the name of a file in a pack

@@ -136,21 +136,21 @@ def _replays(path: str, level: Level | None) -> Callable[[App], Screen]:
     return _watch(load_replays(path, level=level), over_menu=is_link(path))
 
 
-def watch_screen(texts: Sequence[str]) -> Callable[[App], Screen]:
+def watch_screen(texts: Sequence[str], colours: Sequence[int]) -> Callable[[App], Screen]:
     """A function that makes the viewer, over the main menu: the first replay is watched, others run as ghosts.
 
-    Raises NinjaGameError for a replay that cannot be read.
+    ``colours``: as of ReplayScreen. Raises NinjaGameError for a replay that cannot be read.
     """
-    return _watch(recordings_of(texts), over_menu=True)
+    return _watch(recordings_of(texts), colours, over_menu=True)
 
 
-def _watch(recordings: Sequence[Recording], *, over_menu: bool) -> Callable[[App], Screen]:
+def _watch(recordings: Sequence[Recording], colours: Sequence[int] = (), *, over_menu: bool) -> Callable[[App], Screen]:
     def watch(app: App) -> Screen:
         from ninja_game.play.replay.screen import ReplayScreen
 
         if over_menu:
             app.push(_main_menu(app))
-        return ReplayScreen(app, recordings)
+        return ReplayScreen(app, recordings, colours)
 
     return watch
 

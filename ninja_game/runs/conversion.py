@@ -87,6 +87,14 @@ def input_texts(recordings: Iterable[Recording], form: str) -> Iterator[str]:
             raise replace(error, file=recording.file, line=recording.line) from None
 
 
+def by_player(recording: Recording, player: str) -> Recording:
+    """The recording as this player's, where it does not say whose it is; a record of N becomes a replay of ours."""
+    if recording.player or not player:
+        return recording
+    named = replace(recording.replay, author=player, name=recording.name, level_author=recording.level_author)
+    return replace(recording, replay=named, form="replay")
+
+
 def on_level(recording: Recording, level: Level | None = None) -> Recording:
     """The inputs of a recording on a level; None: on its own level in its present state.
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ninja_game.budget import PAGE_BUDGET, TURN_WORK
 from ninja_game.errors import BudgetError, NinjaGameError
-from ninja_game.formats.links import is_link, watched
+from ninja_game.formats.links import is_link, watched, watched_colours
 from ninja_game.play.app import App
 from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
@@ -73,7 +73,9 @@ class PageServices:
             if not (recordings or is_link(fragment)):
                 return ""
             first = (
-                watch_screen(recordings) if recordings else first_screen(fragment, None, body="circle", practice=False)
+                watch_screen(recordings, watched_colours(fragment))
+                if recordings
+                else first_screen(fragment, None, body="circle", practice=False)
             )
             self.app.stack.clear()
             self.app.push(first(self.app))

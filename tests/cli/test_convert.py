@@ -10,6 +10,7 @@ from click.testing import CliRunner, Result
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.runs.verify import verify_recording
+from tests.support.forgeries import WALKING, record
 from tests.support.samples import SPIKED, WALK, WALK_END, running, write_records
 
 TINY = "\n".join(
@@ -220,3 +221,18 @@ def test_a_missing_folder_is_named_without_temporary_names(tmp_path: Path) -> No
     source = write_records(tmp_path / "walk.txt", ("Walk", WALK, ""))
     target = tmp_path / "gone" / "out.txt"
     assert convert(source, target).stderr == f"ninja-game: {target}: No such file or directory\n"
+
+
+def test_who_made_a_demo_can_be_said(tmp_path: Path) -> None:
+    """Of those that do not say it alone; the maker of the level stays that."""
+    source = tmp_path / "demo.txt"
+    source.write_text(record(WALKING), "utf-8")
+    maker = load_replays(source)[0].level_author
+    assert convert(source, tmp_path / "one.replay.txt", "--author", "\udce4 Ann\n").exit_code == 0
+    (run,) = load_replays(tmp_path / "one.replay.txt")
+    assert (run.player, run.level_author) == ("\\udce4 Ann", maker)
+    assert verify_recording(run).problems == ()
+    assert convert(tmp_path / "one.replay.txt", tmp_path / "two.replay.txt", "--author", "Bob").exit_code == 0
+    assert load_replays(tmp_path / "two.replay.txt")[0].player == run.player
+    result = convert(source, tmp_path / "three.demo", "--author", "Ann")
+    assert (result.exit_code, "--author is for recordings: add --to replay" in result.stderr) == (2, True)

@@ -235,7 +235,9 @@ def test_kind_must_fit() -> None:
         linked_texts(pack_link({"a": "b"}), "level", "replay")
 
 
-@pytest.mark.parametrize("names", ["../../etc", "0123456789abcdeF", "a", "", "0123456789abcdef," * 9, "%2e%2e"])
+@pytest.mark.parametrize(
+    "names", ["../../etc", "0123456789abcdeF", "a", "", "0123456789abcdef," * 9, "%2e%2e", f"{'a' * 16}-44"]
+)
 def test_only_files_of_the_board_are_watched(names: str) -> None:
     with pytest.raises(LinkError, match="not a link of runs"):
         watched(f"#watch={names}")
@@ -245,6 +247,7 @@ def test_watch_link_names_the_files_of_runs() -> None:
     assert watched(write_watch(["0123456789abcdef", "f" * 16])) == [
         "replays/0123456789abcdef.txt", "replays/ffffffffffffffff.txt",
     ]  # fmt: skip
+    assert watched("#watch=0123456789abcdef-4") == ["replays/0123456789abcdef.txt"], "with the number of a colour"
     assert watched(LINK) == []
 
 

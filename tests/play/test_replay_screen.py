@@ -282,6 +282,9 @@ def test_ghosts_have_names_and_colours_and_are_in_the_film(monkeypatch: pytest.M
     with viewer(RUN, *others) as (app, screen):
         assert [ghost.name for ghost in screen.ghosts] == ["Ann", "Cy"]
         assert screen.ghosts[0].shade != screen.ghosts[1].shade
+        for numbers, shades in (([3, 2, 5], [2, 5]), ([3], [1, 2])):  # one for each run, else in their order
+            coloured = ReplayScreen(app, [RUN, *others], numbers)
+            assert [ghost.shade for ghost in coloured.ghosts] == [RUN_COLOURS[number] for number in shades]
         drawn: list[str] = []
         write = Theme.text
 

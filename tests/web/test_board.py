@@ -44,10 +44,10 @@ BROKEN = """
 Array.from(document.querySelectorAll(innerWidth > 704 ? "td, th" : "td")).filter((cell) => {
   const range = document.createRange();
   range.selectNodeContents(cell);
-  return !cell.querySelector(".text, a") && range.getBoundingClientRect().height > 36;
+  return !cell.querySelector(".text, .made, a") && range.getBoundingClientRect().height > 36;
 }).map((cell) => cell.textContent)
 """
-"""Cells that have more than a line, and no long text or name; a narrow page breaks heads."""
+"""Cells that have more than a line, and no long text, name or way of making; a narrow page breaks heads."""
 
 SAID = """
 Array.from(new Set(Array.from(document.querySelectorAll(".wide"))
@@ -133,8 +133,9 @@ def test_runs_of_both_ladders_stand_side_by_side(runs: Path, levels: Path, tmp_p
     board_of(runs, levels, tmp_path / "site")
     page = level.read_text("utf-8")
     splits = page.partition('<section id="splits">')[2]
-    assert re.findall('<th scope="col">([^<]+)', splits) == ["No.", "Split", "Ann", "Fastest segment", "Bot, assisted"]
-    assert "<td>-0.125</td>" in splits
+    assert re.findall('<th scope="col">([^<]+)', splits) == ["No.", "Split", "Bot, assisted", "Fastest segment", "Ann"]
+    assert "<caption>Seconds; later than Bot, assisted: +;" in splits
+    assert "<td>+0.125</td>" in splits, "from the fastest, which is not the first in the picture"
     (path,) = (each for each in (tmp_path / "site" / "replays").glob("*.html") if "<dd>edited" in each.read_text())
     assert "#splits" in path.read_text("utf-8")
 
@@ -172,6 +173,8 @@ def test_levels_whose_records_were_not_beaten_go_by_how_close_the_second_is(
     put(runs, "b.txt", replay(level=GOLD_LATER, author="Bea"))
     page = (board_of(runs, levels, tmp_path / "one") / "index.html").read_text("utf-8")
     assert "Most contested" not in page, "nobody is second, and no record was beaten"
+    newest = page.partition("<h2>Levels of the newest runs")[2]
+    assert newest.count("<img") == 2, "there are levels with pictures even so"
     put(runs, "c.txt", replay(bytes(8) + WALKING + b"\2", GOLD_LATER, author="Ann"))
     put(runs, "d.txt", replay(author="Bea"))
     page = (board_of(runs, levels, tmp_path / "site") / "index.html").read_text("utf-8")
@@ -179,6 +182,12 @@ def test_levels_whose_records_were_not_beaten_go_by_how_close_the_second_is(
     assert "By how close the second is, in Fastest" in contested
     assert "beaten" not in contested
     assert re.findall("second ([0-9.]+) behind", contested) == ["0.125", "0.200"]
+    for name, wait in (("e.txt", 9), ("f.txt", 10)):
+        walk = replay(bytes(wait) + WALKING + b"\2", GOLD_LATER, author=name, made=Provenance(edits=3))
+        put(runs, name, walk)
+    page = (board_of(runs, levels, tmp_path / "site") / "index.html").read_text("utf-8")
+    spreads = re.findall("(played|assisted): second ([0-9.]+) behind", words_of(page.partition("<h2>Most cont")[2]))
+    assert spreads == [("played", "0.200"), ("assisted", "0.025"), ("played", "0.125")], "the closest of all ladders"
 
 
 def test_the_most_contested_levels_are_in_the_order_of_their_count(runs: Path, levels: Path, tmp_path: Path) -> None:
@@ -216,8 +225,17 @@ def test_a_level_tells_in_which_second_time_goes(runs: Path, levels: Path, tmp_p
     put(runs, "b.txt", slow_walk(26, author="Bea"))
     page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     part = page.partition("<h2>Where time goes</h2>")[2].partition("</section>")[0]
-    assert re.findall("<p>([^<]+)</p>", part) == ["Bea loses most between 0 s and 1 s of the first: 0.150 s."]
+    assert re.findall("<p>([^<]+)</p>", part) == ["Bea loses most between 0 s and 1 s of Ann: 0.150 s."]
     assert re.findall("<td>([^<]+)</td>", part) == ["1 s", "+0.150"]
+    put(runs, "tas.txt", replay(bytes(18) + WALKING + b"\2", author="TAS", made=Provenance(edits=7)))
+    page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    lost = ("Ann", "0.050"), ("Bea", "0.200")
+    races = page.partition("<h2>Any two of the first")[2].partition("</table>")[0]
+    assert re.findall("#watch=[0-9a-f]{16}-([0-9]),[0-9a-f]{16}-([0-9])", races) == [
+        ("0", "1"), ("0", "2"), ("1", "0"), ("1", "2"), ("2", "0"), ("2", "1"),
+    ], "in the colours of the picture"  # fmt: skip
+    told = [f"{name} loses most between 0 s and 1 s of TAS, assisted: {time} s." for name, time in lost]
+    assert re.findall("<p>([^<]+)</p>", page.partition("<h2>Where time goes</h2>")[2]) == told
 
 
 def test_who_does_not_say_how_a_run_was_made_is_told_by_the_name(runs: Path, levels: Path, tmp_path: Path) -> None:
@@ -305,9 +323,9 @@ def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path
     tables = page.split("<caption>Best run of each player</caption>")[1:]
     heads = [re.findall("<th [^>]*>([^<]+)", each.partition("</thead>")[0]) for each in tables]
     others = ["Watch", "Made", "Gold", "Date", "File"]
-    assert heads == [
-        ["Place", "Player", *units, "Behind", *others] for units in (["Fastest", "Highest score"], ["Time"])
-    ], "same order, once"
+    assert heads == [["Place", "Player", *units, "Behind", *others] for units in (["Time", "Score"], ["Time"])], (
+        "same order, once"
+    )
     contents = page.partition('aria-label="On this page"')[2].partition("</nav>")[0]
     assert re.findall('<a href="#([^"]+)">([^<]+)</a>', contents) == [("records", "Records"), ("splits", "Splits")]
     leaders = re.findall('<li class="card leader">(.*?)</li>', page)
@@ -320,10 +338,30 @@ def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path
     picture, parts = page.partition("<main")[2].partition("<section")[::2]
     assert ('class="paths"' in picture, "<img" in picture, 'class="paths"' in parts) == (True, False, False)
     assert "<details>" not in page, "one record was beaten"
-    said = "64 of its 65 ticks have the inputs of"
-    assert [(each.count(said), each.count("as above")) for each in tables] == [(1, 0), (0, 1)]
+    said = "64 of its 65 ticks have the inputs of the run by Ann in ann."
+    assert [(each.count(f"{said}txt"), each.count(f"{said}..")) for each in tables] == [(1, 0), (0, 1)], "then cut"
     assert "Sum of the fastest segments, each from the row above: 1.575 s." in page
     assert re.findall("<td>([^<]+)</td>", tables[0].partition(">Bob<")[2])[1] == "0.025"
+
+
+def test_categories_stand_in_the_order_of_the_rules(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """Also where two with another one between them share a table."""
+    for wait, edits in ((4, 0), (7, 0), (5, 3), (9, 3)):
+        made = Provenance(played=not edits, edits=edits)
+        put(runs, f"{wait}.txt", replay(bytes(wait) + WALKING + b"\2", author=f"P{wait}", made=made))
+    categories = FASTEST, Category("Slowest", ("-ticks",)), Category("Any", ("ticks",)), HIGHEST
+    shown = published_levels(levels)
+    BoardPages(tmp_path, Ranking(judge(runs, shown, jobs=1), shown, categories)).write()
+    page = (tmp_path / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    leaders = re.findall('<li class="card leader"><a href="#(ranks-[0-9])">([^<]+)', page)
+    names, tables = ["Fastest", "Slowest", "Any", "Highest score"], [1, 2, 1, 1]
+    assert leaders == [
+        (f"ranks-{table + more}", f"{name}, {ladder}")
+        for more, ladder in ((0, PLAYED), (2, ASSISTED))
+        for name, table in zip(names, tables, strict=True)
+    ]
+    first = page.partition('id="ranks-1"')[2].partition("</thead>")[0]
+    assert re.findall("<th [^>]*>([^<]+)", first)[2:5] == ["Time", "Score", "Behind"], "each number once"
 
 
 def test_the_sum_of_segments_is_not_slower_than_the_fastest_run(runs: Path, tmp_path: Path) -> None:
@@ -440,6 +478,19 @@ def test_a_trick_is_refused_with_its_reason(trick: str, runs: Path, levels: Path
         put(runs, "run.txt", make)
     assert words in why(runs, levels)
     assert time.process_time() - start < 10
+
+
+def test_what_no_keyboard_can_do_counts_on_the_ladder_of_tools(runs: Path, levels: Path) -> None:
+    """Marked there, and refused where nobody says that a tool made it."""
+    keys = b"\4" + WALKING + b"\2"
+    for name, made in (("played", Provenance(played=True)), ("tool", Provenance(edits=3)), ("unknown", Provenance())):
+        put(runs, f"{name}.txt", replay(keys, author="\u0410nn", made=made))
+    found = with_demands(runs, levels)
+    (run,) = found.runs
+    told = "no keyboard can do that: in tick 0 (jump down) the jump key is down and was never pressed"
+    mixed = "letters of the player's name look like those of another script"
+    assert (run.file, run.ladder, run.remark) == ("tool.txt", ASSISTED, f"{mixed}; {told}")
+    assert [each.kind for each in found.rejected] == ["refused", "refused"]
 
 
 def test_copies_are_named_and_the_first_one_counts(runs: Path, levels: Path) -> None:
@@ -744,6 +795,8 @@ def test_the_page_of_a_run_shows_its_path(runs: Path, levels: Path, tmp_path: Pa
 def test_no_number_and_no_date_is_broken(width: int, chromium: Any, runs: Path, levels: Path, tmp_path: Path) -> None:
     """Only long texts have more than a line, also beside a remark."""
     put(runs, "ann.txt", slow_walk(40, author="Ann"))
+    made = Provenance(searches=("improve",), begun_by="unknown (a-person-whose-name-is-long.txt)")
+    put(runs, "tool.txt", replay(author="Tool", made=made))
     put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
     now = "2026-01-31T12:00:00Z"
     shown = published_levels(levels)

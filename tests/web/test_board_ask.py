@@ -82,6 +82,8 @@ def test_a_faster_run_that_waits_is_told(runs: Path, levels: Path, tmp_path: Pat
     assert code == 0
     assert [line.partition(": ")[0] for line in text.splitlines()[1:]] == ["1. Ann", "2. Bob", "-. Bob"]
     assert "; note: waits for confirmation, " in text.splitlines()[-1]
+    rows = answer(runs, levels, "rank", "Walk", "--ledger", str(data))
+    assert [(row["counts"], "confirmed" in row) for row in rows] == [(True, False)] * 2 + [(False, False)]
 
 
 @pytest.mark.parametrize("level", ["Walk", "walk", "00-0", "wal", "00-0-LEVEL"])
@@ -174,6 +176,22 @@ def test_a_board_remembers_its_levels(folder: Path, levels: Path) -> None:
         assert CliRunner().invoke(cli, ["board", str(folder), *pack, "--jobs", "1"]).exit_code == 0
         for _ in range(2):
             assert told in CliRunner().invoke(cli, words).output
+
+
+def test_a_check_and_a_keeper_go_by_the_levels_and_rules_of_the_last_board(
+    folder: Path, levels: Path, tmp_path: Path
+) -> None:
+    """A check without --levels refused all runs; a decision without --rules gave the board the usual ones."""
+    (rules := tmp_path / "board.toml").write_text('[[category]]\nname = "Slow"\nrank = ["-ticks"]\n', "utf-8")
+    data, words = str(tmp_path / "board.json"), ["board", str(folder), "--jobs", "1"]
+    own = ["--levels", str(levels), "--rules", str(rules), "--json", data]
+    assert CliRunner().invoke(cli, [*words, *own]).exit_code == 0
+    reject = ["--json", data, "--reject", "ann.txt", "--reason", "spliced"]
+    for more in (["--check", data], reject, ["--check", data]):
+        result = CliRunner().invoke(cli, [*words, *more])
+        assert (result.exit_code, "other-level" in result.output) == (0, False), result.output
+    asked = CliRunner().invoke(cli, ["board", "ask", str(folder), "rank", "Walk"])
+    assert asked.output.startswith("00-0 Walk, slow, played:\n1. <script>"), asked.output
 
 
 def test_a_board_remembers_its_ledger(runs: Path, levels: Path, tmp_path: Path) -> None:

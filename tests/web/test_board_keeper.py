@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.formats.replay.provenance import Provenance
 from tests.support.board import DIGEST, HOSTILE, board, put, slow_walk, taken_in_earlier
-from tests.support.forgeries import replay
+from tests.support.forgeries import WALKING, replay
 
 
 def told(runs: Path, levels: Path, *words: str) -> str:
@@ -135,6 +135,26 @@ def test_dates_of_an_older_board_are_kept(runs: Path, levels: Path, tmp_path: Pa
     assert "copy: a/new.txt: a copy of the run by Cid" in board(runs, levels, *words, "--dates", str(dates))
 
 
+def test_a_date_of_an_older_board_makes_no_near_copy(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """A run of the same moment is marked, and keeps its place; one that comes in later waits, as ever."""
+    data, dates = tmp_path / "board.json", tmp_path / "dates.csv"
+    dates.write_text("ann.txt,2020-03-04\n", "utf-8")
+    put(runs, "ann.txt", slow_walk(40, author="Ann"))
+    put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
+    words = "--json", str(data)
+    for more in (("--dates", str(dates)), (), ("--dates", str(dates))):
+        board(runs, levels, *words, *more)
+        ann, bob = json.loads(data.read_text("utf-8"))["runs"]
+        assert (ann["added"], ann["taken"], "near" in bob) == ("2020-03-04T00:00:00Z", bob["added"], False), more
+    data.write_text(data.read_text("utf-8").replace(bob["added"], "2026-01-31T12:00:00Z"), "utf-8")
+    put(runs, "cid.txt", replay(bytes(40) + WALKING[:-6] + b"\0" + WALKING, author="Cid"))
+    board(runs, levels, *words)
+    rows = json.loads(data.read_text("utf-8"))["runs"]
+    assert [(row["file"], "near" in row) for row in rows] == [("ann.txt", False), ("bob.txt", False), ("cid.txt", True)]
+    data.write_text(data.read_text("utf-8").replace('"taken": "2026', '"taken": "x'), "utf-8")
+    assert "not a date" in told(runs, levels, *words)
+
+
 @pytest.mark.parametrize(
     "text, error",
     [
@@ -178,6 +198,10 @@ def test_a_run_without_an_author_is_a_player_of_its_own(runs: Path, levels: Path
     board(runs, levels, "--json", str(data := tmp_path / "board.json"))
     players = [row["player"] for row in json.loads(data.read_text("utf-8"))["runs"]]
     assert players == ["unknown (a.txt)", "unknown (b.txt)", "unknown (searched.txt)"]
+    words = ["board", str(runs), "--levels", str(levels), "--site", str(tmp_path / "site"), "--jobs", "1"]
+    said = "3 runs by unknown players; name their players with: ninja-game convert FILE OUT --to replay --author NAME"
+    assert said in CliRunner().invoke(cli, words).stderr
+    assert said in (tmp_path / "site" / "board" / "players.html").read_text("utf-8")
     assert board(runs, levels, "--check", str(data)).startswith("nothing has changed")
     assert "moderated: a.txt" in board(runs, levels, "--json", str(data), "--reject", "a.txt", "--reason", "whose?")
 

@@ -188,13 +188,12 @@ def names_of(runs: Sequence[Recording]) -> list[str]:
     return [name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 3]}..." for name in labels]
 
 
-def ghosts_of(runs: Sequence[Recording], among: Sequence[Recording] = (), *, alone: bool = True) -> list[Ghost]:
+def ghosts_of(runs: Sequence[Recording], numbers: Sequence[int] = (), *, alone: bool = True) -> list[Ghost]:
     """Ghosts of runs, each with its name and a colour of its own; ``alone``: as of Ghost.
 
-    ``among``: each gets the colour of its place among these (on a page of the board, in its picture).
+    ``numbers``: of their colours, such as those in a picture of the board; without them in their order.
     """
-    numbers = {id(run): number for number, run in enumerate(among or runs)}
-    colours = [RUN_COLOURS[numbers[id(run)] % len(RUN_COLOURS)] for run in runs]
+    colours = [RUN_COLOURS[number % len(RUN_COLOURS)] for number in numbers or range(len(runs))]
     return [
         Ghost(run.inputs, run.level, run.body, alone=alone, shade=colour, name=name)
         for run, colour, name in zip(runs, colours, names_of(runs), strict=True)

@@ -52,10 +52,13 @@ class ReplayScreen(Screen):
 
     foot_high = 26.0  # its bar
 
-    def __init__(self, app: App, runs: Sequence[Recording], *, editable: bool = True) -> None:
+    def __init__(
+        self, app: App, runs: Sequence[Recording], colours: Sequence[int] = (), *, editable: bool = True
+    ) -> None:
         super().__init__(app)
         self.tas_editor = app.tas_editor if editable else None
         self.runs = runs
+        self._colours = colours if len(colours) == len(runs) else range(len(runs))
         self.clock = RunClock()
         self.overlays = Overlays()
         self.bar = ReplayBar()
@@ -85,9 +88,10 @@ class ReplayScreen(Screen):
         self.playback.seek(0)
         self.view = LevelView(self.app, self.playback.simulation)
         self.view.overlays = self.overlays
-        others = [other for other in self.runs if other is not run and other.level == run.level]
-        self._beside = others[:MOST_GHOSTS]
-        self.view.ghosts = self.ghosts = ghosts_of(self._beside, self.runs, alone=False)
+        both = zip(self.runs, self._colours, strict=True)
+        others = [each for each in both if each[0] is not run and each[0].level == run.level][:MOST_GHOSTS]
+        self._beside = [other for other, _ in others]
+        self.view.ghosts = self.ghosts = ghosts_of(self._beside, [colour for _, colour in others], alone=False)
         self.paused = False
         self.still_ms = _STILL_MS
         self.export: FilmJob | None = None

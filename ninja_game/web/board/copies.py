@@ -244,14 +244,16 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
 def _remarked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Iterator[Run]:
     """The runs of a level, in order, each with a remark if it is near to earlier ones by others alone.
 
-    Of two of one moment nobody knows which was first: the second has the remark, and is no near copy. ``together``: the
-    remark for those that are the same run.
+    Of two of one moment nobody knows which was first: the second has the remark, and is no near copy. That is when the
+    board took them in: dates of an older board make no near copy. ``together``: what is said instead of those that are
+    the same run.
     """
     if len({run.player for run in runs}) == 1:
         yield from runs
         return
     compared = _Compared(runs[0].level, memo)
-    for _, moment in groupby(runs, key=lambda run: run.added):
+    runs = sorted(runs, key=lambda run: run.taken or run.added)
+    for _, moment in groupby(runs, key=lambda run: run.taken or run.added):
         compared.begin_moment()
         for run in moment:
             said, earlier, sure = compared.near(run)

@@ -54,14 +54,15 @@ def judge(
     shown: PublishedLevels,
     *,
     dates: Dates | None = None,
+    taken: Dates | None = None,
     jobs: int | None = None,
     memo: Memo | None = None,
     ledger: Ledger = NO_LEDGER,
 ) -> ValidatedRuns:
     """Simulate every run below a folder again, on the board's levels. Raises OSError.
 
-    ``dates``: those of the board's ``ledger``; without it runs are ordered by the names of their files. ``memo``:
-    earlier results for the same files, levels and rules, which are not simulated again.
+    ``dates``, ``taken``: of the board's ``ledger``, as ``added`` and ``taken`` of Run; without it runs go by the names
+    of their files. ``memo``: what was found out before, of the same files, levels and rules; it is not simulated again.
     """
     memo = memo or Memo()
     sent = RunFolder(folder, {digest: entry.named.level for digest, entry in shown.entries.items()})
@@ -75,14 +76,15 @@ def judge(
                 title = entry.title if entry else ""
                 rejected.append(Rejected(file.name, row.record, row.kind, row.why, row.author, title))
                 continue
-            added = dates((file.name, row.record), row.way) if dates else ""
-            runs.append(_run(file, row, entry, sent, added))
+            key = file.name, row.record
+            added, later = (of(key, row.way) if of else "" for of in (dates, taken))
+            runs.append(replace(_run(file, row, entry, sent, added), taken=later))
     known = {(run.level, run.way, run.added) for run in runs}
     for number, run in enumerate(runs):
         # A run that was withdrawn, or is in another file now, still belongs to its player.
         owner = owners.get(way := (run.level, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
-            runs[number] = replace(run, added=owner["added"], again=True)
+            runs[number] = replace(run, added=owner["added"], taken=owner.get("taken", ""), again=True)
     credited, moderated = list[Run](), list[Rejected]()
     for run in _of_players(sorted(runs, key=lambda run: run.order), players):
         decision = ledger.decisions.get((run.level, run.way, folded(run.player)))
@@ -203,9 +205,8 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
 
 
 def _run(file: JudgedFile, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
-    return Run(
-        **vars(row), file=file.name, player=row.author, entry=entry, added=added, digest=file.digest, folder=folder
-    )
+    values = vars(row) | {"file": file.name, "digest": file.digest, "player": row.author, "remark": row.why}
+    return Run(**values, entry=entry, added=added, folder=folder)
 
 
 def _with_row(run: Run, owner: Mapping[str, Any], own: Mapping[str, Any]) -> Run:
@@ -230,7 +231,10 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     if isinstance(result, Unreadable):
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # a board has no such option
         return Judged(sent.chunk.first, "unreadable", why)
-    problems = [_worded(problem, result, sent) for problem in result.problems]
+    # What a tool made needs no keyboard: it is marked.
+    marked = [each for each in result.problems if result.assisted and str(each).startswith("possible_by_keyboard")]
+    marks = [_worded(each, result, sent).partition(";")[0] for each in marked]
+    problems = [_worded(problem, result, sent) for problem in result.problems if problem not in marked]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
         other = run_problem("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
         problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
@@ -242,7 +246,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     pressed = [new & ~old & KEYS_DOWN for old, new in pairwise(b"\0" + inputs)]
     jumps = sum(bool(keys & JUMP_HELD) for keys in pressed)
     return Judged(
-        result.record, "", "", result.author, result.level_digest, result.end_tick, result.gold,
+        result.record, "", "".join(marks), result.author, result.level_digest, result.end_tick, result.gold,
         result.score_ticks or 0, result.xy_sha256, sum(map(int.bit_count, pressed)), jumps,
         result.made, result.assisted, result.co_authors, result.episode,
     )  # fmt: skip
@@ -279,7 +283,8 @@ def _of_players(runs: list[Run], players: Players) -> list[Run]:
     credited = []
     for run in runs:
         player, remark = players.meet(run.player)
-        same = player == run.player and not remark
+        remark = "; ".join(filter(None, (remark, run.remark)))
+        same = player == run.player and remark == run.remark
         credited.append(run if same else replace(run, player=player, remark=remark))
     return credited
 

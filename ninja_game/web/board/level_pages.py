@@ -11,7 +11,7 @@ from hashlib import sha256
 from itertools import pairwise
 from operator import itemgetter
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,6 +61,7 @@ from ninja_game.web.pages.memo import Memo, digest_of
 PER_PAGE = 100  # rows of a table on one page: a page has at most 100 KB
 
 LONGEST_NAME = 40  # characters of a name in a table
+LONGEST_AGAIN = 60  # characters of a remark that stands in a table above
 
 RUN_HEADS = ("Watch", "Made", "Gold", "Date", "Medal", "File")
 LESSER = {"No.", "Behind", "Better by", "Score", "With", "On", *RUN_HEADS[2:], *map(str.capitalize, MEDALS)}
@@ -92,6 +93,15 @@ BESIDE, BELOW = 72, 28  # room for the labels
 
 PLACE = "place-"  # the anchor of a numbered place in a picture
 MARK_APART = 14  # least px between two numbers
+
+
+class _Ranks(NamedTuple):
+    """A table of a level: its first ``rows`` without those far behind, these, and near copies that are better."""
+
+    leaderboard: Leaderboard
+    rows: list[Ranked]
+    far: list[Ranked]
+    waiting: list[Ranked]
 
 
 class LevelPages:
@@ -152,9 +162,11 @@ class LevelPages:
 
             self.pages.make(file, [title, caption, heads, part, lead, more, links], content)
 
-    def watch_link(self, runs: Sequence[Run], up: str, text: str = "Watch") -> Markup:
-        """A link to watch a run, the others as ghosts."""
-        address = watch_address(up + self.game, *(self.stems[run.key] for run in runs))
+    def watch_link(self, runs: Sequence[Run], up: str, text: str = "Watch", colours: Sequence[int] = ()) -> Markup:
+        """A link that watches a run, the others as ghosts; ``colours``: of all, by number, if not in their order."""
+        marks = [f"-{number}" for number in colours] or [""] * len(runs)
+        stems = (self.stems[run.key] + mark for run, mark in zip(runs, marks, strict=True))
+        address = watch_address(up + self.game, *stems)
         said = f"{text}: {runs[0].player} on {runs[0].entry.title}"
         return tag("a", text, href=address, aria_label=said, class_="watch" if text == "Watch" else None)
 
@@ -280,27 +292,22 @@ class LevelPages:
         fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > 1]
         first, *others = [self._progression(entry, each, RECORDS * (not at)) for at, each in enumerate(fell)] or [None]
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
-        same: dict[str, dict[Leaderboard, list[Ranked]]] = defaultdict(dict)
-        far: dict[Leaderboard, list[Ranked]] = {}
+        merged: dict[Any, list[_Ranks]] = defaultdict(list)
         for each, table_ in tables.items():
-            far[each] = [row for row in table_ if each[1].far(row.values[0], table_[0].values[0])]
-            rows = [row for row in table_ if row not in far[each]]
-            same[f"{each[0]} {[(row.place, row.run.key) for row in rows[:FIRST]]}"][each] = rows[:FIRST]
-        near = {row.run.key for rows in tables.values() for row in rows[:FIRST] if row.run.near}
-        remarks: set[str] = set()
-        shown, leaders = list[Content](), list[Markup]()
-        for number, leaderboards in enumerate(same.values(), 1):
-            waiting = [
-                row for board in leaderboards for row in self.ranking.waiting(entry.digest, board, tables[board])
-            ]
-            near |= {row.run.key for row in waiting}
-            shown.append(self._table(leaderboards, remarks, marks, anchor := f"ranks-{number}"))
-            shown.append(self._said_of("More than twice as slow", [row for each in leaderboards for row in far[each]]))
-            shown.append(self._said_of("Better, and waiting", waiting))
-            leaders += [self._leader(each, best, anchor) for each, (best, *_) in leaderboards.items()]
+            far = [row for row in table_ if each[1].far(row.values[0], table_[0].values[0])]
+            rows = [row for row in table_ if row not in far][:FIRST]
+            ranks = _Ranks(each, rows, far, self.ranking.waiting(entry.digest, each, table_))
+            merged[each[0], *((row.place, row.run.key) for row in rows)].append(ranks)
+        remarks, shown, leaders = set[str](), list[Content](), dict[Leaderboard, Markup]()
+        for number, same in enumerate(merged.values(), 1):
+            shown.append(self._table(same, remarks, marks, anchor := f"ranks-{number}"))
+            shown.append(self._said_of("More than twice as slow", [row for each in same for row in each.far]))
+            shown.append(self._said_of("Better, and waiting", [row for each in same for row in each.waiting]))
+            leaders |= {each.leaderboard: self._leader(each, anchor) for each in same}
+        near = any(row.run.near for same in merged.values() for each in same for row in (*each.rows, *each.waiting))
         leads = [(each, each.capitalize()) for each, content in ((RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
-        top = tag("ul", *leaders, class_="cards"), on_this_page(leads) if leads else None
+        top = tag("ul", *(leaders[each] for each in tables), class_="cards"), on_this_page(leads) if leads else None
         return joined(*top), drawn, joined(*shown, note, link, first, folded, beside)
 
     def _said_of(self, what: str, rows: Sequence[Ranked]) -> Content:
@@ -311,8 +318,9 @@ class LevelPages:
         ]
         return tag("p", f"{what}: {', '.join(said)}.") if said else None
 
-    def _leader(self, leaderboard: Leaderboard, best: Ranked, anchor: str) -> Markup:
-        """The leader of a table, with a link; none if all runs wait for confirmation."""
+    def _leader(self, ranks: _Ranks, anchor: str) -> Markup:
+        """Who leads a table, and a link to it; none leads where all wait for confirmation."""
+        leaderboard, best = ranks.leaderboard, ranks.rows[0]
         link = tag("a", self.leaderboard_name(leaderboard), href=f"#{anchor}")
         if best.place != 1:
             return tag("li", link, class_="card leader")
@@ -320,32 +328,28 @@ class LevelPages:
         about = tag("p", self.player_link(run.player, UP), run.day, self.watch_link([run], UP), class_="facts")
         return tag("li", link, result, about, class_="card leader")
 
-    def _table(
-        self,
-        leaderboards: Mapping[Leaderboard, Sequence[Ranked]],
-        above: set[str],
-        marks: Mapping[Key, Content],
-        anchor: str,
-    ) -> Markup:
-        """A table of categories with the same order of runs.
+    def _table(self, same: Sequence[_Ranks], above: set[str], marks: Mapping[Key, Content], anchor: str) -> Markup:
+        """A table of categories with the same runs in order.
 
-        ``above``: remarks in tables above; ``marks``: colours of the runs in the picture.
+        ``above``: remarks of tables above, which are cut here; ``marks``: colours of the runs in the picture.
         """
-        rows, categories = [], [category for _, category in leaderboards]
-        timed = any(category.unit == FASTEST.unit for category in categories)
-        for same in zip(*leaderboards.values(), strict=True):
-            place, run = same[0].place, same[0].run
-            shown = replace(run, remark="as above") if run.remark in above else run
-            results = [category.text(row.values[0]) for category, row in zip(categories, same, strict=True)]
-            late = self.behind(categories[0], same[0], next(iter(leaderboards.values()))[0])
+        rows, categories = [], [each.leaderboard[1] for each in same]
+        several = len(same) > 1
+        heads = [each.name if several and each.unit == "Value" else each.unit for each in categories]
+        names = [*dict.fromkeys(heads)]  # a time is the same in all categories
+        for ranked in zip(*(each.rows for each in same), strict=True):
+            place, run = ranked[0].place, ranked[0].run
+            shown = replace(run, remark=shown_text(run.remark, LONGEST_AGAIN)) if run.remark in above else run
+            results = [categories[at].text(ranked[at].values[0]) for at in map(heads.index, names)]
+            late = self.behind(categories[0], ranked[0], same[0].rows[0])
             unsaid = NOT_SAID * (0 < place <= PODIUM and not run.made)
-            cells = self.run_cells(shown, *results, late, timed=timed, remark=unsaid, mark=marks.get(run.key))
+            timed, mark = FASTEST.unit in heads, marks.get(run.key)
+            cells = self.run_cells(shown, *results, late, timed=timed, remark=unsaid, mark=mark)
             rows.append((place_mark(place), *cells))
             above |= {run.remark} - {""}
-        names = [category.name if len(leaderboards) > 1 else category.unit for category in categories]
-        heads = ("Place", "Player", *names, "Behind", *RUN_HEADS)
-        ranked = table("Best run of each player", heads, rows, LESSER.union(names[1:]) - {names[0]})
-        return section("; ".join(map(self.leaderboard_name, leaderboards)), ranked, anchor=anchor)
+        lesser = LESSER.union(names[1:]) - {names[0]}
+        best = table("Best run of each player", ("Place", "Player", *names, "Behind", *RUN_HEADS), rows, lesser)
+        return section("; ".join(self.leaderboard_name(each.leaderboard) for each in same), best, anchor=anchor)
 
     def _progression(self, entry: Entry, leaderboard: Leaderboard, anchor: str) -> Content:
         category, runs = leaderboard[1], self.ranking.history[entry.digest, leaderboard]
@@ -378,55 +382,61 @@ class LevelPages:
         if len(runs) == 1:
             return paths(UP + picture_name(runs[0].level), [(names[0], runs[0].path)]), None
         ghosts = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
-        rows, kept = _split_rows(ghosts), runs[0].folder.drawn
-        known = [kept.get(run.key) or path_data(ghost.positions) for run, ghost in zip(runs, ghosts, strict=True)]
-        places = [(row.split.x, row.split.y) for row in rows]
-        drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)), places)
+        by_time = sorted(zip(names, ghosts, strict=True), key=lambda each: each[1].ticks)
+        rows, kept = _split_rows([ghost for _, ghost in by_time]), runs[0].folder.drawn
+        ways = [
+            (name, kept.get(run.key) or path_data(ghost.positions))
+            for run, name, ghost in zip(runs, names, ghosts, strict=True)
+        ]
+        drawn = paths(UP + picture_name(runs[0].level), ways, [(row.split.x, row.split.y) for row in rows])
         said = f"Watch the first {len(runs)} together"
         together = tag("p", f"{category.name}: ", self.watch_link(runs, UP, said))
+        every = range(len(runs))
         pairs = [
-            (tag("div", swatch(number), " ", names[number], class_="text"), *(self._pair(run, other) for other in runs))
-            for number, run in enumerate(runs)
+            (tag("div", swatch(at), " ", names[at], class_="text"), *(self._pair(runs, at, other) for other in every))
+            for at in every
         ]
         races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
         lines = [
             (tag("a", number, href=f"#{PLACE}{number}"), row.split.kind, *_cells(row))
             for number, row in enumerate(rows, 1)
         ]
-        note = "Seconds; later than the first: +; numbers are those in the picture"
-        splits = table(note, ("No.", "Split", names[0], "Fastest segment", *names[1:]), lines)
+        fastest, *others = [name for name, _ in by_time]
+        note = f"Seconds; later than {fastest}: +; numbers are those in the picture"
+        splits = table(note, ("No.", "Split", fastest, "Fastest segment", *others), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
-        drawn = joined(drawn, together)
-        where = _where_time_goes(names, ghosts) if len(rows) < ENOUGH_SPLITS else None
-        return drawn, joined(
+        where = _where_time_goes(by_time) if len(rows) < ENOUGH_SPLITS else None
+        return joined(drawn, together), joined(
             section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS),
             section("Where time goes", *where) if where else None,
         )  # fmt: skip
 
-    def _pair(self, run: Run, other: Run) -> Content:
-        return "" if run is other else self.watch_link([run, other], UP, signed(run.tick - other.tick))
+    def _pair(self, runs: Sequence[Run], at: int, other: int) -> Content:
+        """A race of two of the runs, in their colours."""
+        both = [runs[at], runs[other]]
+        return self.watch_link(both, UP, signed(both[0].tick - both[1].tick), (at, other)) if at != other else ""
 
 
-def _where_time_goes(names: Sequence[str], runs: Sequence[RunSplits]) -> list[Markup]:
-    """Where each run loses most to the first, and a table of its delay at each of the first run's seconds."""
-    first, *others = runs
-    if max(run.ticks for run in runs) > LONGEST_ALIGNED:
+def _where_time_goes(runs: Sequence[tuple[str, RunSplits]]) -> list[Markup]:
+    """Where each named run loses most on the first, the fastest, and how much later it is at each of its seconds."""
+    (fastest, first), *others = runs
+    if max(run.ticks for _, run in runs) > LONGEST_ALIGNED:
         return []
     ticks = range(step := TICKS_PER_SECOND * (1 + first.ticks // MOST_SECONDS), first.ticks, step)
-    late = [_leads(first.positions, other.positions, ticks) for other in others]
+    late = [_leads(first.positions, other.positions, ticks) for _, other in others]
     sentences = []
-    for name, leads in zip(names[1:], late, strict=True):
+    for (name, _), leads in zip(others, late, strict=True):
         near = [(0, 0), *((tick, lead) for tick, lead in zip(ticks, leads, strict=True) if lead is not None)]
         lost, start, end = max(((b[1] - a[1], a[0], b[0]) for a, b in pairwise(near)), default=(0, 0, 0))
-        span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of the first"
+        span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of {fastest}"
         sentences += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
     rows = [
         (f"{tick // TICKS_PER_SECOND} s", *("" if ahead is None else signed(ahead) for ahead in leads))
         for tick, *leads in zip(ticks, *late, strict=True)
     ]
-    caption = f"Seconds by which each is later where {names[0]} is then; empty: it goes another way"
+    caption = f"Seconds by which each is later where {fastest} is then; empty: it goes another way"
     rows = [row for row in rows if any(row[1:])]
-    return [*sentences, table(caption, (names[0], *names[1:]), rows)] if rows else sentences
+    return [*sentences, table(caption, [name for name, _ in runs], rows)] if rows else sentences
 
 
 def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
@@ -441,13 +451,12 @@ def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequen
 
 
 def _split_rows(runs: Sequence[RunSplits]) -> list[SplitRow]:
-    """Rows of splits of the fastest run; gold that only others take is left out, and all gold beyond MOST_SPLITS."""
-    best = min(range(len(runs)), key=lambda number: runs[number].ticks)
-    gold, rows = SPLIT_EVENTS[0], split_table(runs, runs[best])
+    """Rows of splits of the first, the fastest; gold that only others take is left out, all of it where too much."""
+    gold, rows = SPLIT_EVENTS[0], split_table(runs, runs[0])
     if len(rows) > MOST_SPLITS:
         runs = [replace(run, splits=tuple(split for split in run.splits if split.event != gold)) for run in runs]
-        rows = split_table(runs, runs[best])
-    return [row for row in rows if row.ticks[best] is not None or row.split.event != gold][:MOST_SPLITS]
+        rows = split_table(runs, runs[0])
+    return [row for row in rows if row.ticks[0] is not None or row.split.event != gold][:MOST_SPLITS]
 
 
 def _cells(row: SplitRow) -> Iterator[str]:

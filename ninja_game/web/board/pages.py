@@ -31,9 +31,9 @@ from ninja_game.web.board.level_pages import (
     player_page,
 )
 from ninja_game.web.board.ranking import Ranked, Record, Standing
-from ninja_game.web.board.report import summary
+from ninja_game.web.board.report import summary, unnamed
 from ninja_game.web.board.rules import HIGHEST
-from ninja_game.web.board.runs import KINDS, PLAYED, Key, Run
+from ninja_game.web.board.runs import KINDS, Key, Run
 from ninja_game.web.pages.frame import (
     REPLAYS,
     Content,
@@ -193,20 +193,29 @@ class BoardPages(LevelPages):
         return [("week", "Level of the week", about)]
 
     def _contested(self) -> list[Piece]:
+        """The most contested levels; where there are none, those of the newest runs."""
         found: list[Markup] = []
-        for digest in self.ranking.contested[:CONTESTED]:
-            if ranked := self._placed(digest, PLAYED):
-                beaten = self.ranking.beaten[digest]
-                counts = counted(beaten, "record") + " beaten" if beaten else "", self._counts(digest)
-                places = zip(("second", "fifth"), ranked[1:5:3], strict=False)
-                of = f"{PLAYED}: " * (len(self.ranking.ladders) > 1)
-                spread = ", ".join(f"{place} {self.main.difference(each.behind)} behind" for place, each in places)
-                about = joined(*(tag("span", each) for each in counts if each))
-                found.append(card(self.entries[digest], about, *self._best(digest), spread and of + spread))
-        often = "By how often records were beaten, of all categories and ladders; results are those in"
-        order = often if self.ranking.beaten else "By how close the second is, in"
+        order = "By how often records were beaten, of all categories and ladders; results are those in"
+        title, chosen = "Most contested levels", self.ranking.contested
+        if not chosen:
+            title, order = "Levels of the newest runs", "Newest first; results are those in"
+            chosen = [*dict.fromkeys(run.level for run in reversed(self.ranking.judged.runs))]
+        elif not self.ranking.beaten:
+            order = "By how close the second is, in"
+        for digest in chosen[:CONTESTED]:
+            beaten = self.ranking.beaten[digest]
+            counts = counted(beaten, "record") + " beaten" if beaten else "", self._counts(digest)
+            about = joined(*(tag("span", each) for each in counts if each))
+            spreads = (self._spread(digest, ladder) for ladder in self.ranking.ladders)
+            found.append(card(self.entries[digest], about, *self._best(digest), *spreads))
         caption = f"{order} {self.main.name}{self._of_both()}"
-        return [("contested", "Most contested levels", cards(caption, found))] if found else []
+        return [("contested", title, cards(caption, found))] if found else []
+
+    def _spread(self, digest: str, ladder: str) -> str:
+        """How far the second and the fifth run of a ladder are behind in the first category."""
+        places = zip(("second", "fifth"), self._placed(digest, ladder)[1:5:3], strict=False)
+        spread = ", ".join(f"{place} {self.main.difference(each.behind)} behind" for place, each in places)
+        return f"{ladder}: " * (len(self.ranking.ladders) > 1) + spread if spread else ""
 
     def _of_both(self) -> str:
         """A caption's addition if there are two ladders."""
@@ -264,11 +273,12 @@ class BoardPages(LevelPages):
         sums: dict[str, list[Content]] = defaultdict(list)
         pages = dict(zip(self.ranking.ladders, ("players", "assisted"), strict=False))
         for ladder, standings in self.ranking.standings.items():
-            links = [
+            leads: list[Content] = [
                 tag("a", self._players_of(other), href=f"{pages[other]}.html") for other in pages if other != ladder
             ]
+            leads += filter(None, [unnamed(self.ranking.judged)])
             title, rows = self._players_of(ladder), [*map(self._standing, standings)]
-            self.write_table(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", link) for link in links))
+            self.write_table(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", lead) for lead in leads))
             for each in standings:
                 sums[each.player].append(_sums(ladder, self.main.name, each))
         runs: dict[str, list[Run]] = defaultdict(list)

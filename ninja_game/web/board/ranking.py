@@ -252,9 +252,9 @@ class Ranking:
         return sorted(close_levels, key=lambda level: (-self.beaten[level], close[level], -players[level]))
 
     def _close(self, level: str) -> float:
-        """The distance of the second played run in the first category."""
-        placed = [row for row in self.tables[level].get((PLAYED, self.categories[0]), ()) if row.place]
-        return placed[1].behind if len(placed) > 1 else inf
+        """The distance of the second run in the first category, on the ladder where it is closest."""
+        tables = (self.tables[level].get((ladder, self.categories[0]), ()) for ladder in self.ladders)
+        return min((row.behind for table in tables for row in table[1:2] if row.place), default=inf)
 
     @cached_property
     def level_of_the_week(self) -> tuple[str, int, int] | None:

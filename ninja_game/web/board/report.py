@@ -45,7 +45,7 @@ _FIELDS: dict[str, dict[str, type]] = {
     "decisions": {"level": str, "way": str, "file": str, "player": str, "what": str, "reason": str, "added": str},
 }  # fmt: skip
 
-_KEPT = {"near": str, "confirmed": bool}  # optional fields of a row, kept after the run is withdrawn
+_KEPT = {"near": str, "confirmed": bool, "taken": str}  # what a row may have, and keeps after the run is withdrawn
 
 
 def _run_data(run: Run) -> dict[str, Any]:
@@ -110,9 +110,10 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
         for name, kind in (_FIELDS[part] | {key: kind for key, kind in _KEPT.items() if key in row}).items():
             if type(row[name]) is not kind:
                 raise FormatError(f"{place}: {name!r} is of the wrong type", str(path), expected=kind.__name__)
-        if row["added"] and not _is_date(row["added"], now):
-            expected = "a date in the past as in 2026-01-31T12:00:00Z"
-            raise FormatError(f"{place}: not a date", str(path), found=repr(row["added"][:40]), expected=expected)
+        for date in filter(None, (row["added"], row.get("taken"))):
+            if not _is_date(date, now):
+                expected = "a date in the past as in 2026-01-31T12:00:00Z"
+                raise FormatError(f"{place}: not a date", str(path), found=repr(date[:40]), expected=expected)
         if row.get("what", REJECTED) not in DECISIONS:
             expected = ", ".join(DECISIONS)
             raise FormatError(f"{place}: 'what' is no decision", str(path), found=plain(row["what"]), expected=expected)
@@ -200,22 +201,28 @@ def read_dates(path: Path, now: datetime) -> dict[str, str]:
     return dates
 
 
-def dates_of(before: Ledger, now: datetime, dates_by_file: Mapping[str, str]) -> Dates:
-    """The dates of a ledger. A run that is new to it, or has another path, is added now.
+def dates_of(before: Ledger, now: datetime, dates_by_file: Mapping[str, str]) -> tuple[Dates, Dates]:
+    """``added`` and ``taken`` of runs. One that the ledger does not have, or not with this path, is added now.
 
-    ``dates_by_file``: dates that replace the ledger's.
+    ``dates_by_file``: take the place of the ledger's, where they are noted, with when the board took in these runs.
     """
     for row in before.runs.values():
-        row["added"] = dates_by_file.get(row["file"], row["added"])
+        if date := dates_by_file.get(row["file"]):
+            row |= {"taken": row.get("taken", row["added"]), "added": date}
     rows, today = before.rejected | before.runs, now.strftime(DATE)
 
-    def date(key: Key, way: str) -> str:
-        if key[0] in dates_by_file:
-            return dates_by_file[key[0]]
-        row = rows.get(key)
-        return str(row["added"]) if row and row["way"] == way else today
+    def known(key: Key, way: str) -> Mapping[str, Any]:
+        row = rows.get(key, {})
+        return row if row.get("way") == way else {"added": today}
 
-    return date
+    def added(key: Key, way: str) -> str:
+        return dates_by_file.get(key[0]) or str(known(key, way)["added"])
+
+    def taken(key: Key, way: str) -> str:
+        row = known(key, way)
+        return str(row.get("taken", row["added"] if key[0] in dates_by_file else ""))
+
+    return added, taken
 
 
 def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
@@ -273,6 +280,13 @@ def _place(key: Key) -> str:
 def plain(text: str) -> str:
     """An untrusted text in a line of a report, safe in Markdown between fences."""
     return shown_text(text, 300).replace("`", "'")
+
+
+def unnamed(judged: ValidatedRuns) -> str:
+    """How to name the players of runs that do not say who played, such as demos of N; "" where all say it."""
+    nameless = sum(run.player.startswith("unknown (") for run in judged.runs)
+    how = "name their players with: ninja-game convert FILE OUT --to replay --author NAME"
+    return f"{counted(nameless, 'run')} by unknown players; {how}" if nameless else ""
 
 
 def summary(judged: ValidatedRuns) -> str:

@@ -45,8 +45,8 @@ OWN = "own"  # a level of an episode that its player has sent before
 class Judged:
     """The result of a recording, as plain values that can be cached.
 
-    ``kind``: "" for a run that counts, else as in Rejected, with ``why``; ``level``: its digest; ``way``: digest of the
-    ninja's positions; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
+    ``kind``: "" for a run that counts, else as in Rejected; ``why``: that, or a remark; ``level``: its digest;
+    ``way``: digest of the ninja's positions; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
     """
 
     record: int
@@ -93,7 +93,8 @@ class Run(Judged):
 
     ``file``: path in the folder, ``record`` in it; ``added``: as of Dates; ``remark``: for readers; ``near``: the run
     that it nearly copies, a sentence; until it is ``confirmed`` it leads no table; ``again``: it was withdrawn, and is
-    the first of its moment; ``digest``: of its file.
+    the first of its moment; ``taken``: where ``added`` is that of an older board, when this one took
+    it in; ``digest``: of its file.
     """
 
     file: str
@@ -106,6 +107,7 @@ class Run(Judged):
     near: str = ""
     confirmed: bool = False
     again: bool = False
+    taken: str = ""
 
     @cached_property
     def key(self) -> Key:
