@@ -154,7 +154,7 @@ def _unpacked(packed: str, most: int) -> str:
 
 
 def write_watch(files: Sequence[str]) -> str:
-    """The fragment for a page beside the folder ``replays``: watch these files of it, by their names' stems.
+    """The fragment that lets a page beside the folder ``replays`` watch these files of it, by their names' stems.
 
     >>> write_watch(["0123456789abcdef"]) '#watch=0123456789abcdef'
     """

@@ -136,7 +136,7 @@ def _replays(path: str, level: Level | None) -> Callable[[App], Screen]:
     return _watch(load_replays(path, level=level), over_menu=is_link(path))
 
 
-def watch_screen(texts: Sequence[str], colours: Sequence[int]) -> Callable[[App], Screen]:
+def watch_screen(texts: Sequence[str], colours: Sequence[int] = ()) -> Callable[[App], Screen]:
     """A function that makes the viewer, over the main menu: the first replay is watched, others run as ghosts.
 
     ``colours``: as of ReplayScreen. Raises NinjaGameError for a replay that cannot be read.

@@ -180,7 +180,7 @@ def run_page(
     entry: Entry, stem: str, title: str, facts: Links, folder: str, game: str, links: Links, site: str,
     drawn: Content = None, more: Content = None,
 ) -> str:  # fmt: skip
-    """The small page of a run, beside it in ``replays``: the preview of its link in a chat, and links to it.
+    """The small page of a run, beside it in ``replays``, for the preview of its link in a chat, with links to it.
 
     ``folder``: of the pages with the level's; ``game``, ``links``: relative to their first one; ``site``: as above;
     ``drawn``: its path over the level; ``more``: the part below the facts.
