@@ -26,6 +26,7 @@ from ninja_game.search.spans import RunShortener
 from ninja_game.search.task import (
     FOUND_BOUND,
     GIVEN_BOUND,
+    GIVEN_ROUTE_TURNS,
     GOLD_BEAM_TICKS,
     OTHER_ROUTE_TICKS,
     OTHER_ROUTE_TURNS,
@@ -61,11 +62,12 @@ class _Job:
         state, plan = self.state, self.plan
         if not state.runs:
             self._find()
+        route_turns = GIVEN_ROUTE_TURNS if state.task.first else OTHER_ROUTE_TURNS
         while not self._over and state.runs:
             self._turn += 1
             if state.task.gold_wanted:
                 self._shorten_with_gold()
-            elif self._early or (self.work > 0 and self._turn % OTHER_ROUTE_TURNS == 2):
+            elif self._early or (self.work > 0 and self._turn % route_turns == 2):
                 self._search_other_route()
             else:
                 # The best run most of the time; now and then another one that may have more in it.

@@ -558,7 +558,7 @@ class SearchTab(Tab):
         self.pieces = ()
         if known is not None and known[0] is track:
             pieces = pieces_of(SearchedSpan(session, *self._in_pieces), known[1])
-            if task.rest and task.goal:
+            if task.rest and task.goal and self._in_pieces[1] <= len(track):
                 pieces.insert(0, RunPiece(*self._in_pieces, WITHOUT_REST, SpanGoal(task.goal)))
             self._cut, self.pieces = track, tuple(pieces)
         elif self._asked is not track:
