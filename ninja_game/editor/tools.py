@@ -414,7 +414,7 @@ class EditorTools:
         self.selection = stamps.Selection(parts=frozenset(kept))
         return done
 
-    # # --- the selection ---
+    # --- the selection ---
 
     def nudge(self, dx: float, dy: float) -> None:
         """Move the selection by steps of the snap, or of cells."""

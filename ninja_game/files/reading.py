@@ -194,7 +194,8 @@ def decoded(data: bytes, file: str) -> str:
 def file_type(mode: int) -> str:
     """The type of a file by its mode, for error messages.
 
-    >>> file_type(stat.S_IFIFO) 'a pipe'
+    >>> file_type(stat.S_IFIFO)
+    'a pipe'
     """
     kinds = {
         stat.S_IFDIR: "a folder", stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket", stat.S_IFLNK: "a link",

@@ -156,7 +156,8 @@ def _unpacked(packed: str, most: int) -> str:
 def write_watch(files: Sequence[str]) -> str:
     """The fragment that lets a page beside the folder ``replays`` watch these files of it, by their names' stems.
 
-    >>> write_watch(["0123456789abcdef"]) '#watch=0123456789abcdef'
+    >>> write_watch(["0123456789abcdef"])
+    '#watch=0123456789abcdef'
     """
     return f"#watch={','.join(files[:MOST_TEXTS])}"
 

@@ -66,7 +66,8 @@ def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
 
     Both, since a newcomer who reads only of the exit looks for its switch.
 
-    >>> arrow_targets(["Go", "Now the {exit} is open"]), arrow_targets(["Go"]) (('switch', 'exit'), ())
+    >>> arrow_targets(["Go", "Now the {exit} is open"]), arrow_targets(["Go"])
+    (('switch', 'exit'), ())
     """
     return TARGETS if any(name in TARGETS for text in texts for name in _KEY.findall(text)) else ()
 
@@ -103,6 +104,7 @@ def _read(part: str) -> LevelMessage:
 def named_keys(text: str, name: Callable[[str], str]) -> str:
     """A text with the player's names of its keys, and with its things. ``name``: gives the key of an action.
 
-    >>> named_keys("{jump} jumps", {"jump": "Z"}.__getitem__) 'Z jumps'
+    >>> named_keys("{jump} jumps", {"jump": "Z"}.__getitem__)
+    'Z jumps'
     """
     return _KEY.sub(lambda match: match[1] if match[1] in TARGETS else name(match[1]), text)

@@ -148,8 +148,8 @@ def _ends_column(episode: int) -> bool:
 def _advanced(present: Place, episode: int, goal: Place) -> Place:
     """The farther of two places. Within an episode only from that episode: later levels of earlier ones change nothing.
 
-    >>> _advanced((0, 2), 0, (0, 3)), _advanced((3, 0), 0, (0, 3)), _advanced((0, 1), 0, (1, 0)) ((0, 3), (3, 0), (1,
-    0))
+    >>> _advanced((0, 2), 0, (0, 3)), _advanced((3, 0), 0, (0, 3)), _advanced((0, 1), 0, (1, 0))
+    ((0, 3), (3, 0), (1, 0))
     """
     if goal[0] == episode and present[0] != episode:
         return present

@@ -61,8 +61,8 @@ class EpisodeBest(NamedTuple):
 def has_words(words: Iterable[str], *texts: str) -> bool:
     """Whether each word (casefolded) is in one of the texts.
 
-    >>> has_words(["first", "ann"], "First Steps", "Anna"), has_words(["first", "bob"], "First Steps", "Anna") (True,
-    False)
+    >>> has_words(["first", "ann"], "First Steps", "Anna"), has_words(["first", "bob"], "First Steps", "Anna")
+    (True, False)
     """
     text = " ".join(texts).casefold()
     return all(word in text for word in words)

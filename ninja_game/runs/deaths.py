@@ -55,8 +55,8 @@ def death_text(events: Sequence[Any], ninja: Any, objects: Sequence[Any]) -> str
 def ending_text(outcome: str, tick: int, death: str = "") -> str:
     """The end of a run, in words. ``tick``: its last one.
 
-    >>> ending_text("dead", 96, "mine 12"), ending_text("exit", 219), ending_text("running", 59) ('dead in tick 96: mine
-    12', 'exit in tick 219', 'still running after 60 ticks')
+    >>> ending_text("dead", 96, "mine 12"), ending_text("exit", 219), ending_text("running", 59)
+    ('dead in tick 96: mine 12', 'exit in tick 219', 'still running after 60 ticks')
     """
     if outcome == "running":
         return f"still running after {tick + 1} ticks"

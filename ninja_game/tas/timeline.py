@@ -189,7 +189,7 @@ class Timeline:
             self._columns[name] = np.concatenate([column, np.zeros(more, column.dtype)])
         self._objects = np.concatenate([self._objects, np.zeros((more, len(self.watched)), _WATCHED_RECORD)])
 
-    # # --- reading ---
+    # --- reading ---
 
     def column(self, name: str) -> NDArray[Any]:
         """A field of TRACED_FLOATS (px, px/tick) or TRACED_INTS after each simulated tick: (simulated_until,)."""

@@ -196,7 +196,8 @@ class TasLayout(NamedTuple):
 def tas_canvas(window: tuple[int, int], text_scale: int = 0) -> Canvas:
     """A canvas that fills the window. A logical px, and so the text, grows as the square root of the window's size.
 
-    >>> [round(tas_canvas(size).scale, 2) for size in ((792, 600), (1920, 1080), (2560, 1440))] [1.0, 1.34, 1.55]
+    >>> [round(tas_canvas(size).scale, 2) for size in ((792, 600), (1920, 1080), (2560, 1440))]
+    [1.0, 1.34, 1.55]
     """
     width, height = max(1, window[0]), max(1, window[1])
     largest = min(width / WIDTH, height / HEIGHT)

@@ -133,7 +133,8 @@ draw_limb = getattr(pygame.draw, "limb", _drawn_limb)
 class Lens(Canvas):
     """A part of the stage, at any scale. ``origin``: px of the stage's upper left corner, which may be outside.
 
-    >>> Lens((100, 50), 4, (-400, -40)).logical((0, 0)) (100.0, 10.0)
+    >>> Lens((100, 50), 4, (-400, -40)).logical((0, 0))
+    (100.0, 10.0)
     """
 
     def __init__(self, window: tuple[int, int], scale: float, origin: tuple[int, int]) -> None:

@@ -21,7 +21,8 @@ T = TypeVar("T")
 def following(options: Sequence[T], present: T, by: int = 1) -> T:
     """The next option, after the last one the first.
 
-    >>> following("abc", "c"), following("abc", "a", -1) ('a', 'c')
+    >>> following("abc", "c"), following("abc", "a", -1)
+    ('a', 'c')
     """
     return options[(options.index(present) + by) % len(options)]
 

@@ -119,7 +119,7 @@ class LevelView:
         self._look: tuple[object, ...] = ()
         self._layout()
 
-    # # --- ticks ---
+    # --- ticks ---
 
     def on_tick(self) -> None:
         """Update after a tick: its events become particles, animations, a corpse, sound."""

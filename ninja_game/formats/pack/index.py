@@ -73,8 +73,8 @@ class PackIndex:
     def title(self) -> str:
         """Its name with author and version, which distinguish packs of one name.
 
-        >>> PackIndex("Walls", "Ann", "", (), (), "2").title, PackIndex("Walls", "", "", (), ()).title ('Walls by Ann,
-        2', 'Walls')
+        >>> PackIndex("Walls", "Ann", "", (), (), "2").title, PackIndex("Walls", "", "", (), ()).title
+        ('Walls by Ann, 2', 'Walls')
         """
         by = f" by {self.author}" if self.author else ""
         return f"{self.name}{by}{', ' if self.version else ''}{self.version}"

@@ -227,7 +227,9 @@ LONGEST_MS = 2000
 class RunClock:
     """Counts real time and gives the number of due ticks; the remainder is kept.
 
-    >>> clock = RunClock() >>> [clock.ticks_due(ms) for ms in (24, 1, 60, 5000)] [0, 1, 2, 1]
+    >>> clock = RunClock()
+    >>> [clock.ticks_due(ms) for ms in (24, 1, 60, 5000)]
+    [0, 1, 2, 1]
     """
 
     def __init__(self) -> None:

@@ -367,7 +367,7 @@ class SearchTab(Tab):
     def commands(self) -> Commands:
         return {"search": self.ask}
 
-    # # --- the task ---
+    # --- the task ---
 
     def ask(self) -> None:
         """Show this tab for the selected ticks, with the focus on the goal; without new ones it stays as it is."""

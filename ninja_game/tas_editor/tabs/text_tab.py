@@ -57,7 +57,8 @@ def section_at(track: InputTrack, tick: int) -> Span:
 def text_of(track: InputTrack, first: int, last: int, *, celeste: bool) -> str:
     """The line of the ticks ``first`` … ``last`` - 1; a jump that no keyboard makes is in our notation in both.
 
-    >>> text_of(InputTrack(bytes([2, 2, 14, 6])), 2, 4, celeste=True) '2,R,J'
+    >>> text_of(InputTrack(bytes([2, 2, 14, 6])), 2, 4, celeste=True)
+    '2,R,J'
     """
     name = next((marker_word(name) for tick, name in track.markers if tick == first), "")
     if first == last:

@@ -215,8 +215,8 @@ MENU_PAD: dict[str, str] = {
 def bindable(action: str, name: str, in_menus: Mapping[str, str]) -> bool:
     """Whether an action may have an input: keys of menus must not hide the game.
 
-    >>> [bindable("boss", name, MENU_KEYS) for name in ("return", "b")], bindable("boss", "b", MENU_PAD) ([False, True],
-    False)
+    >>> [bindable("boss", name, MENU_KEYS) for name in ("return", "b")], bindable("boss", "b", MENU_PAD)
+    ([False, True], False)
     """
     return ACTIONS[action].where != "everywhere" or name not in in_menus
 

@@ -81,7 +81,8 @@ def learn_label(event: pygame.Event) -> None:
 def key_label(name: str) -> str:
     """The label of a key, for the player.
 
-    >>> key_label("lshift"), key_label("kp_plus"), key_label("f5") ('Shift', 'Keypad plus', 'F5')
+    >>> key_label("lshift"), key_label("kp_plus"), key_label("f5")
+    ('Shift', 'Keypad plus', 'F5')
     """
     scancode = scancode_named(name)
     if scancode in _learnt:

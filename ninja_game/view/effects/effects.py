@@ -100,7 +100,7 @@ class Effects:
                 life=self.rng.uniform(22, 36),
             )
 
-    # # --- while a state lasts ---
+    # --- while a state lasts ---
 
     def _wall_and_floor(self, world: World) -> None:
         n = world.ninja

@@ -187,7 +187,8 @@ def edit_distance(ours: bytes, theirs: bytes) -> int:
 
     A column of differences is the bits of two numbers (Myers 1999, Hyyrö 2003).
 
-    >>> edit_distance(b"kitten", b"sitting"), edit_distance(b"", b"ab") (3, 2)
+    >>> edit_distance(b"kitten", b"sitting"), edit_distance(b"", b"ab")
+    (3, 2)
     """
     if not ours:
         return len(theirs)

@@ -292,7 +292,8 @@ def _of_players(runs: list[Run], players: Players) -> list[Run]:
 def _without_name(message: str, name: str) -> str:
     """An error's message without the name of its file, which is shown beside it.
 
-    >>> _without_name("a.txt:3:1: not a header", "a.txt") 'line 3:1: not a header'
+    >>> _without_name("a.txt:3:1: not a header", "a.txt")
+    'line 3:1: not a header'
     """
     for prefix in (f"{name}:", f"{name!a}:"):
         message = message.removeprefix(prefix)

@@ -339,7 +339,7 @@ class BoardPages(LevelPages):
                 places.append(f"{self.leaderboard_name(part)}: {place}" + f", {late}" * bool(late))
         return places
 
-    # # --- levels, episodes, and runs that do not count ---
+    # --- levels, episodes, and runs that do not count ---
 
     def _levels(self) -> None:
         rows = [(card(entry, self._counts(digest), *self._best(digest)),) for digest, entry in self.entries.items()]

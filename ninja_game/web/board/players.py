@@ -31,7 +31,8 @@ _DRAWN_AS_LATIN = frozenset({"LISU", "CHEROKEE", "COPTIC", "OSMANYA", "DESERET"}
 def player_named(author: str) -> str:
     """An author's name in one line, as typed, truncated to the longest name: some characters expand to many.
 
-    >>> player_named(" Ann "), player_named("") ('Ann', 'unnamed')
+    >>> player_named("  Ann "), player_named("")
+    ('Ann', 'unnamed')
     """
     return " ".join(unicodedata.normalize("NFKC", author).split())[:MOST_NAME].rstrip() or UNNAMED
 
@@ -40,7 +41,8 @@ def player_named(author: str) -> str:
 def folded(player: str) -> str:
     r"""A name as people read it: without case, and without invisible characters.
 
-    >>> folded("Ann") == folded("ANN") == folded("a\u200bnn") == folded("\uff21nn") True
+    >>> folded("Ann") == folded("ANN") == folded("a\u200bnn") == folded("\uff21nn")
+    True
     """
     folds = unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", player).casefold())
     seen = "".join(letter for letter in folds if unicodedata.category(letter) != "Cf")
@@ -51,7 +53,8 @@ def folded(player: str) -> str:
 def look(player: str) -> str:
     r"""A name by its look: equal for names that a reader may confuse.
 
-    >>> look("\u0410nn") == look("Ann") == look("\u00c1nn"), look("Bill") == look("Bi\u04c0I") (True, True)
+    >>> look("\u0410nn") == look("Ann") == look("\u00c1nn"), look("Bill") == look("Bi\u04c0I")
+    (True, True)
     """
     letters = unicodedata.normalize("NFKD", player)
     plain = "".join(_plain(letter) for letter in letters if not unicodedata.category(letter).startswith("M"))

@@ -115,14 +115,16 @@ class Category:
     def far(self, value: float, first: float) -> bool:
         """Whether a time is so much slower than the first that its run had another aim, such as gold.
 
-        >>> FASTEST.far(900, 344), FASTEST.far(60, 23), HIGHEST.far(900, 344) (True, False, False)
+        >>> FASTEST.far(900, 344), FASTEST.far(60, 23), HIGHEST.far(900, 344)
+        (True, False, False)
         """
         return self.unit == "Time" and value > max(2 * first, first + FAR)
 
     def gain(self, amount: float) -> str:
         """The improvement over the record before, or the deciding criterion if the first numbers are equal.
 
-        >>> FASTEST.gain(5), FASTEST.gain(0) ('0.125', 'gold')
+        >>> FASTEST.gain(5), FASTEST.gain(0)
+        ('0.125', 'gold')
         """
         return self.difference(amount) if amount else ", ".join(rank.strip(" -") for rank in self.rank[1:])
 

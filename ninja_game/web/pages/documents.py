@@ -42,7 +42,8 @@ LEFT_OUT = (".", "build/", "dist/")  # folders whose Markdown is not the project
 def slug(heading: str) -> str:
     """The anchor of a heading: lower case, no punctuation, spaces as hyphens.
 
-    >>> slug("Nine cells: a `loose` grid") 'nine-cells-a-loose-grid'
+    >>> slug("Nine cells: a `loose` grid")
+    'nine-cells-a-loose-grid'
     """
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 

@@ -38,7 +38,8 @@ Content: TypeAlias = Markup | str | int | None
 def joined(*contents: Content) -> Markup:
     """Contents one after the other; plain texts are escaped, None is left out.
 
-    >>> joined("a < b", None, 7) 'a &lt; b7'
+    >>> joined("a < b", None, 7)
+    'a &lt; b7'
     """
     present = filter(lambda content: content is not None, contents)
     return Markup("".join(c if isinstance(c, Markup) else escape(shown_text(str(c), LONGEST)) for c in present))
@@ -49,8 +50,8 @@ def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None)
 
     Raises ValueError for an address outside of the site.
 
-    >>> tag("a", "<b>", href="levels/1.html", class_="x", data_name='"', hidden=True) '<a href="levels/1.html" class="x"
-    data-name="&quot;" hidden>&lt;b&gt;</a>'
+    >>> tag("a", "<b>", href="levels/1.html", class_="x", data_name='"', hidden=True)
+    '<a href="levels/1.html" class="x" data-name="&quot;" hidden>&lt;b&gt;</a>'
     """
     parts = [name]
     for key, value in attributes.items():

@@ -208,7 +208,8 @@ NEAREST = 4.0  # least px between two of them
 def path_data(positions: NDArray[np.float64]) -> str:
     """A path in whole px, without points near the one before.
 
-    >>> path_data(np.array([[24.2, 36.0], [25.0, 36.0], [40.0, 30.0]])) 'M24 36l16-6'
+    >>> path_data(np.array([[24.2, 36.0], [25.0, 36.0], [40.0, 30.0]]))
+    'M24 36l16-6'
     """
     whole = positions.round().astype(int)
     length = float(np.hypot(*np.diff(positions, axis=0).T).sum())
