@@ -57,8 +57,8 @@ Array.from(new Set(Array.from(document.querySelectorAll(".wide"))
 """What stands above tables of many columns: that they go on at the side of the page."""
 
 
-def with_demands(folder: Path, levels: Path) -> ValidatedRuns:
-    """What comes of a folder whose ledger has each file on the day of ``put``."""
+def judged_by_file_dates(folder: Path, levels: Path) -> ValidatedRuns:
+    """A folder judged with the times of its files as the dates of the ledger."""
 
     def date(key: Key, way: str) -> str:
         return datetime.fromtimestamp((folder / key[0]).lstat().st_mtime, UTC).strftime(DATE) if way else ""
@@ -67,7 +67,7 @@ def with_demands(folder: Path, levels: Path) -> ValidatedRuns:
 
 
 def why(folder: Path, levels: Path) -> str:
-    found = with_demands(folder, levels)
+    found = judged_by_file_dates(folder, levels)
     assert found.runs == ()
     return " ".join(f"{each.kind} {each.why}" for each in found.rejected)
 
@@ -76,7 +76,7 @@ def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -
     put(runs, "b/slow.txt", slow_walk(author="Bea"), day=1)
     put(runs, "a/fast.txt", replay(author="Ann"), day=2)
     put(runs, "c/record.txt", record(bytes(2) + WALKING), day=3)
-    ranking = Ranking(with_demands(runs, levels), published_levels(levels))
+    ranking = Ranking(judged_by_file_dates(runs, levels), published_levels(levels))
     table = ranking.tables[DIGEST][PLAYED, FASTEST]
     assert [(each.place, each.run.player, each.run.tick) for each in table] == [
         (1, "Ann", WALK_END), (2, "unknown (c/record.txt)", WALK_END + 2), (3, "Bea", WALK_END + 5),
@@ -97,7 +97,7 @@ def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -
 def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"), day=1)
     put(runs, "b.txt", replay(author="Bea"), day=2)
-    BoardPages(tmp_path / "site", Ranking(with_demands(runs, levels), published_levels(levels))).write()
+    BoardPages(tmp_path / "site", Ranking(judged_by_file_dates(runs, levels), published_levels(levels))).write()
     page = (tmp_path / "site" / "board" / "index.html").read_text("utf-8")
     newest = page.partition("<h2>Newest records")[2].partition("</table>")[0]
     first, second = (words_of(each) for each in newest.split("<li")[1:3])
@@ -106,7 +106,9 @@ def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_pa
     assert "<table" not in newest.partition("<h2>Most")[0], "a new record fills one card"
     assert re.findall(">([0-9-]{10})<", newest) == ["1970-01-03", "1970-01-02"]
     neat = Category("Neat", ("gold", "ticks"))
-    BoardPages(tmp_path / "neat", Ranking(with_demands(runs, levels), published_levels(levels), (neat,))).write()
+    BoardPages(
+        tmp_path / "neat", Ranking(judged_by_file_dates(runs, levels), published_levels(levels), (neat,))
+    ).write()
     page = (tmp_path / "neat" / "board" / "index.html").read_text("utf-8")
     assert re.findall("Neat 1 gold (better by ticks|first)", words_of(page)) == ["better by ticks", "first"]
     level = (tmp_path / "neat" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
@@ -258,7 +260,7 @@ def test_what_decides_between_runs_with_one_number_is_said(runs: Path, levels: P
     put(runs, "a.txt", replay(author="Ann"), day=1)
     put(runs, "b.txt", slow_walk(author="Bea"), day=2)
     categories = Category("Neat", ("gold", "ticks")), Category("Gold", ("gold",))
-    ranking = Ranking(with_demands(runs, levels), published_levels(levels), categories)
+    ranking = Ranking(judged_by_file_dates(runs, levels), published_levels(levels), categories)
     BoardPages(tmp_path / "site", ranking).write()
     (page,) = (each for each in map(Path.read_text, (tmp_path / "site").rglob("*.html")) if "<title>Bea -" in each)
     assert re.findall("<div>([^<]+)</div>", page) == ["Neat: 2, same value, slower", "Gold: 1, equal, later in"]
@@ -304,7 +306,7 @@ def test_a_time_leads_to_its_run_and_file_to_the_replay(runs: Path, levels: Path
 def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"), day=1)
     put(runs, "b.txt", replay(author="Ann"), day=2)
-    BoardPages(tmp_path / "site", Ranking(with_demands(runs, levels), published_levels(levels))).write()
+    BoardPages(tmp_path / "site", Ranking(judged_by_file_dates(runs, levels), published_levels(levels))).write()
     page = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     for title, better in (("fell: Fastest", 1), ("rose: Highest score", -1)):
         chart = page.partition(f"How the record {title}")[2].partition("</svg>")[0]
@@ -317,7 +319,7 @@ def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path
     put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"), day=1)
     put(runs, "cid.txt", slow_walk(90, author="Cid"), day=2)
     shown, slowest = published_levels(levels), Category("Slowest", ("-ticks",))
-    ranking = Ranking(with_demands(runs, levels), shown, (FASTEST, HIGHEST, slowest))
+    ranking = Ranking(judged_by_file_dates(runs, levels), shown, (FASTEST, HIGHEST, slowest))
     BoardPages(tmp_path / "site", ranking).write()
     page = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     tables = page.split("<caption>Best run of each player</caption>")[1:]
@@ -395,7 +397,7 @@ def test_medals_follow_from_the_par_times(runs: Path) -> None:
 def test_a_player_has_one_row_a_table_the_best_one(runs: Path, levels: Path) -> None:
     for wait in (7, 3, 5):
         put(runs, f"{wait}.txt", slow_walk(wait, author=" Ann  "))
-    ranking = Ranking(with_demands(runs, levels), published_levels(levels))
+    ranking = Ranking(judged_by_file_dates(runs, levels), published_levels(levels))
     (ranked,) = ranking.tables[DIGEST][PLAYED, FASTEST]
     assert (ranked.run.player, ranked.run.tick) == ("Ann", WALK_END + 3)
 
@@ -403,7 +405,7 @@ def test_a_player_has_one_row_a_table_the_best_one(runs: Path, levels: Path) -> 
 def test_a_replay_may_leave_out_a_level_that_counts(runs: Path, levels: Path) -> None:
     parsed = parse_replay(replay(author="Ann"))
     put(runs, "a.txt", write_replay(replace(parsed, level=None, level_digest=DIGEST)))
-    assert len(with_demands(runs, levels).runs) == 1
+    assert len(judged_by_file_dates(runs, levels).runs) == 1
     put(runs, "a.txt", write_replay(replace(parsed, level=None, level_digest="0" * 64)))
     assert "holds no level" in why(runs, levels)
 
@@ -485,7 +487,7 @@ def test_what_no_keyboard_can_do_counts_on_the_ladder_of_tools(runs: Path, level
     keys = b"\4" + WALKING + b"\2"
     for name, made in (("played", Provenance(played=True)), ("tool", Provenance(edits=3)), ("unknown", Provenance())):
         put(runs, f"{name}.txt", replay(keys, author="\u0410nn", made=made))
-    found = with_demands(runs, levels)
+    found = judged_by_file_dates(runs, levels)
     (run,) = found.runs
     told = "no keyboard can do that: in tick 0 (jump down) the jump key is down and was never pressed"
     mixed = "letters of the player's name look like those of another script"
@@ -498,7 +500,7 @@ def test_copies_are_named_and_the_first_one_counts(runs: Path, levels: Path) -> 
     put(runs, "again.txt", replay(author="Ann").replace("name: walk", "name: other"), day=2)
     put(runs, "bob.txt", replay(author="Bob"), day=3)
     put(runs, "cid.txt", replay(WALKING + b"\6", author="Cid"), day=4)
-    found = with_demands(runs, levels)
+    found = judged_by_file_dates(runs, levels)
     assert [run.player for run in found.runs] == ["Ann"]
     assert [(each.file, each.kind, each.why) for each in found.rejected] == [
         ("again.txt", "copy", "the same run as ann.txt"),
@@ -510,7 +512,7 @@ def test_copies_are_named_and_the_first_one_counts(runs: Path, levels: Path) -> 
 def test_a_run_that_goes_most_of_somebody_elses_way_says_so(runs: Path, levels: Path) -> None:
     put(runs, "ann.txt", slow_walk(40, author="Ann"), day=1)
     put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"), day=2)
-    remarks = [run.remark for run in with_demands(runs, levels).runs]
+    remarks = [run.remark for run in judged_by_file_dates(runs, levels).runs]
     assert remarks == ["", "64 of its 65 ticks have the inputs of the run by Ann in ann.txt"]
 
 
@@ -625,7 +627,7 @@ def test_a_near_copy_alone_on_its_ladder_is_nowhere_first(runs: Path, levels: Pa
 def test_a_clean_run_goes_before_the_players_own_near_copy(runs: Path, levels: Path) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bob.txt", slow_walk(author="Bob"))
-    judged, shown = with_demands(runs, levels), published_levels(levels)
+    judged, shown = judged_by_file_dates(runs, levels), published_levels(levels)
     ann, bob = judged.runs
     near = replace(ann, player="Bob", near="nearly Ann's", file="near.txt")
     table = Ranking(replace(judged, runs=(ann, bob, near)), shown).tables[DIGEST][PLAYED, FASTEST]
@@ -637,14 +639,14 @@ def test_who_played_a_record_of_n_is_unknown(runs: Path, levels: Path) -> None:
     put(runs, "a.txt", record(bytes(2) + WALKING) + record(bytes(3) + WALKING))
     put(runs, "b.txt", record(bytes(4) + WALKING))
     put(runs, "c.txt", record(bytes(5) + WALKING).replace("#test#", "#test [made: played]#"))
-    assert [run.player for run in with_demands(runs, levels).runs] == [
+    assert [run.player for run in judged_by_file_dates(runs, levels).runs] == [
         "unknown (a.txt)", "unknown (a.txt, record 1)", "unknown (b.txt)", "me",
     ]  # fmt: skip
 
 
 def test_a_near_copy_shares_no_place(runs: Path, levels: Path) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
-    judged, shown = with_demands(runs, levels), published_levels(levels)
+    judged, shown = judged_by_file_dates(runs, levels), published_levels(levels)
     (ann,) = judged.runs
     bob, cid = (
         replace(ann, player=player, near=near, file=f"{player.lower()}.txt")
@@ -663,7 +665,7 @@ def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(
     put(runs, "dee.txt", re.sub(r"final-tick: \d+", "final-tick: 9", replay(author="Dee")))
     put(runs, "eve.txt", re.sub(r"(inputs:\n  )\S+", r"\1R*40", replay(author="Eve")))
     put(runs, "notes.txt", "notes")
-    found = with_demands(runs, levels)
+    found = judged_by_file_dates(runs, levels)
     assert [(each.kind, each.player, each.why.partition(";")[0]) for each in found.rejected] == [
         ("refused", "Dee", f"tick {WALK_END}: the run ends here (exit)"),
         ("refused", "Eve", "inputs after the final tick"),
@@ -684,7 +686,7 @@ def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(
             write_replay(record_replay(recording.level, inputs, author=f"Ann {number}")),
             day=1 + number,
         )
-    judged, shown = with_demands(runs, PACK), published_levels(PACK)
+    judged, shown = judged_by_file_dates(runs, PACK), published_levels(PACK)
     BoardPages(tmp_path / "site", Ranking(judged, shown)).write()
     pages = [path.read_text("utf-8") for path in (tmp_path / "site" / "board" / "levels").glob("*.html")]
     (page,) = (each for each in pages if "Watch the first 2 together" in each)
@@ -723,7 +725,7 @@ def test_a_run_that_shares_the_path_alone_is_marked_and_keeps_its_place(
     put(runs, "b.txt", replay(author="Bea"), day=2)
     near = 0, "9 of 9 are those of", sure
     monkeypatch.setattr("ninja_game.web.board.copies._near_to_another", lambda *compared: near if compared[3] else None)
-    judged = with_demands(runs, levels)
+    judged = judged_by_file_dates(runs, levels)
     table = Ranking(judged, published_levels(levels)).tables[DIGEST][PLAYED, FASTEST]
     assert [(each.place, each.run.player) for each in table] == (
         [(1, "Ann"), (0, "Bea")] if sure else [(1, "Bea"), (2, "Ann")]
@@ -820,7 +822,7 @@ def test_no_number_and_no_date_is_broken(width: int, chromium: Any, runs: Path, 
 def test_what_does_not_count_is_said_in_plain_words(runs: Path, levels: Path) -> None:
     put(runs, "other.txt", replay(level=f"{WALK}!0^400,100", level_name="My <b>cave</b>"))
     put(runs, "slow.txt", replay(made=Provenance(played=True, assists=("slow motion",))))
-    found = with_demands(runs, levels).rejected
+    found = judged_by_file_dates(runs, levels).rejected
     assert [each.kind for each in found] == ["refused", "practice"]
     assert found[0].why.startswith("'My <b>cave</b>' is not one of the levels that count; its level_digest begins")
     assert found[1].why == "it was played (slow motion): runs with such help do not count"
@@ -951,7 +953,7 @@ def test_how_a_record_moved_shows_the_ten_newest_steps(
     monkeypatch.setattr("ninja_game.web.board.copies._near_to_another", lambda *_: None)
     for number in range(12):
         put(runs, f"{number}.txt", slow_walk(12 - number, author=f"Ann {number}"), day=1 + number)
-    BoardPages(tmp_path / "site", Ranking(with_demands(runs, levels), published_levels(levels))).write()
+    BoardPages(tmp_path / "site", Ranking(judged_by_file_dates(runs, levels), published_levels(levels))).write()
     texts = (path.read_text("utf-8") for path in (tmp_path / "site" / "board" / "levels").glob("*.html"))
     (page,) = (text for text in texts if "How the record" in text)
     steps = page.partition("How the record fell")[2].partition("Newest first")[2].partition("</table>")[0]
