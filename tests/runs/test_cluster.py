@@ -45,7 +45,6 @@ def archive(tmp_path: Path) -> Path:
     return folder
 
 
-@pytest.mark.slow
 def test_a_killed_worker_changes_nothing_in_the_report(
     cluster: Any, archive: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
