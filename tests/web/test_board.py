@@ -545,7 +545,8 @@ def test_a_faster_near_copy_is_told_and_confirmed_by_a_command(runs: Path, level
     put(runs, "better.txt", slow_walk(40, author="Bob"))
     waits = "Better, and waiting: Bob 1.575 with 1 gold."
     command, site = ("--json", str(data), "--site", str(tmp_path / "site")), tmp_path / "site" / "board"
-    assert check(runs, levels, *command)[0] == 0
+    code, text = check(runs, levels, *command)
+    assert (code, text.endswith("; rejected: none; 1 waits for confirmation: --confirm better.txt\n")) == (0, True), text
     level, rejected, waiting = (
         (site / name).read_text("utf-8") for name in (f"levels/{DIGEST[:16]}.html", "rejected.html", "waiting.html")
     )
@@ -556,7 +557,7 @@ def test_a_faster_near_copy_is_told_and_confirmed_by_a_command(runs: Path, level
     assert (told.exit_code, "that waits; there are: better.txt" in told.stderr) == (2, True)
     assert check(runs, levels, "--confirm", "better.txt")[0] == 2
     assert check(runs, levels, *command, "--confirm", "better.txt")[0] == 0
-    assert check(runs, levels, *command)[0] == 0
+    assert check(runs, levels, *command)[1].endswith("; rejected: none\n")
     assert waits not in (site / f"levels/{DIGEST[:16]}.html").read_text("utf-8")
     assert not (site / "waiting.html").exists()
     assert '"confirmed": true' in data.read_text("utf-8")
