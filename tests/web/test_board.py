@@ -619,7 +619,8 @@ def test_a_near_copy_alone_on_its_ladder_is_nowhere_first(runs: Path, levels: Pa
     put(runs, "me.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Me"))
     check(runs, levels, "--json", str(data), "--site", str(tmp_path / "site"))
     level, all_levels = ((pages / name).read_text("utf-8") for name in (f"levels/{DIGEST[:16]}.html", "levels.html"))
-    assert '<li class="card leader"><a href="#ranks-1">Fastest, played</a></li>' in level
+    waits = '<p class="facts"><a href="../waiting.html">1 run waits</a></p>'
+    assert f'<li class="card leader"><a href="#ranks-1">Fastest, played</a>{waits}</li>' in level
     assert ">Me</a>" not in all_levels
     (mine,) = (text for path in pages.glob("players/*.html") if "<title>Me -" in (text := path.read_text("utf-8")))
     assert "Played Runs 1 Levels 1 All runs" in words_of(mine)

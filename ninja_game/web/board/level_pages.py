@@ -319,11 +319,13 @@ class LevelPages:
         return tag("p", f"{what}: {', '.join(said)}.") if said else None
 
     def _leader(self, ranks: _Ranks, anchor: str) -> Markup:
-        """Who leads a table, and a link to it; none leads where all wait for confirmation."""
+        """Who leads a table, and a link to it; where all wait for confirmation, how many do."""
         leaderboard, best = ranks.leaderboard, ranks.rows[0]
         link = tag("a", self.leaderboard_name(leaderboard), href=f"#{anchor}")
         if best.place != 1:
-            return tag("li", link, class_="card leader")
+            number = len(self.ranking.tables[best.run.level][leaderboard])
+            waits = tag("a", counted(number, "run waits", "runs wait"), href=f"{UP}waiting.html")
+            return tag("li", link, tag("p", waits, class_="facts"), class_="card leader")
         result, run = tag("strong", leaderboard[1].measured(best.values[0])), best.run
         about = tag("p", self.player_link(run.player, UP), run.day, self.watch_link([run], UP), class_="facts")
         return tag("li", link, result, about, class_="card leader")
