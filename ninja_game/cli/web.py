@@ -341,7 +341,7 @@ TYPED = (
     type=OLD_FILE,
     help="The file that `ninja-game board --json` wrote, for the dates, and for whose a run is.",
 )
-@click.option("--category", metavar="NAME", help="One of the board's categories. [default: the first]")
+@click.option("--category", metavar="NAME", help="One of the board's, or a part of its name. [default: the first]")
 @click.option("--assisted", is_flag=True, help="The ladder of runs that were edited or searched.")
 @click.option("-o", "--output", type=NEW_FILE, help="The picture, or the film.")
 @click.option("--json", "as_data", is_flag=True, help="Answer as JSON.")
@@ -458,10 +458,15 @@ def _level(text: str, entries: Sequence[Entry]) -> Entry:
 
 
 def _category(ranking: Ranking, name: str | None) -> Category:
-    for category in ranking.categories:
-        if name is None or category.name.casefold() == name.casefold():
-            return category
-    raise ArgumentError(f"no category {name!a}; there are {', '.join(known.name for known in ranking.categories)}")
+    """The category of a name, or the only one with it as a part of its name; without one the first."""
+    if name is None:
+        return ranking.categories[0]
+    words, names = name.casefold(), {category.name.casefold(): category for category in ranking.categories}
+    matches = [names[words]] if words in names else [each for known, each in names.items() if words in known]
+    if len(matches) == 1:
+        return matches[0]
+    what = f"{name!a} is several categories:" if matches else f"no category {name!a}; there are"
+    raise ArgumentError(f"{what} {', '.join(known.name for known in matches or ranking.categories)}")
 
 
 def _of_player(table: Sequence[Ranked], player: str) -> Ranked:

@@ -98,9 +98,10 @@ def test_a_level_is_ranked(level: str, folder: Path, levels: Path) -> None:
     assert [row["ticks"] for row in answer(folder, levels, "rank", level)] == [WALK_END, WALK_END + 5, WALK_END + 8]
 
 
-def test_the_best_and_a_players_run(folder: Path, levels: Path) -> None:
+@pytest.mark.parametrize("category", ["highest score", "Score"])
+def test_the_best_and_a_players_run(category: str, folder: Path, levels: Path) -> None:
     assert [row["player"] for row in answer(folder, levels, "best", "Walk")] == ["Ann"]
-    (row,) = answer(folder, levels, "rank", "Walk", "BEA", "--category", "highest score")
+    (row,) = answer(folder, levels, "rank", "Walk", "BEA", "--category", category)
     assert (row["place"], row["score"], row["file"]) == (2, 3680 - WALK_END - 5, "bea.txt")
 
 
@@ -151,6 +152,7 @@ def test_the_first_path_is_on_top() -> None:
         (["rank", "a"], "is several levels"),
         (["rank", "Spiked"], "nobody has a run"), (["rank", "Walk", "Zed"], "has no run there; players: Ann"),
         (["rank", "Walk", "--category", "x"], "there are Fastest"),
+        (["rank", "Walk", "--category", "EST"], "is several categories: Fastest, Highest score"),
         (["rank", "Walk", "--assisted"], "on Walk yet; played: 3, without --assisted"),
     ],
 )  # fmt: skip

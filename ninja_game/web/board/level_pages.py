@@ -74,8 +74,6 @@ LINKS = [
 
 FIRST = 10  # rows of a table
 TOGETHER = 5  # runs side by side
-PODIUM = 3  # places with a remark beside the name if it is unknown how a run was made
-NOT_SAID = "how it was made: not said"
 ENOUGH_SPLITS = 5  # with fewer, splits do not show where time is lost
 COARSE = 4  # one of so many ticks is compared place by place: all would take a third of the time of a board
 LONGEST_ALIGNED = 8000  # ticks of a run; longer ones would take too much memory
@@ -222,20 +220,18 @@ class LevelPages:
     def player_link(self, player: str, up: str = "") -> Content:
         return tag("a", self.shown_name(player), href=f"{up}{player_page(player)}.html") if player else ""
 
-    def run_cells(
-        self, run: Run, *results: Content, timed: bool = True, remark: str = "", mark: Content = None
-    ) -> tuple[Content, ...]:
-        """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is for the time.
+    def run_cells(self, run: Run, *results: Content, timed: bool = True, mark: Content = None) -> tuple[Content, ...]:
+        """Cells of a run, for heads that end in RUN_HEADS.
 
-        ``remark``: below the player's name, before the run's own; ``mark``: before the name.
+        ``timed``: with its medal, which is for the time; ``mark``: before the player's name.
         """
         gold, linked = f"{run.gold} of {run.entry.all_gold}", self.run_link(run, UP, str(results[0]))
         medal = medal_mark(run.medal if timed else "")
         about = made_text(run), gold, run.day, medal, self.run_link(run, UP)
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
-        notes = [tag("div", text, class_="note") for text in (remark, run.remark) if text]
+        note = tag("div", run.remark, class_="note") if run.remark else None
         return (
-            joined(mark, self.player_link(run.player, UP), others, *notes),
+            joined(mark, self.player_link(run.player, UP), others, note),
             linked,
             *results[1:],
             self.watch_link([run], UP),
@@ -319,11 +315,13 @@ class LevelPages:
         return tag("p", f"{what}: {', '.join(said)}.") if said else None
 
     def _leader(self, ranks: _Ranks, anchor: str) -> Markup:
-        """Who leads a table, and a link to it; none leads where all wait for confirmation."""
+        """Who leads a table, and a link to it; where all wait for confirmation, how many do."""
         leaderboard, best = ranks.leaderboard, ranks.rows[0]
         link = tag("a", self.leaderboard_name(leaderboard), href=f"#{anchor}")
         if best.place != 1:
-            return tag("li", link, class_="card leader")
+            number = len(self.ranking.tables[best.run.level][leaderboard])
+            waits = tag("a", counted(number, "run waits", "runs wait"), href=f"{UP}waiting.html")
+            return tag("li", link, tag("p", waits, class_="facts"), class_="card leader")
         result, run = tag("strong", leaderboard[1].measured(best.values[0])), best.run
         about = tag("p", self.player_link(run.player, UP), run.day, self.watch_link([run], UP), class_="facts")
         return tag("li", link, result, about, class_="card leader")
@@ -342,9 +340,7 @@ class LevelPages:
             shown = replace(run, remark=shown_text(run.remark, LONGEST_AGAIN)) if run.remark in above else run
             results = [categories[at].text(ranked[at].values[0]) for at in map(heads.index, names)]
             late = self.behind(categories[0], ranked[0], same[0].rows[0])
-            unsaid = NOT_SAID * (0 < place <= PODIUM and not run.made)
-            timed, mark = FASTEST.unit in heads, marks.get(run.key)
-            cells = self.run_cells(shown, *results, late, timed=timed, remark=unsaid, mark=mark)
+            cells = self.run_cells(shown, *results, late, timed=FASTEST.unit in heads, mark=marks.get(run.key))
             rows.append((place_mark(place), *cells))
             above |= {run.remark} - {""}
         lesser = LESSER.union(names[1:]) - {names[0]}

@@ -45,6 +45,7 @@ _FIELDS: dict[str, dict[str, type]] = {
     "decisions": {"level": str, "way": str, "file": str, "player": str, "what": str, "reason": str, "added": str},
 }  # fmt: skip
 
+MOST_NAMED = 3  # files that wait, in the last line
 _KEPT = {"near": str, "confirmed": bool, "taken": str}  # what a row may have, and keeps after the run is withdrawn
 
 
@@ -295,4 +296,8 @@ def summary(judged: ValidatedRuns) -> str:
     runs, by, on = (counted(len(group), name, f"{name}s") for name, group in counts)
     kinds = Counter(item.kind for item in judged.rejected)
     rejected = ", ".join(f"{kinds[kind]} {KINDS[kind][0]}" for kind in sorted(kinds))
-    return f"{runs} by {by} on {on}; rejected: {rejected or 'none'}"
+    near = [run.file for run in judged.runs if run.near]
+    files = [f"--confirm {plain(file)}" for file in dict.fromkeys(near)]
+    some = " ".join(files[:MOST_NAMED]) + " ..." * (len(files) > MOST_NAMED)
+    waits = f"; {len(near):,} wait{'s' * (len(near) == 1)} for confirmation: {some}" if near else ""
+    return f"{runs} by {by} on {on}; rejected: {rejected or 'none'}{waits}"
