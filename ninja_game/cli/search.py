@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import time
 from collections.abc import Callable, Sequence
@@ -225,7 +226,8 @@ def search(
     vy, speed, tick, gold, dead, won, distance(x, y), taken(id), opened(id): docs/speedruns.md has all of them.
     Ctrl-C ends the search; the best run so far is in the output file.
 
-    Exit code 0: the goal was reached; 1: it was not; 2: something cannot be read.
+    Exit code 0: the goal was reached, with --rest also the exit sooner than in RUN; 1: it was not; 2: something cannot
+    be read.
 
     \b
     Examples:
@@ -259,12 +261,16 @@ def search(
         rest=rest,
         body=recording.body,
     )
+    begun = record_replay(task.level, recording.inputs, body=task.body)
+    # With --rest a score is the ticks to the exit.
+    limit = begun.ticks if rest and begun.outcome == "exit" else math.inf
     start = 0.0
     with progress_line() as shown:
         saved: list[SpanResult] = []
         misses: list[SpanResult] = []
 
-        def report(ticks: int, best: tuple[SpanResult, ...]) -> bool:
+        def report(ticks: int, found: tuple[SpanResult, ...]) -> bool:
+            best = [result for result in found if result.score < limit]
             if save and best and (not saved or best[0] < saved[-1]):
                 saved.append(best[0])
                 save(record_replay(task.level, best[0].inputs, body=task.body))
@@ -276,16 +282,17 @@ def search(
             shown.say(f"{standing}  {ticks / 1e6:.1f}M ticks")
             return spent < seconds
 
-        results = search_span(
+        found = search_span(
             task, report, method=method, every=every, seed=seed, threads=jobs, report_miss=misses.append
         )
-    results = tuple(tidied(task, result) for result in results)
+    results = [tidied(task, result) for result in found if result.score < limit]
     if save and results:
         save(record_replay(task.level, results[0].inputs, body=task.body))
     for result in results or misses[-1:]:
         click.echo(f"{score_text(task, result)}: {_keys(result)}")
     if not results:
-        click.echo("the goal was not reached; more time, a longer span or another --method may reach it")
+        what = "nothing sooner was found" if found else "the goal was not reached"
+        click.echo(f"{what}; more time, a longer span or another --method may help")
     elif output:
         click.echo(f"{output}: the first of them")
     return 0 if results else FAILED

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -159,9 +160,12 @@ class Head(TasPart):
         where = ", on another level" * session.moved
         unsaved = f"{opened}{where}, to be saved as a new file" if opened else "no file yet"
         file = session.file.path.name if session.file.path else unsaved
-        about = session.about
-        how, room = f" {about.replay.how}".rstrip(), right / 2 - 62
-        name = " - ".join(filter(None, (about.name, about.replay.credit))).removesuffix(how)
+        about, replay = session.about, session.about.replay
+        how, room = f" {replay.how}".rstrip(), right / 2 - 62
+        begun_by = replay.made.begun_by if replay.co_authors else ""
+        names = filter(None, dict.fromkeys((replay.author, begun_by, *replay.co_authors)))
+        credit = ", ".join(re.sub(r"^unknown \((.*)\)$", r"\1", name) for name in names)
+        name = " - ".join(filter(None, (about.name, credit)))
         name = theme.fit(name, room - theme.width(how, 13, bold=True), 13, bold=True) + how
         title = theme.text(surface, name, 8, 6, size=13, bold=True, colour=palette.on_tile, width=room)
         x = title.right / theme.canvas.scale + 12

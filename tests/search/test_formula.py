@@ -353,6 +353,14 @@ def test_command_writes_the_best_run_and_keeps_its_author(run: Path, tmp_path: P
     assert run.read_text() == before
 
 
+def test_command_with_the_rest_finds_only_what_is_sooner_than_the_run(tmp_path: Path) -> None:
+    run, out = tmp_path / "run.inputs.txt", tmp_path / "sooner.replay.txt"
+    run.write_text(unclaimed_text(TEXT, "R*60"))
+    result = called(run, "--from", 0, "--to", 10, "--goal", "tick == 9", "--rest", "--seconds", 0.5, "-o", out)
+    assert (result.exit_code, out.exists()) == (1, False), result.output
+    assert result.stdout.startswith("nothing sooner was found; ")
+
+
 def test_command_keeps_the_end_of_a_span_exactly(run: Path, tmp_path: Path) -> None:
     out = tmp_path / "shorter.replay.txt"
     goal = "difference(19) == 0"

@@ -124,7 +124,7 @@ class RollMouse:
         self._tick = 0
         self._at = (0, 0)
         self._waited = 0
-        self._clicked = (-1, -DOUBLE_MS)
+        self._clicked, self._twice = (-1, -DOUBLE_MS), False
         self._row_hint = ""
 
     def handle_mouse(self, event: pygame.Event, x: int, y: int) -> bool:
@@ -135,7 +135,10 @@ class RollMouse:
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button in (pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT):
             self._press(event.button, x, y)
         elif event.type == pygame.MOUSEBUTTONUP and event.button in (pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT):
+            named, self._twice = self._twice and self._doing == "select", False
             self.stop()
+            if named:
+                self._roll.edits.name_tick()
         elif event.type == pygame.MOUSEMOTION:
             if self._doing and not any(event.buttons):
                 self.stop()
@@ -203,11 +206,8 @@ class RollMouse:
 
     def _select(self, column: Column, tick: int) -> None:
         now = pygame.time.get_ticks()
-        twice = self._clicked[0] == tick and now - self._clicked[1] < DOUBLE_MS
+        self._twice = column.name == "tick" and self._clicked[0] == tick and now - self._clicked[1] < DOUBLE_MS
         self._clicked = tick, now
-        if column.name == "tick" and twice:
-            self._roll.edits.name_tick()
-            return
         self._editor.go(tick, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
         self._roll.stay()
         self._doing = "select"
@@ -218,6 +218,7 @@ class RollMouse:
             return
         tick = self._tick_at(self._at[1])
         if self._doing == "select" and tick != self._editor.cursor:
+            self._clicked, self._twice = (-1, -DOUBLE_MS), False  # a drag is no click
             self._editor.go(tick, select=True)
             self._roll.stay()
         elif self._doing == "paint" and not self._editor.session.history.in_stroke:

@@ -253,6 +253,16 @@ def test_the_title_is_cut_at_the_names(at: TasDriver) -> None:
     assert title.endswith("... (edited)")
 
 
+def test_the_title_names_the_opened_run_beside_another_whose_keys_it_has(at: TasDriver) -> None:
+    about = at.session.about
+    made = Provenance(edits=3, begun_by="unknown (ann.txt)")
+    replay = replace(about.replay, name="", author="", co_authors=("unknown (mbd.txt)",), made=made)
+    at.session.about = replace(about, replay=replay)
+    with patch.object(Theme, "text", autospec=True, side_effect=Theme.text) as text:
+        at.screen.head.paint(pygame.Surface((792, 600)), at.screen.theme)
+    assert text.call_args_list[0].args[2].endswith(" - ann.txt, mbd.txt (edited)")
+
+
 def test_a_closed_window_of_a_saved_run_leaves_nothing(at: TasDriver) -> None:
     change(at)
     at.chord("z", CTRL)

@@ -66,6 +66,15 @@ def test_clicks_and_drags_select(at: TasDriver, monkeypatch: pytest.MonkeyPatch)
     assert at.editor.selection == (20, 31)
 
 
+def test_a_drag_is_no_click_of_a_double_click(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pygame.time, "get_ticks", lambda: 1000)
+    at.mouse(*at.cell(9, "tick"))
+    at.drag(at.cell(9, "tick"), at.cell(14, "tick"))
+    assert (at.top(), at.editor.selection) == (at.screen, (9, 15))
+    at.mouse(*at.cell(9, "tick"))
+    assert (at.top(), at.editor.selection) == (at.screen, (9, 10)), "its first click was the drag"
+
+
 def test_a_double_click_on_the_number_names_the_tick(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
     for ms in (1000, 1500, 1600):
         assert at.top() is at.screen, "half a second between them: two clicks"
