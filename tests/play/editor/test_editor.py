@@ -196,10 +196,13 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
     room.press("f9")
     marks = room.editor.view.sheet.marks
     assert [key[0] for key in marks if key[0] in ("visit", "death")] == ["death"], "of the last test"  # type: ignore[index]
-    session.last_death = ()
+    room.chord("z", pygame.KMOD_LCTRL)
     room.frames()
     marks = room.editor.view.sheet.marks
-    assert not [key for key in marks if key[0] in ("visit", "death")]  # type: ignore[index]
+    assert not [key for key in marks if key[0] in ("visit", "death")], "the mine is gone"  # type: ignore[index]
+    room.chord("y", pygame.KMOD_LCTRL)
+    room.frames()
+    assert (len(session.tries), session.last_death) == (2, (died,)), "those of the level with the mine"
     session.begin(Source(ROOM))
     assert session.test_map is None
 
