@@ -997,3 +997,16 @@ def test_what_is_known_of_one_level_is_not_said_of_the_next(room: Maker) -> None
     room.press("f4")
     assert "No problems" not in room.app.notice
     assert session.examined is room.draft.level
+
+
+def test_grey_buttons_that_align_say_why(room: Maker) -> None:
+    tools = room.editor.session.tools
+    every = [(number, part) for number, spec in enumerate(room.draft.objects) for part in points(spec)]
+    tools.tool = "select"
+    for text, why, enough in (("Left", "Align needs two", 2), ("Across", "Spread needs three", 3)):
+        for count in (enough - 1, enough):
+            tools.selection = Selection((2, 2, 3, 3), frozenset(every[:count]))
+            room.editor.follow_parts()
+            button = next(each for each in room.editor.properties.widgets if getattr(each, "text", "") == text)
+            room.mouse(*button.centre, click=False)
+            assert (why in drawn(room.app)) == (count < enough)
