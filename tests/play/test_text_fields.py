@@ -243,3 +243,23 @@ def test_what_is_typed_replaces_the_first_field_of_a_form_and_goes_on_in_the_oth
         pygame.event.post(pygame.Event(pygame.TEXTINPUT, text="!"))
         at.frames()
     assert form.texts == ["!", "kept!"]
+
+
+@pytest.mark.parametrize("answer", ["", "Cancel", "Discard changes", "Keep the changes"])
+def test_a_changed_form_of_several_fields_asks_before_it_is_left(at: Writer, answer: str) -> None:
+    below, kept = at.app.top, list[list[str]]()
+    form = FormPanel(at.app, "Two fields", [("first", "old", 40), ("second", "", 40)], "Yes", kept.append)
+    at.app.push(form)
+    at.frames(2)
+    at.key("down")
+    if answer:
+        pygame.event.post(pygame.Event(pygame.TEXTINPUT, text="new"))
+        at.frames()
+    at.key("escape")
+    if answer:
+        at.choose(answer)
+    assert at.app.top is (form if answer == "Cancel" else below)
+    assert kept == [["old", "new"]] * (answer == "Keep the changes")
+    if answer == "Cancel":
+        fields = [widget.text for widget in form.widgets if isinstance(widget, TextEntry)]
+        assert fields == ["old", "new"], "it goes on as it was"

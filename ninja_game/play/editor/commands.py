@@ -148,7 +148,7 @@ class EditorCommands(DocumentCommands):
         self.view.hint = f"{what} are {'shown' if getattr(self.view, name) else 'hidden'}"
 
     def switch_tests(self) -> None:
-        """Show or hide the paths and deaths of all tests of this session."""
+        """Show or hide the paths and deaths of all tests of the level as it is."""
         view, count = self.view, len(self.session.tries)
         view.tests = not view.tests
         what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"

@@ -33,7 +33,7 @@ from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
 from ninja_game.play.level.messages import shown_ticks
 from ninja_game.play.level.places import Things
-from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow, MenuScreen
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow, MenuScreen, ask_to_keep
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME, TICKS_PER_SECOND
@@ -280,11 +280,10 @@ class MessagesScreen(MenuScreen):
 
     def close(self) -> None:
         """Leave; ask first whether changes are kept."""
-        rows: list[MenuRow] = [("Keep the changes", self._accept, ""), ("Discard changes", self.app.pop, ""), CANCEL]
         if self.source == self._before:
             super().close()
         else:
-            self.app.push(Menu(self.app, "The messages are changed", rows))
+            ask_to_keep(self.app, "The messages are changed", self._accept)
 
     def capture(self, event: InputEvent) -> bool:
         """Typed letters go to the text of the row with the focus."""

@@ -61,7 +61,7 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
         kind = (object_type_name(spec), len(spec.values)) if spec else None
         return (
             tools.selection.area,
-            tools.selection.numbers,
+            tools.selection.parts,
             [(name, not _present(tools, name)) for name in _common(tools.subjects)],
             kind,
             spec and tuple(points(spec).items()),
@@ -145,8 +145,10 @@ _ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
 def _arranging(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widget]]:
     most, buttons = len(tools.selection.parts), []
     for text, (axis, share) in _ARRANGING[head].items():
-        hint = f"{head or 'Align'} the selected objects: {text.lower()}"
-        buttons.append((text, partial(tools.arrange, axis, share) if most > 1 + (share is None) else None, hint))
+        able, word = most > 1 + (share is None), head or "Align"
+        hint = f"{word} the selected objects: {text.lower()}"
+        why = f"{word} needs {'three' if share is None else 'two'} or more selected objects; cells stay in place"
+        buttons.append((text, partial(tools.arrange, axis, share) if able else None, hint if able else why))
     return _row(buttons, head, 30)
 
 

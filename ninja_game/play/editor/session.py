@@ -82,10 +82,11 @@ def _examine(question: Question) -> Examined:
 
 
 class EditorSession:
-    """``tools``: change the level; ``source``: its file. ``tries``: all tests since the level was opened.
+    """``tools``: change the level; ``source``: its file. ``tries``: all tests of the level as it is.
 
-    ``last_try``: the route of the last test. ``start``: of STARTS, the ninja's state at the pointer for the search of
-    what it can reach. ``accepted``: why its pack accepts findings about it, by code.
+    ``last_try``: the route of the last test, ``last_death``: where the last of ``tries`` died. ``start``: of STARTS,
+    the ninja's state at the pointer for the search of what it can reach. ``accepted``: why its pack accepts findings
+    about it, by code.
     """
 
     def __init__(self, app: App, source: Source | None = None) -> None:
@@ -117,6 +118,8 @@ class EditorSession:
         self._known_runs: NewestJob[tuple[Level, Replay], Certification] = NewestJob(lambda known: search_of(*known))
         self.start = "off"
         self._start_asked: Ask | None = None
+        self._tries: dict[Level, tuple[Try, ...]] = {}
+        self._tried_level: Level | None = None
         self.tries: tuple[Try, ...] = ()
         self.last_try: PathPoints = ()
         self.last_death: PathPoints = ()
@@ -209,6 +212,8 @@ class EditorSession:
 
     def update(self) -> None:
         self._follow_pointer()
+        if self.draft.level is not self._tried_level:
+            self._show_tries()
         known, self._known_runs.result = self._known_runs.result, None
         if known and known.level == self.draft.level:
             self.certifier.adopt(known)
@@ -394,9 +399,17 @@ class EditorSession:
             return
         last = self.tries[-1] if self.tries else None
         goes_on = last is not None and not last.over and last.level is level and inputs.startswith(last.inputs)
-        self.tries = (*(self.tries[:-1] if goes_on else self.tries), Try(level, inputs, over))
-        self.last_try, self.last_death = route_of(level, inputs), map_of(self.tries[-1:]).deaths
-        self._maps.ask(self.tries)
+        self._tries[self.draft.level] = (*(self.tries[:-1] if goes_on else self.tries), Try(level, inputs, over))
+        self.last_try = route_of(level, inputs)
+        self._show_tries()
+
+    def _show_tries(self) -> None:
+        """Take the tests of the level as it is now; what died in another version may have met what is gone."""
+        self._tried_level = self.draft.level
+        self.tries = self._tries.get(self.draft.level, ())
+        self.last_death = map_of(self.tries[-1:]).deaths
+        if self.tries:
+            self._maps.ask(self.tries)
 
     def passed(self, level: Level, attempt: Attempt) -> bool:
         """A test reached the exit; True if it certifies the present level: played from its start, in its time."""

@@ -409,6 +409,11 @@ def ask_received(app: App, pack: str, copy: Action, change: Action) -> None:
     app.push(Menu(app, f"Received: {shown_text(pack)}", rows))
 
 
+def ask_to_keep(app: App, title: str, keep: Action) -> None:
+    """Ask whether the changes of the screen on top are kept; if not, it is closed."""
+    app.push(Menu(app, title, [("Keep the changes", keep, ""), ("Discard changes", app.pop, ""), CANCEL]))
+
+
 class Question(Menu):
     """Asks before an action that is hard to undo. No comes first and up does not wrap, against hasty keys."""
 
@@ -421,7 +426,7 @@ class Question(Menu):
 class FormPanel(Menu):
     """Fields to fill in above two buttons. ``fields``: prompt, text, most characters.
 
-    The text of the first field is a proposal.
+    The text of the first field is a proposal. Several fields are not left without a question once they are changed.
     """
 
     def __init__(
@@ -444,8 +449,8 @@ class FormPanel(Menu):
         x, y, w, _ = self._box
         places = [(x + 30, y + 48 + ROW * k, w - 60, 30) for k in range(len(self._fields))]
         entries = [
-            TextEntry(places[k], prompt, text, self._taker(k), longest=longest, proposed=k == 0)
-            for k, (prompt, text, longest) in enumerate(self._fields)
+            TextEntry(places[k], prompt, now, self._taker(k), longest=longest, proposed=k == 0 and now == text)
+            for k, ((prompt, text, longest), now) in enumerate(zip(self._fields, self.texts, strict=True))
         ]
         return [*entries, *list(super().build())[len(entries) :]]
 
@@ -454,6 +459,12 @@ class FormPanel(Menu):
             self.widgets[len(self._fields)].confirm()
         else:
             super().act(action, held=held)
+
+    def close(self) -> None:
+        if len(self.texts) > 1 and self.texts != [text for _, text, _ in self._fields]:
+            ask_to_keep(self.app, f"{self.title}: changed", self.widgets[len(self._fields)].confirm)
+        else:
+            super().close()
 
     def _taker(self, place: int) -> Callable[[str], None]:
         def take(text: str) -> None:

@@ -217,7 +217,7 @@ class PackScreen(ThumbnailScreen):
         if self.pack and self.pack.pack and self.pack.pack.index.is_signed:
             self.packer.start(path)
         else:
-            ask_text(self.app, "Who made this pack?", "Author (may be empty)", name, "Make ready", sign, 40)
+            ask_text(self.app, "Who made this pack?", "Author", name, "Make ready", sign, 40)
 
     def _choose_pack(self, key: str) -> None:
         self._show(next(pack for pack in self.mine if pack.key == key))
@@ -277,7 +277,7 @@ class PackScreen(ThumbnailScreen):
 
         fields, step = [("Name", "My pack", 60)], "New pack"
         if not self.player.settings.name:
-            fields.append(("Author (may be empty)", "", 40))
+            fields.append(("Author", "", 40))
         self.app.push(FormPanel(self.app, step, fields, "OK", lambda texts: self.do(lambda: make(*texts), step)))
 
     def _paste(self) -> None:

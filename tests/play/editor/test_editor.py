@@ -196,10 +196,13 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
     room.press("f9")
     marks = room.editor.view.sheet.marks
     assert [key[0] for key in marks if key[0] in ("visit", "death")] == ["death"], "of the last test"  # type: ignore[index]
-    session.last_death = ()
+    room.chord("z", pygame.KMOD_LCTRL)
     room.frames()
     marks = room.editor.view.sheet.marks
-    assert not [key for key in marks if key[0] in ("visit", "death")]  # type: ignore[index]
+    assert not [key for key in marks if key[0] in ("visit", "death")], "the mine is gone"  # type: ignore[index]
+    room.chord("y", pygame.KMOD_LCTRL)
+    room.frames()
+    assert (len(session.tries), session.last_death) == (2, (died,)), "those of the level with the mine"
     session.begin(Source(ROOM))
     assert session.test_map is None
 
@@ -994,3 +997,16 @@ def test_what_is_known_of_one_level_is_not_said_of_the_next(room: Maker) -> None
     room.press("f4")
     assert "No problems" not in room.app.notice
     assert session.examined is room.draft.level
+
+
+def test_grey_buttons_that_align_say_why(room: Maker) -> None:
+    tools = room.editor.session.tools
+    every = [(number, part) for number, spec in enumerate(room.draft.objects) for part in points(spec)]
+    tools.tool = "select"
+    for text, why, enough in (("Left", "Align needs two", 2), ("Across", "Spread needs three", 3)):
+        for count in (enough - 1, enough):
+            tools.selection = Selection((2, 2, 3, 3), frozenset(every[:count]))
+            room.editor.follow_parts()
+            button = next(each for each in room.editor.properties.widgets if getattr(each, "text", "") == text)
+            room.mouse(*button.centre, click=False)
+            assert (why in drawn(room.app)) == (count < enough)

@@ -1091,7 +1091,7 @@ def test_a_card_has_room_for_a_long_name_and_no_gold_where_there_is_none(driver:
 def test_a_pack_needs_no_author_but_is_asked_for_one(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
     screen = opened(driver)
     driver.choose("New pack...")
-    assert "may be empty" in drawn(driver.app)
+    assert "'Author'" in drawn(driver.app), "an empty one is a problem of the pack: nothing says it may be"
     typed(driver, "Walls")
     assert Pack(screen.path).index.author == ""
     assert driver.player.settings.name == ""
