@@ -7,6 +7,7 @@ import re
 import sqlite3
 from collections.abc import Callable, Iterable
 from contextlib import closing, suppress
+from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cache, partial
 from pathlib import Path
@@ -185,9 +186,9 @@ def _verified(path: Path) -> None:
 
 
 def _run(path: Path) -> None:
-    """A run as the TAS editor opens it: next to itself, and in all notations that can say it."""
+    """A run as the TAS editor opens it: beside the runs of its file, and in all notations that can say it."""
     opened = open_run(path, level=LEVEL)
-    runs_of_level(path, opened.recording)
+    runs_of_level(path, replace(opened.recording, file=""))
     if len(opened.track) <= LONGEST_RUN:
         if len(opened.track):
             write_replay(replay_of_track(opened.recording, opened.track))

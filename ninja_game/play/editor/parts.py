@@ -545,8 +545,8 @@ class ObjectList(EditorPart):
         self._state: tuple[object, ...] = ()
         hint = "A click selects it, with Shift too; what comes first is made first, and moves first"
         self.list = ListView((x + 2, y + 26, w - 6, h - 50), 15, self._draw_row, self._choose, empty="None", hint=hint)
-        self._find = _Find((x + 4, y + 3, w - 84, 18), "Find: drone left", "", lambda _: None)
-        self._find.hint = "Objects whose lines have all these words"
+        self._find = _Find((x + 4, y + 3, w - 84, 18), "Find", "", lambda _: None)
+        self._find.hint = "Objects whose lines have all these words, such as: drone left"
         moves = [
             Button((x + 2 + 52 * k, y + h - 22, 49, 19), text, partial(self._move, by), size=9, hint=hint)
             for k, (text, by, hint) in enumerate(_MOVES)
