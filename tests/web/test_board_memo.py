@@ -14,6 +14,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.files.tree import Tree
+from ninja_game.formats.pack.pars import Pars, write_pars
 from ninja_game.runs import archive
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Chunk
@@ -142,6 +143,17 @@ def test_pages_are_the_same_as_made_again(tmp_path: Path, levels: Path, runs: Pa
         shutil.rmtree(tmp_path / "again", ignore_errors=True)
         assert board(runs, levels, "--site", str(tmp_path / "again"), "--again") == said
         assert tree(tmp_path / "site") == tree(tmp_path / "again"), step
+
+
+def test_other_par_times_are_other_medals_on_all_pages(tmp_path: Path, levels: Path, runs: Path) -> None:
+    put(runs, "ann.txt", replay(author="Ann"))
+    with_medal = []
+    for exit_tick, medal in ((WALK_END, b'"medal author"'), (1, b'"medal bronze"')):
+        (levels / "pars.toml").write_text(write_pars({"00-0-level.txt": Pars(DIGEST[:16], "", exit_tick)}), "utf-8")
+        board(runs, levels, "--site", str(tmp_path / "site"))
+        with_medal.append([name for name, page in tree(tmp_path / "site").items() if medal in page])
+    assert with_medal[0] == with_medal[1]
+    assert f"board/levels/{DIGEST[:16]}-runs.html" in with_medal[0]
 
 
 def test_the_command_after_the_first_compares_nothing(

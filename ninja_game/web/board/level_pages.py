@@ -248,7 +248,7 @@ class LevelPages:
     def write_level(self, entry: Entry) -> None:
         """A level's page, the list of all its runs, and their pages and files."""
         digest, named, runs = entry.digest, entry.named, self.ranking.by_level.get(entry.digest, [])
-        rows: list[list[Any]] = [[self.stems[run.key], run.added, run.remark, run.near, run.tick] for run in runs]
+        rows: list[list[Any]] = [[self.stems[run.key], run.added, run.remark, run.near, run.medal, run.tick] for run in runs]
         rules = [[category.name, category.rank, category.when] for category in self.ranking.categories]
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
 
