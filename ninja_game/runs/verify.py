@@ -193,11 +193,16 @@ def with_demands(
         demanded.append(run_problem("other-episode"))
     unknown = (None, NOT_RUN) if demanded else ()
     for field, expected in STRICT.items() if strict else ():
-        value = getattr(verdict, field)
-        if value != expected and value not in unknown:
-            demanded.append(run_problem("not-strict", field=field, found=_as_json(value), expected=_as_json(expected)))
+        if getattr(verdict, field) not in (expected, *unknown):
+            demanded.append(not_strict(verdict, field))
     name = levels.get(verdict.level_digest, "")
     return replace(verdict, level_name=name, problems=verdict.problems + tuple(demanded))
+
+
+def not_strict(verdict: Verdict, field: str) -> RunProblem:
+    """The problem of a verdict whose value of this field is not the one of STRICT."""
+    found, expected = _as_json(getattr(verdict, field)), _as_json(STRICT[field])
+    return run_problem("not-strict", field=field, found=found, expected=expected)
 
 
 def _as_json(value: object) -> str:

@@ -23,7 +23,7 @@ from ninja_game.levels.findings import RunProblem, run_problem
 from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
-from ninja_game.runs.verify import NOT_RUN, Verdict
+from ninja_game.runs.verify import NOT_RUN, Verdict, not_strict
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, MOVES, fit_demo, with_press_bits
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
@@ -232,7 +232,8 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # a board has no such option
         return Judged(sent.chunk.first, "unreadable", why)
     # What a tool made needs no keyboard: it is marked.
-    marked = [each for each in result.problems if result.assisted and str(each).startswith("possible_by_keyboard")]
+    no_keyboard = not_strict(result, "possible_by_keyboard")
+    marked = [each for each in result.problems if result.assisted and each == no_keyboard]
     marks = [_worded(each, result, sent).partition(";")[0] for each in marked]
     problems = [_worded(problem, result, sent) for problem in result.problems if problem not in marked]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
@@ -254,14 +255,14 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
 
 def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
     """A problem in words for the sender of a run."""
-    if problem.code == "not-strict" and result.practice and str(problem).startswith("practice"):
+    if result.practice and problem == not_strict(result, "practice"):
         return f"it was {result.made}: runs with such help do not count"
-    if problem.code == "not-strict" and str(problem).startswith("complete"):
+    if problem == not_strict(result, "complete"):
         replay = sent.replay
         demo = fit_demo(replay.inputs, replay.demo_length or 0) if replay else parse_demo(sent.chunk.records[0].demo)
         held = f"it claims {demo.end} frames and holds {demo.end - demo.missing}"
         return f"the demo is cut off: {held}; `ninja-game convert FILE OUT --to replay` makes a run that claims no more"
-    if problem.code == "not-strict" and str(problem).startswith("possible_by_keyboard"):
+    if problem == not_strict(result, "possible_by_keyboard"):
         inputs = sent.inputs(result.ticks)
         odd = (keys != ours for keys, ours in zip(inputs, with_press_bits(inputs), strict=True))
         tick = next(compress(count(), odd))
