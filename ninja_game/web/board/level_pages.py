@@ -248,7 +248,9 @@ class LevelPages:
     def write_level(self, entry: Entry) -> None:
         """A level's page, the list of all its runs, and their pages and files."""
         digest, named, runs = entry.digest, entry.named, self.ranking.by_level.get(entry.digest, [])
-        rows: list[list[Any]] = [[self.stems[run.key], run.added, run.remark, run.near, run.medal, run.tick] for run in runs]
+        rows: list[list[Any]] = [
+            [self.stems[run.key], run.added, run.remark, run.near, run.medal, run.tick] for run in runs
+        ]
         rules = [[category.name, category.rank, category.when] for category in self.ranking.categories]
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
 
@@ -290,8 +292,7 @@ class LevelPages:
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
         merged: dict[Any, list[_Ranks]] = defaultdict(list)
         for each, table_ in tables.items():
-            far = [row for row in table_ if each[1].far(row.values[0], table_[0].values[0])]
-            rows = [row for row in table_ if row not in far][:FIRST]
+            far, rows = [row for row in table_ if row.far], [row for row in table_ if not row.far][:FIRST]
             ranks = _Ranks(each, rows, far, self.ranking.waiting(entry.digest, each, table_))
             merged[each[0], *((row.place, row.run.key) for row in rows)].append(ranks)
         remarks, shown, leaders = set[str](), list[Content](), dict[Leaderboard, Markup]()

@@ -349,7 +349,7 @@ class BoardPages(LevelPages):
     def _placed(self, digest: str, ladder: str) -> list[Ranked]:
         """The runs with a place in the first category of a ladder, except those far behind."""
         table = self.ranking.tables.get(digest, {}).get((ladder, self.main), [])
-        return [each for each in table if each.place and not self.main.far(each.values[0], table[0].values[0])]
+        return [each for each in table if each.place and not each.far]
 
     def _counts(self, digest: str) -> str:
         """The numbers of a level's runs and players, over all ladders and categories."""

@@ -26,13 +26,14 @@ WEEK = timedelta(days=7)
 class Ranked:
     """A run with its place and its numbers. Equal runs share a place; a near copy has 0.
 
-    ``behind``: by how much its first number is worse than the first run's.
+    ``behind``: by how much its first number is worse than the first run's; ``far``: as ``Category.far``.
     """
 
     place: int
     run: Run
     values: tuple[float, ...]
     behind: float
+    far: bool
 
 
 @dataclass(frozen=True)
@@ -99,7 +100,8 @@ class Ranking:
         for number, (near, values, run) in enumerate(best.values(), 1):
             shared = table and table[-1].values == values
             place = 0 if near else table[-1].place if shared else number
-            table.append(Ranked(place, run, values, values[0] - (table[0].values if table else values)[0]))
+            first = (table[0].values if table else values)[0]
+            table.append(Ranked(place, run, values, values[0] - first, category.far(values[0], first)))
         return table
 
     @cached_property
@@ -126,7 +128,8 @@ class Ranking:
         for run in self.by_level.get(level, ()):
             values, row = self.values(category, run), best.get(run.player)
             if run.near and run.ladder == ladder and values and row and values < row.values:
-                near_copies.append(Ranked(0, run, values, values[0] - table[0].values[0]))
+                first = table[0].values[0]
+                near_copies.append(Ranked(0, run, values, values[0] - first, category.far(values[0], first)))
         return near_copies
 
     def side_by_side(self, level: str, most: int) -> tuple[Category, list[Run]]:
@@ -201,7 +204,7 @@ class Ranking:
                         standing.levels += 1
                         if ranked.place:
                             standing.ranks.append(ranked.place)
-                            if not category.far(ranked.values[0], table[0].values[0]):
+                            if not ranked.far:
                                 standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
                         if ranked.run.medal:
                             standing.medals[ranked.run.medal] += 1
