@@ -289,6 +289,11 @@ RUN_COLOURS = tuple(map(pygame.Color, ("#0072b2", "#d55e00", "#009e73", "#cc79a7
 """Colours of several runs in turn, distinct for colour-blind people too."""
 
 
+def run_colour(number: int) -> pygame.Color:
+    """The colour of a run by its number, from 0; after the last colour they begin again."""
+    return RUN_COLOURS[number % len(RUN_COLOURS)]
+
+
 def mixed(a: pygame.Color, b: pygame.Color, share: float) -> pygame.Color:
     """A colour between two, ``share`` (0…1) of the way from ``a`` to ``b``.
 

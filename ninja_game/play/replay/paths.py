@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.ui.theme import RUN_COLOURS, Palette, Theme
+from ninja_game.ui.theme import Palette, Theme, run_colour
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 Path = tuple[str, NDArray[np.float64]]
@@ -29,7 +29,7 @@ def paths_picture(level: Level, paths: Sequence[Path], palette: Palette, width: 
     above = thumbnail(level, palette, width)
     theme = Theme(palette, Canvas((width, round(width * HEIGHT / WIDTH))))
     for number, (_, positions) in reversed([*enumerate(paths)]):  # the first on top
-        draw_path(above, theme.canvas, positions, RUN_COLOURS[number % len(RUN_COLOURS)])
+        draw_path(above, theme.canvas, positions, run_colour(number))
     picture = pygame.Surface((width, above.get_height() + theme.canvas.px(PLOT_HEIGHT)))
     picture.fill(palette.background)
     picture.blit(above, (0, 0))
@@ -70,7 +70,7 @@ def _draw_speeds(surface: pygame.Surface, theme: Theme, paths: Sequence[Path]) -
     theme.text(surface, "px/tick", 6, 5, colour=faint)
     x = _LEFT + 20
     for number, (name, _) in enumerate(paths):
-        colour = RUN_COLOURS[number % len(RUN_COLOURS)]
+        colour = run_colour(number)
         points = [at((tick + 1) / TICKS_PER_SECOND, speed) for tick, speed in enumerate(speeds[number].tolist())]
         if len(points) > 1:
             pygame.draw.lines(surface, colour, False, points, max(1, canvas.px(1)))

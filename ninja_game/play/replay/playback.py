@@ -17,7 +17,7 @@ from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import SaveState, Simulation
-from ninja_game.ui.theme import RUN_COLOURS, Palette, Theme
+from ninja_game.ui.theme import Palette, Theme, run_colour
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.view.sprites.drawing import is_near
 
@@ -193,7 +193,7 @@ def ghosts_of(runs: Sequence[Recording], numbers: Sequence[int] = (), *, alone: 
 
     ``numbers``: of their colours, such as those in a picture of the board; without them in their order.
     """
-    colours = [RUN_COLOURS[number % len(RUN_COLOURS)] for number in numbers or range(len(runs))]
+    colours = map(run_colour, numbers or range(len(runs)))
     return [
         Ghost(run.inputs, run.level, run.body, alone=alone, shade=colour, name=name)
         for run, colour, name in zip(runs, colours, names_of(runs), strict=True)

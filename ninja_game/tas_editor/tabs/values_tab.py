@@ -20,7 +20,7 @@ from ninja_game.tas.timeline import Watch, parse_watch
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row, what_is_wrong
 from ninja_game.ui.list_view import ListView
-from ninja_game.ui.theme import RUN_COLOURS, Area, Palette, Theme, inside
+from ninja_game.ui.theme import Area, Palette, Theme, inside, run_colour
 from ninja_game.ui.widgets import Button, Widget
 
 SHORTEST = 10.0  # least ticks shown
@@ -82,7 +82,7 @@ class TickRange:
 def colour_of(number: int, palette: Palette) -> pygame.Color:
     """The colour of a plot: lighter on dark panels, darker on light ones."""
     dark = palette.panel.hsla[2] < 50
-    return RUN_COLOURS[number % len(RUN_COLOURS)].lerp("white" if dark else "black", 0.4 if dark else 0.25)
+    return run_colour(number).lerp("white" if dark else "black", 0.4 if dark else 0.25)
 
 
 def draw_lane(

@@ -23,7 +23,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, aligned, run_splits, split_table, sum_of_best
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.ui.theme import RUN_COLOURS
+from ninja_game.ui.theme import run_colour
 from ninja_game.web.board.ranking import Leaderboard, Ranked, Ranking
 from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
 from ninja_game.web.board.runs import PLAYED, Key, Run
@@ -582,5 +582,5 @@ def swatch(number: int) -> Markup:
 
 
 def _colour(number: int) -> str:
-    ink = RUN_COLOURS[number % len(RUN_COLOURS)]
+    ink = run_colour(number)
     return f"#{ink.r:02x}{ink.g:02x}{ink.b:02x}"
