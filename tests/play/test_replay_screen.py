@@ -19,7 +19,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App
 from ninja_game.play.replay import playback
-from ninja_game.play.replay.film import Film, write_film
+from ninja_game.play.replay.film import Film, film_pictures, write_film
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.replay.screen import SHOWN_AFTER_END, SPEEDS, ReplayScreen
 from ninja_game.runs import save_states
@@ -311,6 +311,9 @@ def test_ghosts_have_names_and_colours_and_are_in_the_film(monkeypatch: pytest.M
         while screen.export is not None:
             frames(app, 1)
         assert made[0].ghosts == (*others,)
+        shown = next(film_pictures(made[0]))
+        pixels = {tuple(shown.get_at((x, y))) for x in range(shown.width) for y in range(shown.height)}
+        assert {tuple(ghost.shade) for ghost in screen.ghosts if ghost.shade} <= pixels
         assert "-ann-cy-1.gif" in app.notice
 
 

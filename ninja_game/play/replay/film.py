@@ -54,9 +54,9 @@ class Film:
     """What a film shows: a run from ``first`` ticks to ``last`` (None: to its end and a second more).
 
     ``size``: px of a run's picture. ``speed``: 1 is that of the game. ``ghosts``: runs on the same level in the same
-    picture; ``beside``: up to three more runs, each in a picture of its own. ``keys``, ``splits``: show the keys that
-    are down; show time and splits, with ``gold`` those of gold too, and by how many ticks other runs are later.
-    ``known``: its moments, if they are known already.
+    picture, ``colours``: their numbers (``run_colour``), if not in order; ``beside``: up to three more runs, each in a
+    picture of its own. ``keys``, ``splits``: show the keys that are down; show time and splits, with ``gold`` those of
+    gold too, and by how many ticks other runs are later. ``known``: its moments, if they are known already.
 
     Raises ArgumentError for a section that is empty or begins after the end, and for one without ``last`` in which the
     runs have more than MOST_PICTURES together.
@@ -67,6 +67,7 @@ class Film:
     speed: float = 1.0
     settings: Settings | None = None
     ghosts: tuple[Recording, ...] = ()
+    colours: tuple[int, ...] = ()
     keys: bool = False
     first: int = 0
     last: int | None = None
@@ -137,9 +138,6 @@ class _Panel:
         self.letters = min(MOST_LETTERS, LETTERS / context.canvas.scale)
         self.ghosts: list[Ghost] = []
 
-    def follow(self, runs: Sequence[Recording]) -> None:
-        self.view.ghosts = self.ghosts = ghosts_of(runs)
-
     def step(self) -> None:
         self.playback.step()
         self.view.on_tick()
@@ -193,7 +191,7 @@ def film_pictures(film: Film) -> Iterator[pygame.Surface]:
         first, *others = [run_splits(run, events, memory="auto") for run in (*runs, *film.ghosts)]
         splits = [split_texts(first, others), *(split_texts(other, [first]) for other in others[: len(film.beside)])]
     panels = [_Panel(film, *pair) for pair in zip(runs, splits, strict=True)]
-    panels[0].follow(film.ghosts)
+    panels[0].view.ghosts = panels[0].ghosts = ghosts_of(film.ghosts, film.colours)
     surface = pygame.Surface(film.whole_size)
     places = [surface.subsurface((number % 2 * w, number // 2 * h, w, h)) for number in range(len(runs))]
     for tick in range(moments.stop):
@@ -226,7 +224,8 @@ def write_film(
     try:
         if path.suffix == ".gif":
             palette = palette_named((first.settings or Settings()).palette)
-            write_gif(pictures(), count, path, first.whole_size, first.speed, palette, len(first.ghosts))
+            numbers = first.colours or range(len(first.ghosts))
+            write_gif(pictures(), count, path, first.whole_size, first.speed, palette, numbers)
         elif path.suffix in _VIDEO:
             write_video(pictures(), path, first.whole_size, first.speed)
         elif path.suffix:
@@ -258,11 +257,11 @@ def write_gif(
     size: tuple[int, int],
     speed: float,
     palette: Palette,
-    ghosts: int = 0,
+    ghosts: Sequence[int] = (),
 ) -> None:
     """Write ``length`` pictures of ``size`` px, one per tick, as a GIF with the colours of a palette and of ghosts.
 
-    Raises OSError, and NinjaGameError in a page, which has no library for GIFs.
+    ``ghosts``: numbers of their colours. Raises OSError, and NinjaGameError in a page, which has no library for GIFs.
     """
     require_desktop()
     from PIL import Image
@@ -327,7 +326,7 @@ def write_folder(pictures: Iterator[pygame.Surface], path: Path) -> None:
         folder.write(f"{number:05d}.png", png_of(picture))
 
 
-def film_colours(palette: Palette, ghosts: int = 0) -> list[int]:
+def film_colours(palette: Palette, ghosts: Sequence[int] = ()) -> list[int]:
     """The 256 colours of a film, as red, green, blue, …: those of palette and ghosts, and blends for edges.
 
     They are the same in every picture, so that nothing flickers.
@@ -336,7 +335,8 @@ def film_colours(palette: Palette, ghosts: int = 0) -> list[int]:
     colours = [*roles]
     for share in (0.33, 0.66):
         colours += [mixed(colour, palette.background, share) for colour in roles]
-    colours += [mixed(colour, palette.background, share) for colour in RUN_COLOURS[:ghosts] for share in (0.0, 0.55)]
+    shades = [RUN_COLOURS[number] for number in sorted({number % len(RUN_COLOURS) for number in ghosts})]
+    colours += [mixed(colour, palette.background, share) for colour in shades for share in (0.0, 0.55)]
     colours += [mixed(colour, palette.outline, 0.5) for colour in roles]
     colours += [mixed(palette.tile, palette.background, k / 12) for k in range(1, 12)]
     colours += [mixed(palette.tile, palette.on_tile, k / 6) for k in range(1, 6)]

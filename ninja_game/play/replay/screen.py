@@ -90,8 +90,8 @@ class ReplayScreen(Screen):
         self.view.overlays = self.overlays
         both = zip(self.runs, self._colours, strict=True)
         others = [each for each in both if each[0] is not run and each[0].level == run.level][:MOST_GHOSTS]
-        self._beside = [other for other, _ in others]
-        self.view.ghosts = self.ghosts = ghosts_of(self._beside, [colour for _, colour in others], alone=False)
+        self._beside, self._shades = tuple(other for other, _ in others), tuple(colour for _, colour in others)
+        self.view.ghosts = self.ghosts = ghosts_of(self._beside, self._shades, alone=False)
         self.paused = False
         self.still_ms = _STILL_MS
         self.export: FilmJob | None = None
@@ -260,8 +260,9 @@ class ReplayScreen(Screen):
             from ninja_game.play.replay.film import Film, FilmJob  # few replays are filmed
 
             settings = self.app.settings.changed(palette=self.theme.palette.base.name)
-            ghosts = tuple(self._beside) if settings.show_ghost else ()
-            self.export = FilmJob(Film(self.run, settings=settings, ghosts=ghosts), self.app.player.folder)
+            ghosts, colours = (self._beside, self._shades) if settings.show_ghost else ((), ())
+            film = Film(self.run, settings=settings, ghosts=ghosts, colours=colours)
+            self.export = FilmJob(film, self.app.player.folder)
 
     def copy_link(self) -> None:
         copy_link(self.app, lambda: replay_link([_with_claims(self.run)]), title=self.run.title)
