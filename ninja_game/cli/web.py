@@ -281,9 +281,9 @@ def _ranking(
     # With many runs, all of which stay in memory, garbage collection took a third of the time.
     gc.set_threshold(20_000)
     now = datetime.now(UTC)
-    memo = memo_of("runs", folder, folder, again=again)
-    known_before = memo_of("runs", folder, folder, again=False) if again else memo
-    last, kept, ruled = (_remembered(known_before, key) for key in (LAST_LEVELS, LAST_LEDGER, LAST_RULES))
+    memo = memo_of("runs", folder, folder, again=False)
+    last, kept, ruled = (_remembered(memo, key) for key in (LAST_LEVELS, LAST_LEDGER, LAST_RULES))
+    memo.again = again  # of the last board no results are known, only its levels, ledger and rules
     if same:
         levels, rules = levels or last, rules or ruled
     if not decide:
