@@ -19,7 +19,7 @@ from ninja_game.runs import archive
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.workers import WorkerLostError
-from ninja_game.web.board import collect, copies, judge
+from ninja_game.web.board import collect, copies, judge, runs as board_runs
 from ninja_game.web.board.collect import RunFolder, SentFile
 from ninja_game.web.pages import memo
 from ninja_game.web.pages.memo import Memo
@@ -178,6 +178,20 @@ def test_the_command_after_the_first_compares_nothing(
     put(runs, "e.txt", slow_walk(42, author="Eve"))
     board(runs, levels, "--json", str(data), "--site", str(site))
     assert (compared.call_count, simulated.call_count) == (5, 9), "and the earlier ones are what it is compared with"
+
+
+def test_the_path_of_a_run_with_splits_is_not_simulated_again(
+    tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its own page shows the path of the level's page."""
+    put(runs, "ann.txt", replay(author="Ann"))
+    put(runs, "bea.txt", slow_walk(author="Bea"))
+    board(runs, levels, "--site", str(tmp_path / "first"))
+    simulated = Mock(side_effect=board_runs.run_level)
+    monkeypatch.setattr(board_runs, "run_level", simulated)
+    board(runs, levels, "--site", str(tmp_path / "second"))
+    assert tree(tmp_path / "second") == tree(tmp_path / "first")
+    assert simulated.call_count == 0
 
 
 def test_a_page_that_somebody_changed_is_written_again(tmp_path: Path, levels: Path, runs: Path) -> None:

@@ -381,10 +381,9 @@ class LevelPages:
         ghosts = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
         by_time = sorted(zip(names, ghosts, strict=True), key=lambda each: each[1].ticks)
         rows, kept = _split_rows([ghost for _, ghost in by_time]), runs[0].folder.drawn
-        ways = [
-            (name, kept.get(run.key) or path_data(ghost.positions))
-            for run, name, ghost in zip(runs, names, ghosts, strict=True)
-        ]
+        for run, ghost in zip(runs, ghosts, strict=True):
+            kept[run.key] = kept.get(run.key) or path_data(ghost.positions)
+        ways = [(name, run.path) for run, name in zip(runs, names, strict=True)]
         drawn = paths(UP + picture_name(runs[0].level), ways, [(row.split.x, row.split.y) for row in rows])
         said = f"Watch the first {len(runs)} together"
         together = tag("p", f"{category.name}: ", self.watch_link(runs, UP, said))
