@@ -33,6 +33,7 @@ from ninja_game.web.pages.frame import (
     Content,
     Markup,
     Pages,
+    css_colour,
     joined,
     on_this_page,
     page,
@@ -109,15 +110,13 @@ class LevelPages:
     of the text on every page.
     """
 
-    def __init__(
-        self, out: Path, ranking: Ranking, game: str = GAME, memo: Memo | None = None, *, address: str = ""
-    ) -> None:
+    def __init__(self, out: Path, ranking: Ranking, memo: Memo | None = None, *, address: str = "") -> None:
         self.pages = Pages(out, BOARD, memo)
         self.ranking = ranking
         self.entries = ranking.shown.entries
         self.leaderboard_name = ranking.leaderboard_name
         self.main = ranking.categories[0]
-        self.game = f"../{game}"
+        self.game = f"../{GAME}"
         self.site = address and f"{address}{BOARD}/"
         assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
         others = [link for link in LINKS[2:] if link != EPISODES or ranking.shown.levels.episodes]
@@ -563,7 +562,7 @@ def paths(picture: str, runs: Sequence[tuple[str, str]], places: Sequence[tuple[
     """
     image = tag("image", href=picture, width=PICTURE_WIDTH, height=PICTURE_HEIGHT)
     lines = [
-        tag("path", tag("title", name), d=way, class_="way", stroke=_colour(number))
+        tag("path", tag("title", name), d=way, class_="way", stroke=css_colour(run_colour(number)))
         for number, (name, way) in enumerate(runs)
     ]
     label = f"The level with the paths of {', '.join(name for name, _ in runs)}"
@@ -576,10 +575,5 @@ def paths(picture: str, runs: Sequence[tuple[str, str]], places: Sequence[tuple[
 
 
 def swatch(number: int) -> Markup:
-    line = tag("path", d="M1 7H21", stroke=_colour(number), class_="way")
+    line = tag("path", d="M1 7H21", stroke=css_colour(run_colour(number)), class_="way")
     return tag("svg", line, viewBox="0 0 22 14", width="22", height="14", aria_hidden="true")
-
-
-def _colour(number: int) -> str:
-    ink = run_colour(number)
-    return f"#{ink.r:02x}{ink.g:02x}{ink.b:02x}"

@@ -92,8 +92,7 @@ EPISODE_HEADS = ("Place", "Player", "Sum", "Score", "Levels", "Watch")
 class BoardPages(LevelPages):
     """Writes the pages of a ranking into ``out/board/``, and its runs into ``out/replays/``.
 
-    ``game``: name of the page with the game in ``out``; ``memo``: of earlier pages in ``out``. Raises FileError if
-    ``out/board`` holds other files.
+    ``memo``: of earlier pages in ``out``. Raises FileError if ``out/board`` holds other files.
     """
 
     def write(self) -> None:

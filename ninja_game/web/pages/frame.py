@@ -9,6 +9,8 @@ from itertools import compress, repeat
 from pathlib import Path
 from typing import TypeAlias
 
+from pygame import Color
+
 from ninja_game.errors import FileError
 from ninja_game.files.reading import stamp_of
 from ninja_game.files.shown_text import shown_text
@@ -248,7 +250,11 @@ def _root(palette: Palette) -> str:
     inks["frame"] = mixed(palette.tile, palette.outline, _FRAME)
     candidates = palette.background, palette.text, palette.on_tile
     inks["on-accent"] = max(candidates, key=lambda ink: abs(sum(ink[:3]) - sum(palette.accent[:3])))
-    return f":root {{ {' '.join(f'--{role}: #{ink.r:02x}{ink.g:02x}{ink.b:02x};' for role, ink in inks.items())} }}"
+    return f":root {{ {' '.join(f'--{role}: {css_colour(ink)};' for role, ink in inks.items())} }}"
+
+
+def css_colour(ink: Color) -> str:
+    return f"#{ink.r:02x}{ink.g:02x}{ink.b:02x}"
 
 
 def definitions(pairs: Iterable[tuple[str, Content]]) -> Markup:

@@ -89,12 +89,12 @@ def picture_name(digest: str) -> str:
     return f"pictures/{digest[:16]}.png"
 
 
-def picture(level: Level, width: int = PICTURE_WIDTH) -> bytes:
+def picture(level: Level) -> bytes:
     """The level as a PNG, as the game draws it, with reduced colours for a small file."""
     from PIL import Image
 
     _keep_freed_memory()
-    surface = thumbnail(level, CLASSIC, width)
+    surface = thumbnail(level, CLASSIC, PICTURE_WIDTH)
     image = Image.frombytes("RGB", surface.get_size(), pygame.image.tobytes(surface, "RGB"))
     out = BytesIO()
     image.quantize(128, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(out, "png")
@@ -283,17 +283,7 @@ def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Pa
     links = [(f"../{address}", title) for address, title in (frame.NAVIGATION if whole else [(frame.GAME, "Play")])]
     if (out / BOARD / "index.html").is_file():
         links.append((f"../{BOARD}/index.html", "Board"))
-    write_levels(pages, shown, f"../{frame.GAME}", "index.html", links, address and f"{address}{FOLDER}/")
-    return pages.folder / "index.html"
-
-
-def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, links: Links, site: str) -> None:
-    """Write pictures, level pages and their list into a folder of pages.
-
-    ``game``: address of the page with the game, relative to the list; ``name``: file of the list; ``links``: at the top
-    of every page, relative to the list; ``site``: the address of the folder, if it is known.
-    """
-    near = (*links, (name, "Levels"))
+    site, game, near = address and f"{address}{FOLDER}/", f"../{frame.GAME}", (*links, ("index.html", "Levels"))
     deeper = [(f"../{address}", title) for address, title in near]
     for digest, entry in shown.entries.items():
         pages.write(picture_name(digest), picture(entry.named.level))
@@ -307,10 +297,11 @@ def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, lin
             run = run_page(entry, stem, title, facts, pages.folder.name, game, near, site)
             pages.write(f"{stem}.html", run, replay=True)
         pages.write(page_name(digest), level_page(entry, certificates, f"../{game}", deeper, site=site))
-    pages.write(name, frame.page("Levels", *_list(shown), links=links))
+    pages.write("index.html", frame.page("Levels", *_list(shown), links=links))
     # Last: if the disk is full, the earlier pages are still complete.
     pages.clear("levels")
     pages.clear("pictures")
+    return pages.folder / "index.html"
 
 
 def _list(shown: PublishedLevels) -> list[Content]:
