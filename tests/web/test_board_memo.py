@@ -18,6 +18,7 @@ from ninja_game.formats.pack.pars import Pars, write_pars
 from ninja_game.runs import archive
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Chunk
+from ninja_game.runs.run import run_level
 from ninja_game.runs.workers import WorkerLostError
 from ninja_game.web.board import collect, copies, judge, runs as board_runs
 from ninja_game.web.board.collect import RunFolder, SentFile
@@ -187,7 +188,7 @@ def test_the_path_of_a_run_with_splits_is_not_simulated_again(
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
     board(runs, levels, "--site", str(tmp_path / "first"))
-    simulated = Mock(side_effect=board_runs.run_level)
+    simulated = Mock(side_effect=run_level)
     monkeypatch.setattr(board_runs, "run_level", simulated)
     board(runs, levels, "--site", str(tmp_path / "second"))
     assert tree(tmp_path / "second") == tree(tmp_path / "first")
