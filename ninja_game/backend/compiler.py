@@ -43,7 +43,7 @@ class Compiler:
     ) -> None:
         jit: Any = numba.njit
         self._checked = checked
-        options: dict[str, Any] = {**OPTIONS, "_nrt": checked, "boundscheck": checked}
+        options: dict[str, Any] = {**OPTIONS, "boundscheck": checked}
         if pipeline is not None:
             options["pipeline_class"] = pipeline
         self._inner = jit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)

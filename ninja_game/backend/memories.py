@@ -145,9 +145,9 @@ def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool =
     return little or not ready
 
 
-def warm_up(*, checked: bool = False) -> bool:
+def warm_up() -> bool:
     """Have a process in the background compile the kernels of a run, where they are still to be compiled."""
-    if missing := compiled_available() and not _kernels_ready(checked=checked):
+    if missing := compiled_available() and not _kernels_ready(checked=False):
         from ninja_game.backend import background_compiler
 
         background_compiler.start()

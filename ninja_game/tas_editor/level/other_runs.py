@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -221,8 +222,8 @@ class RunFiles(MenuScreen):
 
     def open_file(self, text: str) -> None:
         """Show the runs of a file or a link, or the contents of a folder; a path may be relative to that shown."""
-        path = Path(text) if is_link(text) else self.folder / Path(text).expanduser()
-        if not is_link(path) and path.is_dir():
+        path = Path(text if is_link(text) else self.folder / os.path.expanduser(text))  # noqa: PTH111 - fails on none
+        if not is_link(path) and os.path.isdir(path):  # noqa: PTH112 - likewise
             self.folder, self.list.index, self.redraw = path.resolve(), 0, True
             self._look()
         elif self.others.editor.attempt(lambda: self.others.open(runs_of_level(path, self._about))):

@@ -580,11 +580,9 @@ class SearchTab(Tab):
     # --- picture ---
 
     def render_key(self) -> tuple[object, ...]:
-        results, state = self.results, tuple[object, ...]()
+        results, state = self.results, tuple[object, ...]((len(self.earlier), self.editor.track))
         if results:
-            track = self.editor.track
-            state = (results.status, results.running, results.behind, track, self.pieces, *map(id, self.found))
-        state += (len(self.earlier), self.editor.track)
+            state += (results.status, results.running, results.behind, self.pieces, *map(id, self.found))
         wanted = self.order, self.rest, self.goal.text
         return self.span, self._why, self.editor.selection, *wanted, self.list.over, state
 

@@ -9,10 +9,10 @@ from typing import ClassVar
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.play.workspace import Commands
+from ninja_game.play.workspace import Commands, key_text
 from ninja_game.search.formula.language import FormulaError
+from ninja_game.tas_editor.commands import TABLE
 from ninja_game.tas_editor.editor import OtherRun, TasEditor, TasPart
-from ninja_game.ui.input.bindings import ACTIONS
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
@@ -96,8 +96,8 @@ class TabStrip(TasPart):
             for tab in tabs
         ]
         switches = [
-            LitButton(key, partial(overlays.toggle, name), partial(self._is_on, name), hint=f"{label}    {key}")
-            for name, label, key in ((each, ACTIONS[each].label, ACTIONS[each].keys[0]) for each in OVERLAY_ACTIONS)
+            LitButton(key, partial(overlays.toggle, name), partial(self._is_on, name), hint=TABLE.hint(name))
+            for name, key in ((each, key_text(TABLE.by_name[each])) for each in OVERLAY_ACTIONS)
         ]
         self.widgets = [*names, *switches]
 

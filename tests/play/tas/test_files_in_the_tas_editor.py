@@ -133,9 +133,10 @@ def test_it_is_saved_under_another_name_and_asks_before_it_replaces(at: TasDrive
     at.chord("s", CTRL)
     assert "nother program has changed" in at.top().title  # type: ignore[attr-defined]
     at.choose("Save under another name")
-    at.fill("nowhere/b")
-    assert "there is no folder" in at.app.notice
-    at.chord("s", CTRL, SHIFT)
+    for no_folder in ("nowhere", "~nobody there", "long " * 55):
+        at.fill(f"{no_folder}/b")
+        assert "there is no folder" in at.app.notice
+        at.chord("s", CTRL, SHIFT)
     at.fill(str(path.with_name("a:b.replay.txt")))
     assert at.session.file.path == path.with_name("a-b.replay.txt")
     at.chord("s", CTRL)

@@ -382,7 +382,7 @@ def test_other_runs_come_from_any_file(at: TasDriver, tmp_path: Path) -> None:
     at.choose("From a file ...")
     files_shown = at.shown(RunFiles)
     assert [path.name for path in files_shown.paths[1:]] == ["player", "other.replay.txt"], "not the run itself"
-    for name in ("no such file", "notes.txt", "elsewhere.replay.txt"):
+    for name in ("no such file", "~nobody there/file", "long " * 60, "notes.txt", "elsewhere.replay.txt"):
         files_shown.open_file(name)
         assert at.top() is files_shown
         assert at.app.notice
