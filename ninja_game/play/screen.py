@@ -40,7 +40,7 @@ class BaseScreen:
 
     @property
     def notice_room(self) -> tuple[float, float]:
-        """The top and the bottom of the area where notices may lie, logical px."""
+        """The left and the right end of the area where notices may lie, logical px."""
         canvas = self.theme.canvas
         return canvas.logical((0, 0))[0], canvas.logical(canvas.window)[0]
 

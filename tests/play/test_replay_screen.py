@@ -8,7 +8,6 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from random import Random
-from typing import Any
 
 import pygame
 import pytest
@@ -26,7 +25,8 @@ from ninja_game.runs import save_states
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
 from ninja_game.ui.input.bindings import InputEvent
-from ninja_game.ui.theme import RUN_COLOURS, Theme
+from ninja_game.ui.theme import RUN_COLOURS
+from tests.support.draw_log import noted_texts
 from tests.support.heavy import heavy_level
 from tests.support.own_pack import PACK
 from tests.support.page_scenes import settle
@@ -174,13 +174,7 @@ def test_home_and_end_lead_to_the_start_and_the_outcome() -> None:
 def test_count_of_ticks_stops_at_the_end_of_the_recording(monkeypatch: pytest.MonkeyPatch) -> None:
     with viewer(RUN) as (app, screen):
         screen.seek(screen.end + 20)
-        written: list[str] = []
-
-        def note(_: Theme, surface: pygame.Surface, text: str, *__: object, **___: object) -> pygame.Rect:
-            written.append(text)
-            return surface.get_rect()
-
-        monkeypatch.setattr(Theme, "text", note)
+        written = noted_texts(monkeypatch)
         screen.draw(app.surface)
         assert any(text.endswith(f"tick {screen.end}") for text in written)
 
@@ -285,16 +279,9 @@ def test_ghosts_have_names_and_colours_and_are_in_the_film(monkeypatch: pytest.M
         for numbers, shades in (([3, 2, 5], [2, 5]), ([3], [1, 2])):  # one for each run, else in their order
             coloured = ReplayScreen(app, [RUN, *others], numbers)
             assert [ghost.shade for ghost in coloured.ghosts] == [RUN_COLOURS[number] for number in shades]
-        drawn: list[str] = []
-        write = Theme.text
-
-        def noted(theme: Theme, surface: pygame.Surface, text: str, *rest: Any, **more: Any) -> pygame.Rect:
-            drawn.append(text)
-            return write(theme, surface, text, *rest, **more)
-
-        monkeypatch.setattr(Theme, "text", noted)
+        drawn = noted_texts(monkeypatch)
         frames(app, 2)
-        assert {"Ann", "Cy"} <= set(drawn)
+        assert {"Ann", "Cy"} <= drawn.keys()
         app.change_settings(show_ghost=False)
         drawn.clear()
         frames(app, 2)
@@ -332,15 +319,7 @@ def test_ghosts_catch_up_after_a_leap_in_turns() -> None:
 
 def test_each_run_has_its_name_and_its_colour_whichever_is_watched(monkeypatch: pytest.MonkeyPatch) -> None:
     """The names of ghosts at one place stand one above the other."""
-    written: dict[str, pygame.Rect] = {}
-    plain, names = Theme.text, ("Ann", "Bea", "Cid", "Dee")
-
-    def noted(self: Theme, at: pygame.Surface | None, text: str, *rest: float, **how: Any) -> pygame.Rect:
-        place = plain(self, at, text, *rest, **how)
-        written.update({text: place} if at else {})
-        return place
-
-    monkeypatch.setattr(Theme, "text", noted)
+    written, names = noted_texts(monkeypatch), ("Ann", "Bea", "Cid", "Dee")
     with viewer(*(recording(name, heavy_level(3), bytes(50)) for name in names)) as (app, screen):
         for watched, others in ((0, (1, 2, 3)), (1, (0, 2, 3))):
             screen.show(watched)
@@ -352,7 +331,7 @@ def test_each_run_has_its_name_and_its_colour_whichever_is_watched(monkeypatch: 
         app.change_settings(show_ghost=False)
         written.clear()
         frames(app, 2)
-        assert not {"Ann", "Cid", "Dee"} & {*written}
+        assert not {"Ann", "Cid", "Dee"} & written.keys()
 
 
 def test_a_run_that_costs_too_much_is_shown_as_far_as_it_may_go(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,13 +14,14 @@ from typing import Any, ClassVar
 from unittest.mock import patch
 
 import pygame
+import pytest
 
 from ninja_game.play.app import App
 from ninja_game.play.editor.view import EditorView, Overlay
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.lettering import Lettering
-from ninja_game.ui.theme import ROLES, Palette
+from ninja_game.ui.theme import ROLES, Palette, Theme
 from ninja_game.view.sprites.backdrop import Backdrop
 from ninja_game.view.sprites.drawing import DrawTarget, SpriteKey
 
@@ -193,3 +194,17 @@ def drawn(app: App) -> str:
         app.stack.redraw_all()
         app.draw()
     return "\n".join(lines)
+
+
+def noted_texts(monkeypatch: pytest.MonkeyPatch) -> dict[str, pygame.Rect]:
+    """Every text that is drawn from now on, and its last place on the window, px; unlike ``drawn``, redraws nothing."""
+    places: dict[str, pygame.Rect] = {}
+    write = Theme.text
+
+    def noted(theme: Theme, surface: pygame.Surface | None, text: str, *rest: Any, **more: Any) -> pygame.Rect:
+        place = write(theme, surface, text, *rest, **more)
+        places.update({text: place} if surface else {})
+        return place
+
+    monkeypatch.setattr(Theme, "text", noted)
+    return places

@@ -215,12 +215,12 @@ class RayCast(Figure):
         return pairs
 
     def numbers(self) -> list[tuple[str, str]]:
-        visited_slots, stopped, (x, y) = self.asked()
+        tested, stopped, (x, y) = self.asked()
         ray = self.from_x, self.from_y, self.x, self.y
         inside, missed = self.met()
         return [
             ("cells visited", str(len(self.visited))),
-            ("shapes asked", str(len(visited_slots))),
+            ("shapes asked", str(len(tested))),
             ("stopped at", f"{x:.1f}, {y:.1f} px" if stopped else "nothing: it leaves the grid"),
             ("sees the ninja", "yes" if sees(self.tiles, self.world, *ray)[0] else "no"),
             ("gold met in those cells", str(len(inside))),
@@ -229,9 +229,9 @@ class RayCast(Figure):
 
     def draw(self, sheet: Sheet) -> None:
         p = sheet.palette
-        visited_slots, stopped, end = self.asked()
+        tested, stopped, end = self.asked()
         for number, cell in enumerate(self.visited, 1):
-            sheet.shade(cell, p.accent if cell in visited_slots else p.good, 80)
+            sheet.shade(cell, p.accent if cell in tested else p.good, 80)
             sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 8, size=8, colour=p.faint)
         sheet.tiles(self.tiles)
         sheet.grid()

@@ -243,14 +243,14 @@ class FiveCells(Figure):
                 self.found.append((a, b))
 
     def numbers(self) -> list[tuple[str, str]]:
-        numbers, count = set(self.found), self.count
+        pairs, count = set(self.found), self.count
         return [
             ("objects", str(count)),
             ("tests so far", f"{len(self.tested)}{', done' if self.done else ''}"),
             ("tests of all pairs", f"{count * (count - 1) // 2} (n x n: {count * count})"),
-            ("pairs found", f"{len(numbers)} of {len(self.truth)}"),
-            ("found twice", str(len(self.found) - len(numbers))),
-            ("missed", str(len(self.truth - numbers)) if self.done else "not done yet"),
+            ("pairs found", f"{len(pairs)} of {len(self.truth)}"),
+            ("found twice", str(len(self.found) - len(pairs))),
+            ("missed", str(len(self.truth - pairs)) if self.done else "not done yet"),
         ]
 
     def draw(self, sheet: Sheet) -> None:

@@ -68,7 +68,7 @@ def followed(shown: float, true: float) -> float:
 
 
 def things_at_start(level: Level, world: World, texts: Iterable[str], inputs: bytes) -> Things:
-    """The things that a level's texts name at its start, and the author's route."""
+    """What a level's texts should not cover: all things at its start, and the author's route."""
     places = list(things_in(world, tagged=bool(arrow_targets(texts))))
     if inputs:
         run = Simulation(level)
@@ -109,14 +109,15 @@ class LevelPlay:
         self.attempt = Attempt(
             context.level, body=context.body, lifetime=context.lifetime, practice_mode=context.practice_mode
         )
-        level, inputs = context.beginning() if context.messages() else (context.level, b"")
+        messages = context.messages()
+        level, inputs = context.beginning() if messages else (context.level, b"")
         world = self.attempt.simulation.world if level == context.level else Simulation(level).world
-        self.things = things_at_start(level, world, [message.text for message in context.messages()], inputs)
+        self.things = things_at_start(level, world, [message.text for message in messages], inputs)
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
-        self.messages = MessageQueue(context.messages(), helps=context.shows_hints)
+        self.messages = MessageQueue(messages, helps=context.shows_hints)
         self.shown_lifetime = float(self.attempt.lifetime)
         self.ghosts: list[Ghost] = []
         self.tries: deque[bytes] = deque(maxlen=MOST_TRIES)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from math import atan2, pi
 
+from ninja_game.formats.ascii.places import Point
 from ninja_game.sim import kinds
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
@@ -21,8 +22,6 @@ _JUMP = 30.0  # px per tick; an object that moved farther was relocated
 _EYE_TURN = 0.66
 """Share of the remaining angle that a drone's eye turns in a tick (0.3 a picture at the classic 120 a second)."""
 _DIRECTIONS = (0.0, pi / 2, pi, -pi / 2)
-
-Place = tuple[float, float]
 
 
 def state_of(world: World, o: Object) -> tuple[int, int, int]:
@@ -57,7 +56,7 @@ class ObjectAnimation:
             for slot in self.moving_slots
             if world.objects[slot].kind == kinds.DRONE
         }
-        self.trails: dict[int, list[Place]] = {}
+        self.trails: dict[int, list[Point]] = {}
         n = world.ninja
         self.ninja_now = self.ninja_before = (n.x, n.y)
 
@@ -99,7 +98,7 @@ class ObjectAnimation:
         if trail and (o.routine != LAUNCHER_FLIGHT or len(trail) > 9):
             del trail[0]
 
-    def place(self, slot: int, fraction: float) -> Place:
+    def place(self, slot: int, fraction: float) -> Point:
         """The drawn place of an object, ``fraction`` of a tick after the last but one."""
         now, before = self.now[slot], self.before[slot]
         if now == before:
@@ -109,7 +108,7 @@ class ObjectAnimation:
             return now
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 
-    def ninja_place(self, fraction: float) -> Place:
+    def ninja_place(self, fraction: float) -> Point:
         (bx, by), (x, y) = self.ninja_before, self.ninja_now
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 from time import thread_time
-from typing import Any
 from unittest.mock import patch
 
 import pygame
@@ -41,9 +40,8 @@ from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import Choice, Label
-from tests.support.draw_log import drawn
+from tests.support.draw_log import drawn, noted_texts
 from tests.support.level_maker import ROOM, Maker
 from tests.support.waiting import LONGEST
 
@@ -611,14 +609,7 @@ def test_the_list_of_objects_finds_selects_and_orders_them_by_clicks(room: Maker
 
 
 def test_the_palette_says_what_is_in_hand_or_under_the_mouse(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
-    said: list[str] = []
-    text = Theme.text
-
-    def noted(theme: Theme, surface: pygame.Surface, words: str, *where: float, **how: Any) -> pygame.Rect:
-        said.append(words)
-        return text(theme, surface, words, *where, **how)
-
-    monkeypatch.setattr(Theme, "text", noted)
+    said = noted_texts(monkeypatch)
     room.press("4", "s")
     assert "Hollow curve lower right: 4 S" in said
     gold = next(area for what, area in room.editor.palette.places() if getattr(what, "name", "") == "gold")

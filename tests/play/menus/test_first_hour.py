@@ -158,58 +158,58 @@ def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -
 
 def test_each_text_has_its_moment(driver: MenuDriver) -> None:
     says = parse_messages("start: go | switch: open | gold: gold | death 2: wait")
-    sayings = MessageQueue(says)
+    messages = MessageQueue(says)
     simulation = Simulation(short_level(gold=1))
-    seen = [sayings.text]
+    seen = [messages.text]
     for _ in range(60):
         simulation.step_keys(2)
-        if sayings.on_tick(simulation.world):
-            seen.append(sayings.text)
+        if messages.on_tick(simulation.world):
+            seen.append(messages.text)
     assert seen in (["go", "gold", "open"], ["go", "open", "gold"])
     for _ in range(START_TICKS + SHOWN_TICKS):
-        sayings.on_tick(simulation.world)
-    assert sayings.text == ""
-    sayings.at_start()
-    assert sayings.text == "", "the switch was touched: the start needs no words any more"
-    sayings.on_death()
-    sayings.on_death()
-    sayings.at_start()
-    assert sayings.text == "wait"
+        messages.on_tick(simulation.world)
+    assert messages.text == ""
+    messages.at_start()
+    assert messages.text == "", "the switch was touched: the start needs no words any more"
+    messages.on_death()
+    messages.on_death()
+    messages.at_start()
+    assert messages.text == "wait"
 
 
 def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() -> None:
-    sayings = MessageQueue(parse_messages("start: go | gold: gold"))
+    messages = MessageQueue(parse_messages("start: go | gold: gold"))
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
     seen = []
     for tick in range(START_TICKS + SHOWN_TICKS + 1):
         simulation.step_keys(2 if tick < 8 else 0)
-        if sayings.on_tick(simulation.world):
-            seen.append((tick, sayings.text))
+        if messages.on_tick(simulation.world):
+            seen.append((tick, messages.text))
     assert [text for _, text in seen] == ["gold", "go", ""]
     assert seen[-1][0] == START_TICKS + SHOWN_TICKS - 1, "in all as long as without the other text"
-    sayings = MessageQueue(parse_messages("start: go | death 1: again"))
-    sayings.on_death()
-    sayings.at_start()
-    assert sayings.text == "again"
+    messages = MessageQueue(parse_messages("start: go | death 1: again"))
+    messages.on_death()
+    messages.at_start()
+    assert messages.text == "again"
     simulation.reset()
-    assert [sayings.text for _ in range(START_TICKS) if sayings.on_tick(simulation.world)] == ["go", ""]
+    assert [messages.text for _ in range(START_TICKS) if messages.on_tick(simulation.world)] == ["go", ""]
 
 
 def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
     says = "start: one | start: two | switch: three | switch: four"
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,700,564"))
-    sayings = MessageQueue(parse_messages(says))
-    heard = [(0, sayings.text)]
+    messages = MessageQueue(parse_messages(says))
+    heard = [(0, messages.text)]
     simulation.step_keys(0)
     ticks = range(1, START_TICKS + 9)
-    heard += [(tick, sayings.text) for tick in ticks if sayings.on_tick(simulation.world)]
+    heard += [(tick, messages.text) for tick in ticks if messages.on_tick(simulation.world)]
     assert heard == [(0, "one"), (START_TICKS // 2, "two"), (START_TICKS, "")]
-    sayings.at_start()
+    messages.at_start()
     simulation.world.events[0].kind, simulation.world.event_count = EXIT_OPENED, 1
-    assert sayings.on_tick(simulation.world)
+    assert messages.on_tick(simulation.world)
     simulation.world.event_count = 0
-    heard = [(tick, sayings.text) for tick in range(START_TICKS) if sayings.on_tick(simulation.world)]
-    assert sayings.text == ""
+    heard = [(tick, messages.text) for tick in range(START_TICKS) if messages.on_tick(simulation.world)]
+    assert messages.text == ""
     assert [text for _, text in heard] == ["four", ""], "and no more of the start, which is understood"
     quick = MessageQueue(parse_messages("switch: one | switch: two | gold: three"))
     texts = []
@@ -598,13 +598,13 @@ WELL = room_level(["#...#"] * 10 + ["#@..#"], ())
 
 def climb(keys: str) -> tuple[list[str], float]:
     """What is said in a well in which one plays so, and the greatest height, px."""
-    simulation, sayings = Simulation(WELL), MessageQueue((), helps=True)
+    simulation, messages = Simulation(WELL), MessageQueue((), helps=True)
     seen, floor, height = [], simulation.world.ninja.y, 0.0
     for each in read_inputs([(1, keys)]).keys:
         simulation.step_keys(each)
         height = max(height, floor - simulation.world.ninja.y)
-        if sayings.on_tick(simulation.world) and sayings.text:
-            seen.append(sayings.text)
+        if messages.on_tick(simulation.world) and messages.text:
+            seen.append(messages.text)
     return seen, height
 
 
@@ -621,16 +621,16 @@ def test_who_slips_down_a_wall_twice_sees_what_the_keys_do_at_it() -> None:
 
 
 def test_help_with_walls_is_gone_once_the_climb_is_done() -> None:
-    simulation, sayings = Simulation(WELL), MessageQueue((), helps=True)
+    simulation, messages = Simulation(WELL), MessageQueue((), helps=True)
     for each in read_inputs([(1, SLIP * 2)]).keys:
         simulation.step_keys(each)
-        sayings.on_tick(simulation.world)
-    assert sayings.text
+        messages.on_tick(simulation.world)
+    assert messages.text
     floor = simulation.world.ninja.y
     for each in read_inputs([(1, "R*12 RJ*20 R*18 " + "RJ*20 R*8 " * 5)]).keys:
         simulation.step_keys(each)
-        sayings.on_tick(simulation.world)
-        if not sayings.text:
+        messages.on_tick(simulation.world)
+        if not messages.text:
             break
     assert floor - simulation.world.ninja.y == pytest.approx(CLIMBED, abs=CELL), "not after so long, but there"
 
