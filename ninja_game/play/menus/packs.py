@@ -140,7 +140,7 @@ class PackScreen(ThumbnailScreen):
         have = self.pack and self.pack.pack
         key = self.pack.key if self.pack else ""
         chosen = self.chosen = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
-        chosen.more = partial(app.push, PackList(app, self.mine, self._show))
+        chosen.more = lambda: app.push(PackList(app, self.mine, lambda pack: self._choose_pack(pack.key)))
         received = bool(self.pack and self.pack.received)
         whose = f"{have.index.title}{', received' if received else ''}, in the folder {self.path.name}" if have else ""
         chosen.hint = f"{whose}. Enter, or a click on the name: all your packs"
@@ -221,6 +221,7 @@ class PackScreen(ThumbnailScreen):
 
     def _choose_pack(self, key: str) -> None:
         self._show(next(pack for pack in self.mine if pack.key == key))
+        super().enter()
 
     def _choose_tray(self, key: str) -> None:
         self.beside = key

@@ -885,6 +885,9 @@ def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(driver: MenuDriver, 
     x, y, w, _ = screen.chosen.area
     driver.mouse(x + w - 9, y + 9)
     assert (screen.pack and screen.pack.name) == "Soap", "an arrow shows the next one"
+    seen = drawn(driver.app)
+    assert "text 'Soap'" in seen
+    assert "in the folder soap." in seen
     driver.mouse(x + w / 2, y + 9)
     listed = driver.shown(PackList)
     with patch.object(listed.thumbnails, "draw") as draw:
@@ -896,6 +899,7 @@ def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(driver: MenuDriver, 
     driver.press("return")
     assert driver.top() is screen
     assert (screen.pack and screen.pack.name) == "Laundry"
+    assert "text 'Laundry'" in drawn(driver.app)
     assert right_click(screen.shelves.row_area(1)).title == "First Steps"
     driver.choose("Cancel")
     assert right_click(screen.shelves.row_area(0)).title == "Learning to fall"
