@@ -34,6 +34,7 @@ class Catalogue:
         self._known: dict[str, EpisodeSet] = {}
         self._packs: dict[Path, tuple[object, Pack | None, str]] = {}
         self._sets: dict[Path, tuple[Pack, EpisodeSet]] = {}
+        self._runs: dict[str, tuple[object, Replay | None]] = {}
 
     @cached_property
     def ours(self) -> EpisodeSet:
@@ -69,8 +70,17 @@ class Catalogue:
         return list(sets.values())
 
     def author_run(self, entry: Entry) -> Replay | None:
-        """The certificate to the exit beside a level; None without one for exactly this level."""
+        """The certificate to the exit beside a level; None without one for exactly this level.
+
+        A certificate that has not changed since it was last asked for is not read again.
+        """
         pack, file = self._pack_of(entry), Path(entry.named.file)
+        stamp = file, pack and pack.pack, stamp_of(file.parent / certificate_name(file.name, "exit"))
+        if self._runs.get(entry.digest, ((), None))[0] != stamp:
+            self._runs[entry.digest] = stamp, self._read_run(entry, pack, file)
+        return self._runs[entry.digest][1]
+
+    def _read_run(self, entry: Entry, pack: EpisodeSet | None, file: Path) -> Replay | None:
         name = certificate_name(file.name, "exit")
         try:
             files = PackFiles(file.parent) if entry.source != GAME and file.is_file() else pack and pack.files

@@ -6,10 +6,8 @@ from functools import cached_property
 from pathlib import Path
 
 from ninja_game.errors import FileError, reason
-from ninja_game.files.reading import stamp_of
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
-from ninja_game.formats.pack.pack import certificate_name
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry, Episode
@@ -44,7 +42,6 @@ class PlayerData:
         self._reported: set[str] = set()
         self._progress: dict[str, PackProgress] = {}
         self._is_maker = True
-        self._certified: dict[str, tuple[object, Replay | None]] = {}
         if settings is None:
             try:
                 make_user_folder(self.folder)
@@ -138,13 +135,7 @@ class PlayerData:
 
     def own_certificate(self, entry: Entry) -> Replay | None:
         """The certificate to the exit of a level that the player has made; lists ask in each picture."""
-        if not self._is_maker or not self.catalogue.is_own(entry):
-            return None
-        file = Path(entry.named.file)
-        stamp = file, stamp_of(file.parent / certificate_name(file.name, "exit"))
-        if self._certified.get(entry.digest, ("", None))[0] != stamp:
-            self._certified[entry.digest] = stamp, self.catalogue.author_run(entry)
-        return self._certified[entry.digest][1]
+        return self.catalogue.author_run(entry) if self._is_maker and self.catalogue.is_own(entry) else None
 
     @cached_property
     def marks(self) -> Marks:

@@ -120,6 +120,8 @@ NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")  # findings of w
 
 def level_of(pack: Pack, file: str) -> str:
     """The level file that a file is, or that it certifies; else the file."""
+    if not file.startswith(CERTIFICATES):
+        return file
     return next((level for level in pack.files.levels for kind in KINDS if certificate_name(level, kind) == file), file)
 
 

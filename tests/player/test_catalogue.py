@@ -8,10 +8,12 @@ from pathlib import Path
 
 from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.n14.level_string import write_level_string
+from ninja_game.formats.pack.pack import certificate_name
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import EpisodeSession
 from ninja_game.player.progress import LOCKED, UNLOCKED
+from tests.support.own_pack import PACK
 from tests.support.players import played, short_level
 
 
@@ -187,3 +189,15 @@ def test_a_pack_that_is_called_as_a_source_is_none(tmp_path: Path) -> None:
     assert [entry.source for pack in packs for entry in pack.levels[:1]] == ["game (game)", "yours (yours)"]
     for pack in packs:
         assert catalogue.episode_of(pack.levels[0]) is pack.episodes[min(pack.episodes)]
+
+
+def test_a_certificate_is_read_again_only_when_it_has_changed(tmp_path: Path) -> None:
+    shutil.copytree(PACK, tmp_path / "laundry")
+    catalogue = Catalogue(tmp_path)
+    entry = catalogue.packs()[1].levels[0]
+    run = catalogue.author_run(entry)
+    assert run
+    assert catalogue.author_run(entry) is run
+    file = tmp_path / "laundry" / certificate_name(Path(entry.named.file).name, "exit")
+    file.rename(file.with_suffix(".bak"))
+    assert catalogue.author_run(entry) is None

@@ -10,6 +10,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.levels.episodes import EpisodeSet
 from ninja_game.play.app import App
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.player.records import has_words
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
@@ -44,12 +45,13 @@ class PackList(ThumbnailScreen):
 
     def act(self, action: str, *, held: bool = False) -> None:
         if action == "confirm" and self.focus is self.field:
-            self._take(0)
+            self._take(self.list.index)
         else:
             super().act(action, held=held)
 
     def _search(self, text: str) -> None:
-        self.shown = [each for each in self._packs if text.casefold() in _about(each).casefold()]
+        self.shown = [pack for pack in self._packs if has_words(text.casefold().split(), _about(pack))]
+        self.list.index = self.list.first = 0
         self.list.fill(self.shown)
 
     def _take(self, index: int) -> None:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from time import monotonic
-from typing import NamedTuple
 
 from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, Steps, make_ready, problems_of
@@ -142,18 +143,19 @@ class Packer(Aside):
         self.text, self._seen = self._made, None
 
 
-class Checked(NamedTuple):
+@dataclass(frozen=True)
+class Checked:
     """What was odd about a pack. ``to_do``: what Make ready does; ``findings``: the others, accepted or not."""
 
     pack: Pack
     findings: list[PackFinding]
     to_do: list[PackFinding]
 
-    @property
+    @cached_property
     def problems(self) -> list[PackFinding]:
         return [finding for finding in self.findings if not finding.reason]
 
-    @property
+    @cached_property
     def places(self) -> set[str]:
         """The files with problems."""
         return {self.pack.files.place(finding.file) for finding in self.problems}
@@ -213,8 +215,9 @@ class PackStatus:
 
     def state(self, level: Entry) -> str:
         """The state of a level in a word: its time if it is measured."""
-        known, file = self._states.get(id(level)), Path(level.named.file)
+        known = self._states.get(id(level))
         if known is None:
+            file = Path(level.named.file)
             has_certificate = (file.parent / certificate_name(file.name, "exit")).is_file()
             if level.pars and (has_certificate or file.parent != (self.pack and self.pack.path)):
                 known = f"{seconds_text(level.pars.exit)} s"

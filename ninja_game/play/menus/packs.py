@@ -134,13 +134,19 @@ class PackScreen(ThumbnailScreen):
         self._read()
         super().enter()
 
+    def _pack_now(self) -> Pack | None:
+        """The shown pack as it is on the disk; None if its folder is gone, and the screen shows what there is."""
+        path = self.path
+        self.enter()
+        return self.pack.pack if self.pack and self.pack.path == path else None
+
     def build(self) -> Sequence[Widget]:
         app = self.app
         names = [(pack.pack.index.title if pack.pack and pack.received else pack.name, pack.key) for pack in self.mine]
         have = self.pack and self.pack.pack
         key = self.pack.key if self.pack else ""
         chosen = self.chosen = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
-        chosen.more = partial(app.push, PackList(app, self.mine, self._show))
+        chosen.more = lambda: app.push(PackList(app, self.mine, lambda pack: self._choose_pack(pack.key)))
         received = bool(self.pack and self.pack.received)
         whose = f"{have.index.title}{', received' if received else ''}, in the folder {self.path.name}" if have else ""
         chosen.hint = f"{whose}. Enter, or a click on the name: all your packs"
@@ -191,8 +197,11 @@ class PackScreen(ThumbnailScreen):
 
     def _copy_link(self) -> None:
         """Copy it; of a pack of one's own, first ask whether levels that are not certified are to go along."""
-        copy = partial(copy_link, self.app, Pack(self.path).files.link, title=self.pack.name if self.pack else "")
-        levels = self.pack.levels if self.pack and not self.pack.received else []
+        pack = self._pack_now()
+        if not (self.pack and pack):
+            return
+        copy = partial(copy_link, self.app, pack.files.link, title=self.pack.name)
+        levels = [] if self.pack.received else self.pack.levels
         without = [level for level in levels if self.status.state(level) in (*NOT_CERTIFIED, NOT_FOUND)]
         rows: list[MenuRow] = [
             ("Make ready first", self._make_ready, "Certifies them, and gives the link"),
@@ -221,6 +230,7 @@ class PackScreen(ThumbnailScreen):
 
     def _choose_pack(self, key: str) -> None:
         self._show(next(pack for pack in self.mine if pack.key == key))
+        super().enter()
 
     def _choose_tray(self, key: str) -> None:
         self.beside = key
@@ -333,45 +343,45 @@ class PackScreen(ThumbnailScreen):
         else:
             super().handle(event)
 
-    def _form(self, first: int = 0) -> None:
+    def _form(self, pack: Pack, first: int = 0) -> None:
         """Ask for the texts of the index; the field number ``first`` has the focus."""
-        index = Pack(self.path).index
+        index, path = pack.index, pack.files.path
         keys = ("name", "author", "version", "comment")
         fields = [(key.capitalize(), getattr(index, key), 200) for key in keys]
 
         def describe(texts: list[str]) -> None:
             self.app.know_author(index.author, texts[1])
-            self.change(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))), "About the pack")
+            self.change(lambda: packs.describe(path, dict(zip(keys, texts, strict=True))), "About the pack")
 
         form = FormPanel(self.app, "About the pack", fields, "OK", describe)
         self.app.push(form)
         form.focus = form.widgets[first]
 
     def _about(self) -> None:
-        copied = Pack(self.path)
-        index, empty = copied.index, not copied.episodes
+        pack = self._pack_now()
+        if not (self.pack and pack):
+            return
+        key, name, own = self.pack.key, self.pack.name, not self.pack.received
+        empty = not pack.episodes
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
-        key, own = (self.pack.key, not self.pack.received) if self.pack else ("", True)
         without = "No episode has levels" if empty else ""
         rows: list[MenuRow] = [
             ("Play it", None if empty else lambda: self.app.push(EpisodeGrid(self.app, key)), without),
             *[("Show it as received", None if empty else self._view, without or PREVIEW)] * own,
-            ("Name, author, version...", self._form, ""),
-            ("Copy of the pack", lambda: self._copy(copied), ""),
-            ("Delete the pack...", None if busy else self._delete, gone),
+            ("Name, author, version...", lambda: self._form(pack), ""),
+            ("Copy of the pack", lambda: self._copy(pack), ""),
+            ("Delete the pack...", None if busy else lambda: self._delete(pack, name), gone),
             CANCEL,
         ]
-        self.app.push(Menu(self.app, index.name, rows))
+        self.app.push(Menu(self.app, pack.name, rows))
 
-    def _delete(self) -> None:
-        name, path = self.pack.name if self.pack else "", self.path
-
+    def _delete(self, pack: Pack, name: str) -> None:
         def delete() -> None:
-            there = packs.bin_pack(path, self.player.folder / DELETED)
+            there = packs.bin_pack(pack.files.path, self.player.folder / DELETED)
             self.app.notify(f"{shown_text(name)} is in the folder {there.relative_to(self.player.folder)} now")
 
-        title = f"Delete {shown_text(name)} with its {counted(len(Pack(path).files.levels), 'level')}?"
+        title = f"Delete {shown_text(name)} with its {counted(len(pack.files.levels), 'level')}?"
         hint = f"All goes to the folder {DELETED}; Undo brings it back"
         step = partial(self.do, delete, f"Delete {shown_text(name)}")
         self.app.push(Question(self.app, title, "Delete it", step, hint))
@@ -624,7 +634,7 @@ class PackScreen(ThumbnailScreen):
         text = f"{entry.title}: {text}" if entry else text[:1].upper() + text[1:]
         go: Callable[[], object] | None = self._about if file == INDEX else None
         if code == "no-author":
-            go = partial(self._form, 1)
+            go = partial(self._form, pack, 1)
         elif entry:
             go = partial(self.change, partial(self._edit, entry, finding.odd), "Edit")
         if finding.reason:

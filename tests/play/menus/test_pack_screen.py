@@ -885,17 +885,24 @@ def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(driver: MenuDriver, 
     x, y, w, _ = screen.chosen.area
     driver.mouse(x + w - 9, y + 9)
     assert (screen.pack and screen.pack.name) == "Soap", "an arrow shows the next one"
+    seen = drawn(driver.app)
+    assert "text 'Soap'" in seen
+    assert "in the folder soap." in seen
     driver.mouse(x + w / 2, y + 9)
     listed = driver.shown(PackList)
     with patch.object(listed.thumbnails, "draw") as draw:
         assert "8 levels in 2 episodes" in drawn(driver.app)
     titles = [each.args[1].title for each in draw.call_args_list]
     assert titles[:4] == ["First Steps", "The Chimney", "Locksmith", "Night Shift"], "four of the eight"
-    driver.type("laun")
+    driver.press("down")
+    driver.type("developers")
+    assert (len(listed.shown), listed.list.index) == (2, 0), "Enter takes the row that is marked"
+    driver.type(" laun")
     assert [each.name for each in listed.shown] == ["Laundry"]
     driver.press("return")
     assert driver.top() is screen
     assert (screen.pack and screen.pack.name) == "Laundry"
+    assert "text 'Laundry'" in drawn(driver.app)
     assert right_click(screen.shelves.row_area(1)).title == "First Steps"
     driver.choose("Cancel")
     assert right_click(screen.shelves.row_area(0)).title == "Learning to fall"
@@ -1192,7 +1199,7 @@ def test_an_author_is_asked_for_once(driver: MenuDriver, path: Path) -> None:
     shown = {entry.named.author for entry in (screen.pack.levels if screen.pack else ())}
     assert "ida" in shown
     assert "" not in shown
-    screen._form()
+    screen._form(Pack(path))
     driver.shown(FormPanel).texts[1] = "bob"
     driver.choose("OK")
     assert driver.player.settings.name == "ida", "a name that is set stays"
@@ -1228,3 +1235,34 @@ def test_a_certificate_that_comes_while_a_list_is_shown_is_seen(driver: MenuDriv
     certificate.write_bytes(text)
     assert driver.player.own_certificate(entry)
     assert driver.player.reached(entry, None).startswith("Certified: "), "the pack was read before"
+
+
+@pytest.mark.parametrize("button", ["Copy the link", "More..."])
+def test_a_pack_that_is_gone_or_changed_is_seen_at_once(driver: MenuDriver, path: Path, button: str) -> None:
+    shutil.copytree(path, path.with_name("soap"))
+    screen = opened(driver)
+    packs.describe(path, {"name": "Washing"})
+    driver.choose(button)
+    assert (screen.pack and screen.pack.name) == "Washing"
+    if driver.top() is not screen:
+        driver.choose("Cancel")
+    path.rename(driver.player.folder / "elsewhere")
+    driver.app.notify("")
+    driver.choose(button)
+    assert driver.top() is screen
+    assert (screen.path.name, driver.app.notice) == ("soap", ""), "nothing is done with the other pack"
+
+
+@pytest.mark.parametrize(
+    "buttons", [("Copy of the pack",), ("Name, author, version...", "OK"), ("Delete the pack...", "Delete it")]
+)
+def test_a_pack_whose_folder_has_gone_meanwhile_ends_nothing(
+    driver: MenuDriver, path: Path, buttons: tuple[str, ...]
+) -> None:
+    screen = opened(driver)
+    driver.choose("More...")
+    path.rename(driver.player.folder / "elsewhere")
+    for button in buttons:
+        driver.choose(button)
+    assert driver.top() is screen
+    assert "No such file" in driver.app.notice
