@@ -66,7 +66,8 @@ def put(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> Draft:
 
     An equal object at the same place is not drawn twice.
     """
-    objects = draft.objects
+    objects, there = draft.objects, set(draft.objects if stamp.objects else ())
+    new: dict[ObjectSpec, None] = {}
     tiles: Tiles = {}
     for number, motion in enumerate((Motion(), *symmetry)):
         image = stamp.carried(motion)
@@ -75,12 +76,11 @@ def put(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> Draft:
         for spec in image.objects:
             if number and spec.kind in (NINJA, EXIT):
                 continue
-            objects = _with_ninja(objects, spec) if spec.kind == NINJA else _with(objects, spec)
-    return draft.with_tiles(tiles).with_objects(objects)
-
-
-def _with(objects: tuple[ObjectSpec, ...], spec: ObjectSpec) -> tuple[ObjectSpec, ...]:
-    return objects if spec in objects else (*objects, spec)
+            if spec.kind == NINJA:
+                objects = _with_ninja(objects, spec)
+            elif spec not in there:
+                new[spec] = None
+    return draft.with_tiles(tiles).with_objects(objects + tuple(new))
 
 
 def _with_ninja(objects: tuple[ObjectSpec, ...], spec: ObjectSpec) -> tuple[ObjectSpec, ...]:
@@ -179,8 +179,8 @@ def arranged(draft: Draft, selection: Selection, axis: int, share: float | None)
 
 def pasted(draft: Draft, stamp: Stamp) -> tuple[Draft, Selection]:
     """The draft with a stamp on it, and the selection of the pasted things: objects are added, but a ninja moves."""
-    after = put(draft, stamp)
-    new = {number for number, spec in enumerate(after.objects) if spec in stamp.objects}
+    after, stamped = put(draft, stamp), set(stamp.objects)
+    new = {number for number, spec in enumerate(after.objects) if spec in stamped}
     parts = {(number, part) for number in new for part in points(after.objects[number])}
     cells = list(stamp.tiles)
     area = area_between(min(cells), max(cells)) if cells else None

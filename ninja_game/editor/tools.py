@@ -360,7 +360,6 @@ class EditorTools:
 
     def _choose(self, *, add: bool) -> None:
         part, area = self.near(PICK_REACH), self.selection.area
-        area = self.selection.area
         if not add and (part in self.selection.parts or (area and self.cell in stamps.cells_of(area))):
             self._begin_drag()
             return

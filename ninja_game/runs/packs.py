@@ -136,10 +136,14 @@ def findings(pack: Pack, *, with_design: bool = False, with_gold: bool = False) 
     ``with_design``: what its levels lack, too (docs/good-levels.md); ``with_gold``: no run with all gold, too, where
     no piece is out of reach.
     """
-    reasons = {(accepted.file, accepted.code): accepted.reason for accepted in pack.index.accepted}
+    reasons = accepted_reasons(pack)
     for finding in _findings(pack, with_design=with_design, with_gold=with_gold):
-        may = finding.code not in NEVER_ACCEPTED
-        yield finding._replace(reason=reasons.get((finding.file, finding.code), "")) if may else finding
+        yield finding._replace(reason=reasons.get((finding.file, finding.code), ""))
+
+
+def accepted_reasons(pack: Pack) -> dict[tuple[str, str], str]:
+    """Why a pack's index accepts findings, by their files and codes; without those that no index may accept."""
+    return {(each.file, each.code): each.reason for each in pack.index.accepted if each.code not in NEVER_ACCEPTED}
 
 
 def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[PackFinding]:

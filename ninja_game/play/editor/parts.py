@@ -11,17 +11,7 @@ import pygame
 from ninja_game.editor.brush import tile_name
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
 from ninja_game.editor.specs import BODY, SWITCH, carried, has_switch, object_type_name, points, properties, word
-from ninja_game.editor.tools import (
-    CURVES,
-    NEAREST,
-    OTHER_KINDS,
-    SPACINGS,
-    TAKES,
-    EditorTools,
-    can_be_remade,
-    remade,
-    said_cells,
-)
+from ninja_game.editor.tools import CURVES, NEAREST, OTHER_KINDS, SPACINGS, TAKES, EditorTools, can_be_remade, remade
 from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted
 from ninja_game.files.user_folder import short_path
@@ -469,9 +459,10 @@ class StatusLine(EditorPart):
             return "Click where the switch is; Esc gives up"
         if tools.ghost:
             return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc gives up"
-        if self.view.hovering and tools.draft.says and tools.cell in (cells := said_cells(tools.draft.says)):
-            text = parse_messages(tools.draft.says)[cells.index(tools.cell)].text
-            return f"Double click opens the message, Select drags it: {text}"
+        messages = parse_messages(tools.draft.says) if self.view.hovering else ()
+        texts = [message.text for message in messages if message.place and message.cell == tools.cell]
+        if texts:
+            return f"Double click opens the message, Select drags it: {texts[0]}"
         slopes = "Slopes by themselves. " * tools.sets_slopes
         start = self.session.start
         shown = slopes + _TOOL_HINTS[tools.effective_tool] if start == "off" else _REACH.format(start)

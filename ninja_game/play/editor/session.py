@@ -45,6 +45,7 @@ from ninja_game.play.window import save_picture
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import keep_replay
+from ninja_game.runs.packs import accepted_reasons
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
@@ -107,8 +108,8 @@ class EditorSession:
         self.accepted = dict[str, str]()
         with suppress(NinjaGameError, OSError):
             path = self.source.path
-            rows = Pack(path.parent).index.accepted if path and is_pack(path.parent) else ()
-            self.accepted = {row.code: row.reason for row in rows if path and row.file == path.name}
+            reasons = accepted_reasons(Pack(path.parent)) if path and is_pack(path.parent) else {}
+            self.accepted = {code: why for (file, code), why in reasons.items() if path and file == path.name}
         self.certifier.edit(self.draft.level)
         self._objects = self.draft.objects
         # Running searches are about another level.
@@ -397,9 +398,9 @@ class EditorSession:
         """
         if not inputs:
             return
-        last = self.tries[-1] if self.tries else None
-        goes_on = last is not None and not last.over and last.level is level and inputs.startswith(last.inputs)
-        self._tries[self.draft.level] = (*(self.tries[:-1] if goes_on else self.tries), Try(level, inputs, over))
+        tries = self._tries.get(self.draft.level, ())
+        goes_on = tries and not tries[-1].over and tries[-1].level is level and inputs.startswith(tries[-1].inputs)
+        self._tries[self.draft.level] = (*(tries[:-1] if goes_on else tries), Try(level, inputs, over))
         self.last_try = route_of(level, inputs)
         self._show_tries()
 

@@ -16,7 +16,7 @@ from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, object_type_of
 from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Certification, Reach, with_ninja_at
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, open_source
-from ninja_game.editor.specs import SWITCH, points
+from ninja_game.editor.specs import BODY, SWITCH, points
 from ninja_game.editor.stamp import Selection, Stamp, chosen_in, put
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.load import load_levels
@@ -201,6 +201,11 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
     room.chord("y", pygame.KMOD_LCTRL)
     room.frames()
     assert (len(session.tries), session.last_death) == (2, (died,)), "those of the level with the mine"
+    tools = session.tools
+    tools.selection = Selection(parts=frozenset({(len(session.draft.objects) - 1, BODY)}))
+    tools.nudge(-1, 0)
+    session.tried(session.draft.level, bytes([2] * 20), over=True)
+    assert len(session.tries) == 1, "a test in the picture of the change is of the changed level alone"
     session.begin(Source(ROOM))
     assert session.test_map is None
 

@@ -1149,7 +1149,9 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     assert shown[-1] == shown[1]
     driver.app.push(editor := EditorScreen(driver.app, offers_recovered=False))
     assert screen.shelves.cells[1].level
+    packs.accept(path, level.name, "no-ninja", "a joke")
     editor.commands.edit_entry(screen.shelves.cells[1].level)
+    assert "no-ninja" not in editor.session.accepted, "the pack's check does not accept it either"
     editor.session.examine()
     driver.frames(2)
     text = drawn(driver.app)
