@@ -205,7 +205,7 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
     tools.selection = Selection(parts=frozenset({(len(session.draft.objects) - 1, BODY)}))
     tools.nudge(-1, 0)
     session.tried(session.draft.level, bytes([2] * 20), over=True)
-    assert len(session.tries) == 1, "a test in the picture of the change is of the changed level alone"
+    assert len([*session.tries]) == 1, "a test in the picture of the change is of the changed level alone"
     session.begin(Source(ROOM))
     assert session.test_map is None
 
