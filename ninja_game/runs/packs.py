@@ -115,8 +115,6 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
 
 KINDS = ("exit", "gold")
 
-NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")  # findings of what cannot be played, by code
-
 
 def level_of(pack: Pack, file: str) -> str:
     """The level file that a file is, or that it certifies; else the file."""
@@ -136,14 +134,9 @@ def findings(pack: Pack, *, with_design: bool = False, with_gold: bool = False) 
     ``with_design``: what its levels lack, too (docs/good-levels.md); ``with_gold``: no run with all gold, too, where
     no piece is out of reach.
     """
-    reasons = accepted_reasons(pack)
+    reasons = pack.index.reasons
     for finding in _findings(pack, with_design=with_design, with_gold=with_gold):
         yield finding._replace(reason=reasons.get((finding.file, finding.code), ""))
-
-
-def accepted_reasons(pack: Pack) -> dict[tuple[str, str], str]:
-    """Why a pack's index accepts findings, by their files and codes; without those that no index may accept."""
-    return {(each.file, each.code): each.reason for each in pack.index.accepted if each.code not in NEVER_ACCEPTED}
 
 
 def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[PackFinding]:

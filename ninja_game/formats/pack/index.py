@@ -13,6 +13,8 @@ from ninja_game.files.untrusted import parse_toml
 MOST_COLUMNS, EPISODES_PER_COLUMN, LEVELS_PER_EPISODE = 10, 10, 5
 MOST_EPISODES = MOST_COLUMNS * EPISODES_PER_COLUMN
 
+NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")  # findings of what cannot be played, by code
+
 _LINE = re.compile(r"\(at line (\d+), column (\d+)\)")
 _KEYS = ("name", "author", "comment", "version", "columns", "episode", "accept")
 _EPISODE_KEYS = ("number", "name", "levels")
@@ -68,6 +70,11 @@ class PackIndex:
     def is_signed(self) -> bool:
         """Whether it names its author."""
         return self.author.strip().casefold() not in ("", "unknown")
+
+    @property
+    def reasons(self) -> dict[tuple[str, str], str]:
+        """Why it accepts findings, by their files and codes; without those that no index may accept."""
+        return {(each.file, each.code): each.reason for each in self.accepted if each.code not in NEVER_ACCEPTED}
 
     @property
     def title(self) -> str:

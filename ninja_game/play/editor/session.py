@@ -45,7 +45,6 @@ from ninja_game.play.window import save_picture
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import keep_replay
-from ninja_game.runs.packs import accepted_reasons
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
@@ -108,7 +107,7 @@ class EditorSession:
         self.accepted = dict[str, str]()
         with suppress(NinjaGameError, OSError):
             path = self.source.path
-            reasons = accepted_reasons(Pack(path.parent)) if path and is_pack(path.parent) else {}
+            reasons = Pack(path.parent).index.reasons if path and is_pack(path.parent) else {}
             self.accepted = {code: why for (file, code), why in reasons.items() if path and file == path.name}
         self.certifier.edit(self.draft.level)
         self._objects = self.draft.objects

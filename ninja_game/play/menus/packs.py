@@ -16,7 +16,7 @@ from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import DAILY, LEVELS, short_path
 from ninja_game.formats.links import link_kind
-from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, EpisodeIndex
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, NEVER_ACCEPTED, EpisodeIndex
 from ninja_game.formats.pack.pack import INDEX, RECEIVED, Pack
 from ninja_game.levels.episodes import GAME, Entry, EpisodeSet
 from ninja_game.levels.findings import Finding, PackFinding
@@ -31,7 +31,7 @@ from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND, PackStatus, p
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
-from ninja_game.runs.packs import NEVER_ACCEPTED, level_of
+from ninja_game.runs.packs import level_of
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.list_view import BAR
