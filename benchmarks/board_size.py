@@ -29,7 +29,7 @@ from ninja_game.runs.conversion import replay_texts
 from tests.support.near_copies import EDITS, surviving
 from tests.support.reference import recordings, write_pack
 
-MOST_EDITS, EACH = 10, 20
+MAX_EDITS, EACH = 10, 20
 """Edits of a certificate; runs that a player has sent."""
 
 
@@ -38,7 +38,7 @@ def edited(recording: Recording, rng: random.Random) -> Iterator[Replay]:
     ways: set[str] = set()
     while True:
         runs = surviving(recording, lambda keys: rng.choice(list(EDITS.values()))(keys, rng))
-        for inputs, run in itertools.islice(runs, MOST_EDITS):
+        for inputs, run in itertools.islice(runs, MAX_EDITS):
             if run.xy_sha256 not in ways:
                 ways.add(run.xy_sha256)
                 yield Replay(inputs, run.end_tick, "exit", run.gold, level=recording.level)

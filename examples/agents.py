@@ -37,7 +37,7 @@ Floats = NDArray[np.float32]
 FORMAT = 1
 """Of the file; a later one may differ."""
 
-LARGEST = 5.0
+MAX_OBSERVED = 5.0
 """Observations beyond five standard deviations count as five."""
 
 
@@ -160,7 +160,7 @@ def forward(layers: list[tuple[Any, Any]], values: Any, tanh: Callable[[Any], An
 
 def normalised(observations: Floats, mean: Floats, scale: Floats) -> Floats:
     """Observations as networks take them."""
-    return np.asarray(np.clip((observations - mean) * scale, -LARGEST, LARGEST), np.float32)
+    return np.asarray(np.clip((observations - mean) * scale, -MAX_OBSERVED, MAX_OBSERVED), np.float32)
 
 
 def _check(agent: PolicyAgent) -> None:

@@ -32,7 +32,7 @@ TEST, TRAIN, TRANSFER = TASKS
 RESAMPLES = 2_000
 SHARE = 0.95
 """Of the resamples that an interval holds."""
-MOST_BYTES = 2**20
+MAX_BYTES = 2**20
 RANDOM = "random"
 
 
@@ -56,7 +56,7 @@ def load_results(folder: Path) -> dict[tuple[str, str], list[dict[str, Any]]]:
     found = defaultdict(list)
     for path in sorted(folder.glob("*.json")):
         try:
-            run = json.loads(read_bytes(path, MOST_BYTES))
+            run = json.loads(read_bytes(path, MAX_BYTES))
             of_format, other = run["format"] == FORMAT, None
             if of_format:
                 for levels, name in product(TASKS, ("passed", "par")):

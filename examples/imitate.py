@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from examples.agents import Floats, PolicyAgent, forward, normalised
-from examples.ppo import OBSERVATION, SMALLEST_DEVIATION, new_networks
+from examples.ppo import MIN_DEVIATION, OBSERVATION, new_networks
 from ninja_game.errors import MissingExtraError, NinjaGameError
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels.bench import bench_level
@@ -65,7 +65,7 @@ def imitate(levels: str, *, passes: int = 12, seed: int = 0, hidden: int = 128, 
     except ModuleNotFoundError as error:
         raise MissingExtraError("training needs JAX and Optax: python3 -m pip install jax optax") from error
     seen, actions = known_steps(levels)
-    mean, scale = seen.mean(axis=0), 1.0 / np.maximum(seen.std(axis=0), np.float32(SMALLEST_DEVIATION))
+    mean, scale = seen.mean(axis=0), 1.0 / np.maximum(seen.std(axis=0), np.float32(MIN_DEVIATION))
     seen = normalised(seen, mean, scale)
     rng = np.random.default_rng(seed)
     layers: Any = new_networks(seen.shape[1], hidden, rng)["policy"]

@@ -48,7 +48,7 @@ OBSERVATION: tuple[Part, ...] = (StateVector(), LocalTiles(9), Rays(16), NearObj
 """Exit and switch are in the state vector; gold is nothing to this agent."""
 SQUARES = ((6, 1, 16), (2, 16, 32))
 """Of a network that sees a picture: pixels across a square, channels, features of each of the first layers."""
-SMALLEST_DEVIATION = 0.02
+MIN_DEVIATION = 0.02
 """Of an observation; what hardly ever changes would be blown up otherwise."""
 LEARNED_IN = "bench:train:easy:0-98999"
 """All easy levels to learn in but those of `bench:val`."""
@@ -201,7 +201,7 @@ def random_play(
         step(action)
         rows.append(observed().copy())
     every = np.concatenate(rows, axis=-2)
-    return every.mean(axis=-2), 1.0 / np.maximum(every.std(axis=-2), np.float32(SMALLEST_DEVIATION))
+    return every.mean(axis=-2), 1.0 / np.maximum(every.std(axis=-2), np.float32(MIN_DEVIATION))
 
 
 def way_left(observed: Floats) -> Floats:

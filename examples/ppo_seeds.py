@@ -30,7 +30,7 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
-from examples.agents import LARGEST, PolicyAgent
+from examples.agents import MAX_OBSERVED, PolicyAgent
 from examples.ppo import LEARNED_IN, POINTS, Networks, Player, Settings, advantages, compiled, new_networks, random_play
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.learn.levels.origins import level_source
@@ -185,7 +185,7 @@ def compiled_seeds(networks: Networks, settings: Settings, inputs: int) -> tuple
     batches = (settings.worlds * settings.round - 1) // size
 
     def seen_by(observed: Any, norms: Any) -> Any:
-        return jnp.clip((observed - norms[0]) * norms[1], -LARGEST, LARGEST)
+        return jnp.clip((observed - norms[0]) * norms[1], -MAX_OBSERVED, MAX_OBSERVED)
 
     def act(nets: Any, norms: Any, key: Any, observed: Any, number: Any) -> Any:
         scores, _ = play(nets, seen_by(observed, norms))

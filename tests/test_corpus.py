@@ -9,7 +9,7 @@ import pytest
 from tools.soak.input_table import ENTRY_POINTS, errors_of
 
 CORPUS = Path(__file__).parent / "corpus"
-MOST_BYTES = 200_000
+MAX_BYTES = 200_000
 
 
 @pytest.mark.parametrize("name", ENTRY_POINTS)
@@ -29,4 +29,4 @@ def test_entry_point_reads_or_refuses_its_corpus(name: str, tmp_path: Path) -> N
 
 def test_corpus_is_small_and_of_known_entry_points() -> None:
     assert {folder.name.replace("-", " ") for folder in CORPUS.iterdir()} == ENTRY_POINTS.keys()
-    assert sum(file.stat().st_size for file in CORPUS.rglob("*") if file.is_file()) <= MOST_BYTES
+    assert sum(file.stat().st_size for file in CORPUS.rglob("*") if file.is_file()) <= MAX_BYTES

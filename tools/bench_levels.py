@@ -22,7 +22,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn.levels.bench import COUNTS, TABLE, TRIES, BenchLevel, bench_level
 from ninja_game.sim.states import OUTCOME_EXIT
 
-SHORTEST = 20
+MIN_TICKS = 20
 """Ticks: what is passed sooner is no level."""
 
 
@@ -30,7 +30,7 @@ def passes(found: BenchLevel) -> bool:
     """Whether the known run passes, and not at once."""
     worlds = open_worlds("auto", found.level, box=False)
     worlds.run(found.inputs)
-    return worlds.outcome() == OUTCOME_EXIT and worlds.tick() >= SHORTEST
+    return worlds.outcome() == OUTCOME_EXIT and worlds.tick() >= MIN_TICKS
 
 
 def chosen(split: str, number: int) -> tuple[int, str]:

@@ -44,7 +44,7 @@ from tools import ROOT
 
 LEFT_OUT = ("ninja_game/sim/", "ninja_game/web/shim/", "ninja_game/web/page/")
 LOG = ROOT / "build" / "breaks.jsonl"
-MOST, BUDGET, SECONDS = 4, 120.0, 600
+MAX_TESTS, BUDGET, SECONDS = 4, 120.0, 600
 """For a break: test files that are near, seconds that its tests take without it, seconds after which they are ended."""
 PAIRS = "Lt LtE Gt GtE Eq NotEq Is IsNot In NotIn And Or Add Sub Mult Div BitAnd BitOr LShift RShift".split()  # noqa: SIM905
 OTHER = {getattr(ast, name): getattr(ast, PAIRS[place ^ 1]) for place, name in enumerate(PAIRS)}
@@ -155,7 +155,7 @@ def tests_near(file: str) -> list[str]:
         same_name = Path(test).stem in {f"test_{stem}", f"test_{stem}s"}
         return distance.get(test, 9) - 2 * len(rooms & {*Path(test).parts}) - 4 * same_name
 
-    return sorted(sorted(test for test in imports() if Path(test).name.startswith("test_")), key=far)[:MOST]
+    return sorted(sorted(test for test in imports() if Path(test).name.startswith("test_")), key=far)[:MAX_TESTS]
 
 
 class Executed:

@@ -39,7 +39,7 @@ _LOCK = Lock()  # one thread at a time imports Numba and makes twins
 _KERNELS: dict[tuple[Callable[..., Any], bool], Any] = {}
 _FAILURES: list[str] = []
 """Why the compiled memory cannot be used in this process, once that has been tried."""
-_MOST_TICK_COST = in_page_or_not(PAGE_TICK_COST, NO_LIMIT)
+_MAX_TICK_COST = in_page_or_not(PAGE_TICK_COST, NO_LIMIT)
 _ALL_CHECKED = os.environ.get("NINJA_GAME_CHECKED") == "1"
 
 
@@ -108,8 +108,8 @@ def open_worlds(
     ``compiled`` raise.
     """
     several = [levels] if isinstance(levels, Level | str) else levels
-    if _MOST_TICK_COST < NO_LIMIT and (cost := max(map(tick_cost, several), default=0)) > _MOST_TICK_COST:
-        found, expected = f"work of {cost:,} a tick", f"at most {_MOST_TICK_COST:,}"
+    if _MAX_TICK_COST < NO_LIMIT and (cost := max(map(tick_cost, several), default=0)) > _MAX_TICK_COST:
+        found, expected = f"work of {cost:,} a tick", f"at most {_MAX_TICK_COST:,}"
         raise LevelError("too many objects for a page", found=found, expected=expected, hint="play it on a desktop")
     # The first time this imports Numba, which must come before NumPy.
     if not isinstance(memory, Plan):

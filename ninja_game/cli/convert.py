@@ -16,7 +16,7 @@ from ninja_game.errors import FileError, LevelError
 from ninja_game.files.shown_text import counted, file_stem, name_key, name_problem, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
-from ninja_game.formats.lines import MOST_NAME
+from ninja_game.formats.lines import MAX_NAME
 from ninja_game.formats.links import is_link, level_link, recording_link
 from ninja_game.formats.run_time import seconds_text
 
@@ -96,7 +96,7 @@ def convert(
         raise click.UsageError("--level is for recordings: add --to replay or --to file")
     if author and form not in ("replay", "inputs", "episode"):
         raise click.UsageError("--author is for recordings: add --to replay")
-    player = shown_text(author or "", MOST_NAME).strip()
+    player = shown_text(author or "", MAX_NAME).strip()
     holdings: Sequence[NamedLevel | Recording]
     if form in RUN_FORMS or form == "episode" or level:
         found = (recording for source in sources for recording in load_replays(source, level=level))

@@ -15,7 +15,7 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.links import is_link
 
-MOST_BESIDE = 3
+MAX_BESIDE = 3
 
 
 @click.command()
@@ -87,8 +87,8 @@ def film(
         [tuple(run for run in runs if run.level == part.level) for part in parts] for runs in (along, others)
     )
     most = max(map(len, beside_of))
-    if most > MOST_BESIDE:
-        raise click.UsageError(f"--beside: {most} runs; at most {MOST_BESIDE}")
+    if most > MAX_BESIDE:
+        raise click.UsageError(f"--beside: {most} runs; at most {MAX_BESIDE}")
     if any(len(runs) != most for runs in beside_of):
         raise click.UsageError("--beside: as many runs for each level of the episode; another whole episode has them")
     use_dummy_video()

@@ -136,7 +136,7 @@ def _quoted(word: str) -> str:
     return f'"{word}"'.replace("\\", "\\\\").replace("%", "%%")
 
 
-MOST_PROCESSES = 2  # each process compiles the rules again; more processes would only wait for each other
+MAX_PROCESSES = 2  # each process compiles the rules again; more processes would only wait for each other
 
 EVERY = 0.5  # seconds between two looks whether another process is done
 
@@ -169,7 +169,7 @@ def compile(background: bool) -> None:  # noqa: A001 - the name of the command
         while (handle := lock_compilation()) is None:
             time.sleep(EVERY)
     try:
-        compile_everything(min(MOST_PROCESSES, cores()), quiet=background)
+        compile_everything(min(MAX_PROCESSES, cores()), quiet=background)
     finally:
         os.close(handle)
 
@@ -272,10 +272,10 @@ def export(file: Path) -> None:
 def take_in(file: Path) -> None:
     """Import FILE. Better runs replace worse ones; nothing of yours is overwritten."""
     from ninja_game.files.reading import read_bytes
-    from ninja_game.player.backup import MOST_BYTES, read_backup
+    from ninja_game.player.backup import MAX_BYTES, read_backup
 
     with _player() as player, heartbeat(lambda: "runs the replays of the backup again"):
-        for line in read_backup(player, read_bytes(file, MOST_BYTES)):
+        for line in read_backup(player, read_bytes(file, MAX_BYTES)):
             click.echo(shown_text(line))
 
 

@@ -24,7 +24,7 @@ _OURS = {
 
 _DATA = re.compile(r"(\n|\t)")
 
-_LONGEST_MESSAGE = 2000  # characters of a line about what is wrong
+_MAX_MESSAGE = 2000  # characters of a line about what is wrong
 LARGE = 5_000_000  # bytes of a GIF
 
 
@@ -66,7 +66,7 @@ def use_dummy_video() -> None:
 def print_error(message: str) -> None:
     """Write an error on stderr, each line with the program's name."""
     for line in message.split("\n"):
-        say(f"ninja-game: {shown_text(line, _LONGEST_MESSAGE)}")
+        say(f"ninja-game: {shown_text(line, _MAX_MESSAGE)}")
 
 
 def say(text: str) -> None:

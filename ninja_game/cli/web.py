@@ -318,8 +318,8 @@ def _remembered(memo: Memo, key: str) -> Path | None:
 
 NO_DATES = "no ledger: copies are told by the names of files (name it with --ledger)"
 QUESTIONS = ("rank", "best", "inputs", "splits", "trace", "film")
-MOST_RUNS = 5  # side by side, where no players are named
-LONGEST = 400  # characters of a line
+MAX_RUNS = 5  # side by side, where no players are named
+MAX_LINE = 400  # characters of a line
 
 RANKED = "{place}. {player}: {result} ({ticks} ticks, {gold} gold, {made}) {date}"
 TYPED = (
@@ -372,9 +372,7 @@ def ask(
     chosen = _category(ranking, category)
     tables = ranking.tables.get(entry.digest, {})
     table, other = (tables.get((ladder, chosen), []) for ladder in sorted((PLAYED, ASSISTED), reverse=not assisted))
-    rows = [_of_player([*table, *other], player) for player in players] or table[
-        : None if what == "rank" else MOST_RUNS
-    ]
+    rows = [_of_player([*table, *other], player) for player in players] or table[: None if what == "rank" else MAX_RUNS]
     if what == "rank":
         rows = [*rows, *ranking.waiting(entry.digest, (ASSISTED if assisted else PLAYED, chosen), rows)]
     if not rows:
@@ -384,7 +382,7 @@ def ask(
     _answer(what, rows[:1] if what == "best" else rows, chosen, output, as_data=as_data, keep=[folder])
     if other and not (assisted or players or as_data) and other[0].place and other[0].values < table[0].values:
         result, player = chosen.text(other[0].values[0]), other[0].run.player
-        click.echo(shown_text(f"assisted: {result} by {player} (--assisted)", LONGEST))
+        click.echo(shown_text(f"assisted: {result} by {player} (--assisted)", MAX_LINE))
 
 
 def _answer(
@@ -420,7 +418,7 @@ def _answer(
         click.echo(json.dumps(rows))
     else:
         entry, ladder = ranks[0].run.entry, " and ".join(ladders)
-        click.echo(shown_text(f"{entry.number} {entry.title}, {category.name.lower()}, {ladder}:".strip(), LONGEST))
+        click.echo(shown_text(f"{entry.number} {entry.title}, {category.name.lower()}, {ladder}:".strip(), MAX_LINE))
         click.echo("\n".join(_line(form, row | {"player": name}) for row, name in zip(rows, names, strict=True)))
 
 
@@ -428,7 +426,7 @@ def _line(form: str, row: Mapping[str, Any]) -> str:
     waits = "" if row["counts"] else "waits for confirmation, "
     note = f"; note: {waits}{row['remark']}" if row["remark"] else ""
     text, *keys = form.format(**{**row, "place": row["place"] or "-"}).rstrip().split("\n")
-    return "\n".join([shown_text(text + note, LONGEST), *keys])
+    return "\n".join([shown_text(text + note, MAX_LINE), *keys])
 
 
 def _film(runs: Sequence[Recording], output: Path) -> None:

@@ -27,8 +27,8 @@ from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path, install_hint
 from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_COLUMNS, parse_index
-from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_FILES, PARS, RECEIVED, Pack, certificate_name
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MAX_COLUMNS, parse_index
+from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MAX_FILES, PARS, RECEIVED, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.episodes import episode_set
 from ninja_game.levels.findings import Finding, PackFinding
@@ -183,8 +183,8 @@ def copy_pack(pack: Pack, folder: Path, name: str, *, received: bool = False, ov
     ``over``: a pack there, which is replaced.
     """
     names = pack.files.own_names
-    if len(names) > MOST_FILES:
-        raise PackError("a pack of too many files", found=f"{len(names):,}", expected=f"at most {MOST_FILES:,}")
+    if len(names) > MAX_FILES:
+        raise PackError("a pack of too many files", found=f"{len(names):,}", expected=f"at most {MAX_FILES:,}")
     for file in names:
         if problem := name_problem(file.rpartition("/")[2]):
             raise PackError("a name that no file here can have", found=ascii(file[:40]), hint=problem)
@@ -278,11 +278,11 @@ def new_episode(path: Path, name: str, column: int) -> int:
 
 def _free_number(numbers: set[int], column: int) -> int:
     """The number behind the last one of a column, or the first free one."""
-    places = range(column * EPISODES_PER_COLUMN, min(column + 1, MOST_COLUMNS) * EPISODES_PER_COLUMN)
+    places = range(column * EPISODES_PER_COLUMN, min(column + 1, MAX_COLUMNS) * EPISODES_PER_COLUMN)
     last = max((number for number in numbers if number in places), default=places.start - 1)
     free = [number for number in places if number not in numbers]
     if not free:
-        most = f"at most {EPISODES_PER_COLUMN} episodes in each of {MOST_COLUMNS} columns"
+        most = f"at most {EPISODES_PER_COLUMN} episodes in each of {MAX_COLUMNS} columns"
         raise PackError(f"column {column + 1} is full", expected=most)
     return next((number for number in free if number > last), free[0])
 

@@ -253,7 +253,7 @@ _STRETCHES = (
 """Pieces for the upper left quarter of an ellipse: full at its lower right."""
 _TURN = 2e-4
 """Cost of a turn, cells of area per square degree."""
-_LONGEST = 4
+_MAX_STEP = 4
 """Longer steps, or steps ending farther apart on both sides, are treated alike."""
 
 
@@ -386,8 +386,8 @@ def _corner(draft: Draft, cell: Cell, near: set[Cell]) -> Tiles:
     (dx,), (dy,) = open_x, open_y
     quarter = _AIR[dx, dy]
     # Width and height of the step that ends here, cells: behind it the rock rises, continues, or ends (0).
-    wide = next((n for n in range(1, _LONGEST) if rock(-dx * n, dy) and rock(-dx * n, 0)), _LONGEST)
-    high = next((n for n in range(1, _LONGEST) if rock(dx, -dy * n) and rock(0, -dy * n)), _LONGEST)
+    wide = next((n for n in range(1, _MAX_STEP) if rock(-dx * n, dy) and rock(-dx * n, 0)), _MAX_STEP)
+    high = next((n for n in range(1, _MAX_STEP) if rock(dx, -dy * n) and rock(0, -dy * n)), _MAX_STEP)
     wide *= all(rock(-dx * n, 0) for n in range(1, wide))
     high *= all(rock(0, -dy * n) for n in range(1, high))
     thin, thick, behind = (*_GENTLE, (column - dx, row)) if wide > high else (*_STEEP, (column, row - dy))

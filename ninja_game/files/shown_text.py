@@ -8,10 +8,10 @@ from unicodedata import category, normalize
 
 MAX_SHOWN = 200  # most characters shown; no name of a level or player comes near
 
-MOST_NAME_BYTES = 200
+MAX_NAME_BYTES = 200
 """Bytes of a file's name in UTF-8: systems take 255, and a number, a suffix or ``.lock`` may follow."""
 
-_LONGEST_STEM = 50
+_MAX_STEM = 50
 _NOT_IN_NAMES = re.compile(r"[^\w.]+")
 _BLANKS = re.compile(r"\s{2,}")
 INVISIBLE = re.compile(
@@ -76,7 +76,7 @@ def file_stem(text: str, otherwise: str = "") -> str:
     >>> file_stem("Über - the hill?"), file_stem("../..", "replay"), file_stem("AUX.1")
     ('über-the-hill', 'replay', '_aux.1')
     """
-    stem = _NOT_IN_NAMES.sub("-", normalize("NFC", text[:MAX_SHOWN].lower()))[:_LONGEST_STEM].strip("-.")
+    stem = _NOT_IN_NAMES.sub("-", normalize("NFC", text[:MAX_SHOWN].lower()))[:_MAX_STEM].strip("-.")
     return "_" * (_RESERVED.fullmatch(stem) is not None) + stem or otherwise
 
 
@@ -94,7 +94,7 @@ def name_problem(name: str) -> str:
         return "it ends in a dot or a blank"
     if _RESERVED.fullmatch(name):
         return "a name that Windows reserves"
-    return f"more than {MOST_NAME_BYTES} bytes" if len(name.encode()) > MOST_NAME_BYTES else ""
+    return f"more than {MAX_NAME_BYTES} bytes" if len(name.encode()) > MAX_NAME_BYTES else ""
 
 
 def name_key(name: str) -> str:

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-MOST_PARTS = 50  # parts of a key with dots; the library's time grows with their square
+MAX_PARTS = 50  # parts of a key with dots; the library's time grows with their square
 
 _PART = r"""(?:(?<![\w-])[\w-]++|(?<!\\)"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
-_LONG_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}")
+_LONG_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{{MAX_PARTS}}}")
 
 
 def parse_toml(text: str, *, any_number: bool = False) -> dict[str, Any]:
@@ -33,7 +33,7 @@ def parse_toml(text: str, *, any_number: bool = False) -> dict[str, Any]:
     if long_key:
         before = text[: long_key.start()]
         place = f"(at line {before.count(chr(10)) + 1}, column {len(before) - before.rfind(chr(10))})"
-        raise ValueError(f"A key of more than {MOST_PARTS} parts {place}")
+        raise ValueError(f"A key of more than {MAX_PARTS} parts {place}")
     try:
         table = tomllib.loads(text)
         if not any_number:
@@ -54,8 +54,8 @@ def _check_numbers(value: object) -> None:
 _ENTRY = b"PK\1\2"
 _BLOCK = 2**20
 # Bytes of the index: the library's time grows with the square of the data beside a name.
-_MOST_OF_ENTRY = 512  # for each file
-_MOST_OF_INDEX = 2**23
+_MAX_ENTRY_BYTES = 512  # for each file
+_MAX_INDEX_BYTES = 2**23
 
 
 class _Index(io.RawIOBase):
@@ -87,7 +87,7 @@ def open_zip(file: IO[bytes], *, most_files: int, most_bytes: int) -> ZipFile:
         raise ValueError(f"more than {most_files} files in a zip")
     file.seek(0)
     with _value_errors():
-        archive = ZipFile(_Index(file, min(most_files * _MOST_OF_ENTRY, _MOST_OF_INDEX)))
+        archive = ZipFile(_Index(file, min(most_files * _MAX_ENTRY_BYTES, _MAX_INDEX_BYTES)))
         archive.fp = file
     if sum(entry.file_size for entry in archive.infolist()) > most_bytes:
         raise ValueError(f"more than {most_bytes >> 20} MiB, unpacked")
@@ -118,7 +118,7 @@ UNREADABLE = (
 )  # fmt: skip
 """Errors of the standard library and NumPy for odd files."""
 
-MOST_ARRAYS = 2**16  # in an archive; a trace has nine
+MAX_ARRAYS = 2**16  # in an archive; a trace has nine
 
 _HEADER = re.compile(
     rb"\x93NUMPY(?:\x01\x00..|\x02\x00....)"

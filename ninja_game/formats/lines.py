@@ -6,7 +6,7 @@ import json
 import re
 from collections.abc import Iterator
 
-MOST_NAME = 1000  # characters of the name of a level, a run or an author: tables repeat it in every row
+MAX_NAME = 1000  # characters of the name of a level, a run or an author: tables repeat it in every row
 
 Line = tuple[int, str]  # a line with its number, from 1
 

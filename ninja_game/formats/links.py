@@ -40,11 +40,11 @@ LINK_KINDS: tuple[LinkKind, ...] = ("level", "pack", "replay")
 VERSION = 1
 """Raw deflate (RFC 1951) of the text in UTF-8 behind four bytes of CRC-32, in base64url without padding."""
 
-MOST_CHARACTERS = 2 * 2**20  # length of a link: what browsers take
+MAX_CHARACTERS = 2 * 2**20  # length of a link: what browsers take
 
-MOST_BYTES = 4 * 2**20  # size of its text when unpacked
+MAX_BYTES = 4 * 2**20  # size of its text when unpacked
 
-MOST_TEXTS = 9  # in a link of replays: the watched one, and as many ghosts as the viewer shows
+MAX_TEXTS = 9  # in a link of replays: the watched one, and as many ghosts as the viewer shows
 
 _PART = re.compile(r"(level|pack|replay)=([0-9]{1,4})\.([A-Za-z0-9_-]*)")
 _STEM = re.compile(r"([0-9a-f]{16})(?:-([0-9]))?")
@@ -87,17 +87,17 @@ def write_link(kind: LinkKind, texts: Sequence[str]) -> str:
     >>> write_link("level", ["a text"])
     '#level=1.qWQqg0tUKEmtKAEA'
     """
-    if not 1 <= len(texts) <= (MOST_TEXTS if kind == "replay" else 1):
-        raise LinkError(f"no link carries {len(texts)} of {kind}", expected=f"at most {MOST_TEXTS} replays")
+    if not 1 <= len(texts) <= (MAX_TEXTS if kind == "replay" else 1):
+        raise LinkError(f"no link carries {len(texts)} of {kind}", expected=f"at most {MAX_TEXTS} replays")
     link = "#" + "&".join(f"{kind}={VERSION}.{_packed(text)}" for text in texts)
-    if len(link) > MOST_CHARACTERS:
+    if len(link) > MAX_CHARACTERS:
         raise LinkError("too much for a link", found=f"{len(link):,} characters", hint="share the file itself")
     return link
 
 
 def _packed(text: str) -> str:
     data = text.encode("utf-8", "replace")
-    if len(data) > MOST_BYTES:
+    if len(data) > MAX_BYTES:
         raise LinkError("too much for a link", found=f"{len(data):,} bytes", hint="share the file itself")
     deflate = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS, 9)
     packed = zlib.crc32(data).to_bytes(4, "big") + deflate.compress(data) + deflate.flush()
@@ -114,19 +114,19 @@ def read_link(text: str | Path) -> Link:
     Link(kind='level', texts=('a text',))
     """
     whole = str(text)
-    if len(whole) > MOST_CHARACTERS:
-        raise LinkError("the link is too long", LINK, expected=f"at most {MOST_CHARACTERS:,} characters")
+    if len(whole) > MAX_CHARACTERS:
+        raise LinkError("the link is too long", LINK, expected=f"at most {MAX_CHARACTERS:,} characters")
     _, mark, fragment = "".join(whole.split()).strip(_AROUND).partition("#")
     parts = unquote(fragment).split("&")
-    found = [_PART.fullmatch(part) for part in parts[: MOST_TEXTS + 1]]
+    found = [_PART.fullmatch(part) for part in parts[: MAX_TEXTS + 1]]
     if not mark or None in found:
         hint = "copy it again, whole"
         raise LinkError("not a link of a level, pack or replay", LINK, found=repr(fragment[:40]), hint=hint)
     matches = [match for match in found if match]
     kind = next(kind for kind in LINK_KINDS if kind == matches[0][1])
-    if len(matches) > (MOST_TEXTS if kind == "replay" else 1) or any(match[1] != kind for match in matches):
-        raise LinkError("a link of too many things", LINK, expected=f"a level, a pack, or up to {MOST_TEXTS} replays")
-    left = MOST_BYTES
+    if len(matches) > (MAX_TEXTS if kind == "replay" else 1) or any(match[1] != kind for match in matches):
+        raise LinkError("a link of too many things", LINK, expected=f"a level, a pack, or up to {MAX_TEXTS} replays")
+    left = MAX_BYTES
     texts = []
     for match in matches:
         if int(match[2]) != VERSION:
@@ -145,7 +145,7 @@ def _unpacked(packed: str, most: int) -> str:
         inflate = zlib.decompressobj(-zlib.MAX_WBITS)
         unpacked = inflate.decompress(data[4:], most + 1)
         if len(unpacked) > most:
-            raise LinkError("the link unpacks to too much", LINK, expected=f"at most {MOST_BYTES:,} bytes in all")
+            raise LinkError("the link unpacks to too much", LINK, expected=f"at most {MAX_BYTES:,} bytes in all")
         if not inflate.eof or inflate.unused_data or zlib.crc32(unpacked).to_bytes(4, "big") != data[:4]:
             raise LinkError("the link is not whole", LINK, hint=hint)
     except (ValueError, zlib.error):
@@ -159,7 +159,7 @@ def write_watch(files: Sequence[str]) -> str:
     >>> write_watch(["0123456789abcdef"])
     '#watch=0123456789abcdef'
     """
-    return f"#watch={','.join(files[:MOST_TEXTS])}"
+    return f"#watch={','.join(files[:MAX_TEXTS])}"
 
 
 def watched(fragment: str) -> list[str]:
@@ -172,7 +172,7 @@ def watched(fragment: str) -> list[str]:
     """
     _, mark, names = fragment.partition("#watch=")
     parts = names.split(",") if mark else []
-    if len(parts) > MOST_TEXTS or not all(_STEM.fullmatch(name) for name in parts):
+    if len(parts) > MAX_TEXTS or not all(_STEM.fullmatch(name) for name in parts):
         raise LinkError("not a link of runs of this page", LINK, found=ascii(names[:40]), hint="copy it again, whole")
     return [f"replays/{name.partition('-')[0]}.txt" for name in parts]
 

@@ -11,7 +11,7 @@ from ninja_game.formats.ascii.places import middle_of
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
-MAX_MESSAGES, MOST_LETTERS = 4, 120
+MAX_MESSAGES, MAX_LETTERS = 4, 120
 NEAR = 2.5 * CELL
 """px from the middle of its cell, along both axes, within which a text with a place is shown."""
 BAR = "|"
@@ -88,8 +88,8 @@ def _read(part: str) -> LevelMessage:
     found = repr(part.strip()[:40])
     if not colon or not text:
         raise LevelError("not a text in 'says'", found=found, expected="WHEN: text", hint=f"WHEN is {_WHEN}")
-    if len(text) > MOST_LETTERS or not text.isprintable():
-        raise LevelError("a text in 'says'", found=found, expected=f"at most {MOST_LETTERS} printable letters")
+    if len(text) > MAX_LETTERS or not text.isprintable():
+        raise LevelError("a text in 'says'", found=found, expected=f"at most {MAX_LETTERS} printable letters")
     for name in unknown_words(text):
         raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + TARGETS))
     if when in _EVENTS:

@@ -22,7 +22,7 @@ from ninja_game.sim.inputs import Demo, fit_demo
 from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import LIFETIME
 
-MOST_LEGACY_TICKS = 20_000_000
+MAX_LEGACY_TICKS = 20_000_000
 """Ticks of one file of demos of an older version, in which each character can be 400 ticks."""
 
 
@@ -197,10 +197,10 @@ def _read_recordings(records: Iterable[LevelRecord], file: str, level: Level | N
             known[record.level] = parse_level_string(record.level, file=file, line=record.line)
         recordings.append(recording_of(record, file, known.get(record.level, level)))
         legacy_ticks += recordings[-1].ticks if record.demo.startswith("A") else 0
-        if legacy_ticks > MOST_LEGACY_TICKS:
+        if legacy_ticks > MAX_LEGACY_TICKS:
             what = "the demos of older versions in this file are too long together"
             hint = "split the file, or `ninja-game verify` it, which reads one record after the other"
-            raise ReplayError(what, file, record.line, found=f"more than {MOST_LEGACY_TICKS:,} ticks", hint=hint)
+            raise ReplayError(what, file, record.line, found=f"more than {MAX_LEGACY_TICKS:,} ticks", hint=hint)
     return recordings
 
 

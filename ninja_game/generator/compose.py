@@ -11,7 +11,7 @@ from random import Random
 from ninja_game.formats.ascii.places import Cell
 from ninja_game.generator.gold import lay_gold
 from ninja_game.generator.layouts import LAYOUTS
-from ninja_game.generator.obstacles import MOST_OBJECTS, fill_voids, place_enemies, place_fixtures, place_mines
+from ninja_game.generator.obstacles import MAX_OBJECTS, fill_voids, place_enemies, place_fixtures, place_mines
 from ninja_game.generator.scene import RockBoard, Scene, flood, mirrored, object_of, steps_from
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.warnings import level_findings
@@ -88,7 +88,7 @@ def _route_score(stops: Sequence[Cell], steps: Callable[[Cell], Mapping[Cell, in
 
 SOLID = 0.13, 0.64
 SHAPES = 20, 190
-OBJECTS = 50, MOST_OBJECTS
+OBJECTS = 50, MAX_OBJECTS
 """What levels keep to: shares of the cells, tiles with a shape, objects."""
 ENEMIES, MINES = (6, 7, 8), (20, 24, 28)
 """Of which one is how many are tried for; a hard level has up to two enemies more."""

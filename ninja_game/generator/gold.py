@@ -11,8 +11,8 @@ from ninja_game.formats.ascii.places import Point, cell_of, middle_of
 from ninja_game.generator.scene import Scene, object_of
 from ninja_game.sim.rules import CELL
 
-LEAST = 26  # pieces in a level
-MOST = 38  # a last group may bring more
+MIN_PIECES = 26  # pieces in a level
+MAX_PIECES = 38  # a last group may bring more
 APART = 12.0  # px between pieces
 FROM_KEY = 26.0  # px from ninja, exit and switches
 BETWEEN = 3.5 * CELL  # px between the middles of two groups
@@ -145,20 +145,20 @@ def along(line: list[Point], step: float) -> list[Point]:
 
 def lay_gold(scene: Scene, rng: Random) -> bool:
     """Put a few groups of gold into a scene: in the vault, round dangers, then of other sorts; whether it is enough."""
-    count = rng.randint(LEAST + 2, MOST)
+    count = rng.randint(MIN_PIECES + 2, MAX_PIECES)
     _lay(scene, hoard(scene, rng), count)
     first = (dangers, min(rng.choice((0, 1, 1, 2)), len(scene.board.spots) or 1)), (bows, 1)
     for pattern, most in (*first, *((other, 3) for other in rng.sample(PATTERNS, len(PATTERNS)))):
         done = 0
         for group in pattern(scene, rng):
-            if done >= most or (len(scene.baits) > 6 and len(scene.gold) > LEAST):
+            if done >= most or (len(scene.baits) > 6 and len(scene.gold) > MIN_PIECES):
                 break
             both = [group, scene.twin(group)][: 1 + (rng.random() < 0.6)]
             laid = sum([_lay(scene, points, count) for points in both])
             done += laid > 0
             if laid and pattern is dangers:
                 scene.rings += scene.baits[-laid:]
-    return len(scene.gold) >= LEAST and len(scene.baits) >= 3
+    return len(scene.gold) >= MIN_PIECES and len(scene.baits) >= 3
 
 
 PATTERNS: tuple[Pattern, ...] = (round_stones, along_walls, bows, falls, rows)
@@ -179,7 +179,7 @@ def _lay(scene: Scene, points: list[Point], count: int) -> bool:
 def lay_about(scene: Scene, place: Point, rng: Random) -> bool:
     """Put a small group round a place; whether it could be."""
     form, size = rng.choice((bowl, cross, sides)), rng.choice((26, 32))
-    return _lay(scene, form(*place, size), MOST + 8) or _lay(scene, sides(*place, 24), MOST + 8)
+    return _lay(scene, form(*place, size), MAX_PIECES + 8) or _lay(scene, sides(*place, 24), MAX_PIECES + 8)
 
 
 def lay_trails(scene: Scene, run: Sequence[Point], rng: Random) -> None:
@@ -188,7 +188,7 @@ def lay_trails(scene: Scene, run: Sequence[Point], rng: Random) -> None:
         first = rng.randrange(40, max(41, len(run) - 60))
         points = along(list(run[first : first + rng.randint(30, 50)]), 23.0)
         in_air = all(not scene.stands(cell_of(*point)) for point in points[1:-1])
-        if in_air and _lay(scene, points[:7], MOST + 8) and len(scene.baits) > 10:
+        if in_air and _lay(scene, points[:7], MAX_PIECES + 8) and len(scene.baits) > 10:
             break
 
 

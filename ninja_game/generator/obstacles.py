@@ -18,23 +18,23 @@ from ninja_game.sim.kinds import ENEMIES
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, PAD_RADIUS
 
-MOST_MINES = 34
-MOST_OBJECTS = 110
-MOST_HARDENING = 28  # mines and objects beyond those that may be added when a level turns out too easy
+MAX_MINES = 34
+MAX_OBJECTS = 110
+MAX_HARDENING = 28  # mines and objects beyond those that may be added when a level turns out too easy
 SAFE = 150.0  # px around the ninja's start without any danger
 BESIDE_PX = 110.0  # from gold, exit and switches, within which enemies are placed first
 AT_BAIT = 120.0  # px from the middle of a group of gold in which mines guard it
 FROM_RUN = 17.0  # px from a certified run at which a mine leaves it alone: their radii, and a little
 CLOSE_PX = 48.0  # from a certified run, within which hazards are put when a level turns out too easy
 IN_SIGHT = 200.0  # as CLOSE_PX, of what shoots
-MOST_ENEMIES = 11
-MOST_ADDED = 15  # of them, and lines of mines, when a level turns out too easy
+MAX_ENEMIES = 11
+MAX_ADDED = 15  # of them, and lines of mines, when a level turns out too easy
 ENEMY_TRIES = 14  # how often a place for one more enemy is looked for
 FEW_SOURCES = 6  # after so many of these tries among all sources
 # The same columns on both sides, so that a level looks made.
 TURRET_COLUMNS = (5, 8, 11, MIDDLE, 21, 24, 27)
 LAUNCHER_COLUMNS = (2, 3, MIDDLE, 29, 30)
-MOST_VOIDS = 4  # empty places that are furnished
+MAX_VOIDS = 4  # empty places that are furnished
 VOID = 4.2 * CELL  # px around such a place in which nothing is
 STEP = 28.0  # px between the mines of a line
 ON_ROCK = 6.0  # px from the rock to the middle of a mine
@@ -158,7 +158,7 @@ _SHOOTERS = (kinds.TURRET, kinds.LAUNCHER)
 def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
     """Where nothing is far around: a few pieces of gold about a drone that goes to and fro, a turret or a mine."""
     air = [middle_of(cell) for cell in sorted(scene.steps)]
-    for _ in range(MOST_VOIDS):
+    for _ in range(MAX_VOIDS):
         taken = np.array([point for spec in scene.objects for point in places(spec)])
         away = np.hypot(*(np.array(air)[:, None] - taken[None]).transpose(2, 0, 1)).min(1)
         x, y = air[int(away.argmax())]
@@ -169,7 +169,7 @@ def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
         enemy = _enemy(
             scene, object_of(f"{line} alternating {rng.choice(('left', 'right'))}" if "zap" in line else line), 60
         )
-        if scene.count(*ENEMIES) >= MOST_ENEMIES or enemy is None:
+        if scene.count(*ENEMIES) >= MAX_ENEMIES or enemy is None:
             scene.rings.append((x, y))
             enemy = object_of(f"mine {x:g},{y:g}px")
         scene.hazards.append([enemy])
@@ -194,7 +194,7 @@ def place_mines(scene: Scene, rng: Random, count: int) -> None:
                 for spec in scene.objects
                 if spec.kind == kinds.MINE
             )
-            if len(group) >= 3 and not near and scene.count(kinds.MINE) + len(group) <= min(count, MOST_MINES):
+            if len(group) >= 3 and not near and scene.count(kinds.MINE) + len(group) <= min(count, MAX_MINES):
                 scene.hazards.append(group)
 
 
@@ -224,7 +224,7 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
 
     No mine is less than ``FROM_RUN`` px from the run; whether it still passes an enemy is to be tried.
     """
-    if scene.count(*ENEMIES) < MOST_ADDED and rng.random() < 0.4:
+    if scene.count(*ENEMIES) < MAX_ADDED and rng.random() < 0.4:
         source = rng.choices(list(SOURCES), [often * (difficulty >= least) for least, often in SOURCES.values()])[0]
         offered = list(source(scene, rng))
         rng.shuffle(offered)
@@ -232,8 +232,8 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
             near = IN_SIGHT if spec.kind in _SHOOTERS else CLOSE_PX
             if min(dist(spec.values[:2], at) for at in run) < near and _enemy(scene, spec, 3 * CELL):
                 return [spec]
-    beyond = max(scene.count(kinds.MINE) - MOST_MINES, len(scene.objects) - MOST_OBJECTS)
-    if beyond > MOST_HARDENING - 3:
+    beyond = max(scene.count(kinds.MINE) - MAX_MINES, len(scene.objects) - MAX_OBJECTS)
+    if beyond > MAX_HARDENING - 3:
         return []
     if rng.random() < 0.5 and (gate := _gate(scene, run, rng)):
         return gate
@@ -273,7 +273,7 @@ def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
     return min(spare)[1] if spare else None
 
 
-MOST_FIXTURES = 12
+MAX_FIXTURES = 12
 
 
 def pads(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
@@ -323,5 +323,5 @@ def place_fixtures(scene: Scene, rng: Random) -> None:
     for spec in (spec for sort in sorts for spec in sort(scene, rng)):
         # A pad lies on the edge of its cell.
         point = (spec.values[0], spec.values[1] - (PAD_RADIUS if spec.kind == kinds.LAUNCH_PAD else 0.0))
-        if len(scene.fixtures) < MOST_FIXTURES and scene.clear_of(point, key=40.0, other=12.0):
+        if len(scene.fixtures) < MAX_FIXTURES and scene.clear_of(point, key=40.0, other=12.0):
             scene.fixtures.append(spec)

@@ -24,8 +24,8 @@ AUTHOR = "ninja-game generate"  # who made the levels
 PACKED = "generated.tsv.xz"  # among the game's assets: a level a line, as PackedLevel.line writes it
 FROZEN = "bench.tsv.xz"
 """Likewise, of an earlier generator: what the levels of the benchmark are made of. They never change."""
-MOST_BYTES = 8 * 2**20  # the largest size of the file, and of its text when unpacked
-MOST_MEMORY = 64 * 2**20  # bytes that unpacking may take
+MAX_BYTES = 8 * 2**20  # the largest size of the file, and of its text when unpacked
+MAX_MEMORY = 64 * 2**20  # bytes that unpacking may take
 
 
 def named_level(name: str, level: Level, seed: int | str, difficulty: int, measured: float) -> NamedLevel:
@@ -86,9 +86,9 @@ def frozen_level(place: int) -> PackedLevel:
 def _lines(path: Path) -> tuple[str, ...]:
     import lzma  # not in every Python, nor in a page
 
-    reader = lzma.LZMADecompressor(memlimit=MOST_MEMORY)
+    reader = lzma.LZMADecompressor(memlimit=MAX_MEMORY)
     try:
-        text = reader.decompress(read_bytes(path, MOST_BYTES), MOST_BYTES).decode("utf-8")
+        text = reader.decompress(read_bytes(path, MAX_BYTES), MAX_BYTES).decode("utf-8")
     except (OSError, lzma.LZMAError, UnicodeDecodeError) as error:
         raise FileError("the generated levels of the game cannot be read", str(path)) from error
     if not reader.eof:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels.origins import Origin, level_source
-from ninja_game.learn.protocol import EVALUATION_SEED, LONGEST_WAIT, REPEAT, TIME_LIMIT
+from ninja_game.learn.protocol import EVALUATION_SEED, MAX_WAIT, REPEAT, TIME_LIMIT
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
@@ -97,7 +97,7 @@ def evaluate(
     episodes: int = 20,
     seed: int = EVALUATION_SEED,
     repeat: float = REPEAT,
-    longest_wait: int = LONGEST_WAIT,
+    longest_wait: int = MAX_WAIT,
     time_limit: int = TIME_LIMIT,
     memory: str = "auto",
 ) -> Evaluation:

@@ -17,12 +17,12 @@ from ninja_game.sim.memory.declare import fast
 
 REPEAT = 0.25
 """Chance that a step plays the keys of the step before once more instead of those that were chosen."""
-LONGEST_WAIT = 7
+MAX_WAIT = 7
 """Steps at most that an episode begins with no key down; how many is drawn again for each episode, from 0 on."""
 TIME_LIMIT = 2000  # ticks, 50 s: longer than any certificate to the exit of the set
 EVALUATION_SEED = 1_000_000  # the first seed of evaluations; agents are trained with seeds below it
 
-PROTOCOL: dict[str, Any] = {"repeat": REPEAT, "longest_wait": LONGEST_WAIT, "time_limit": TIME_LIMIT}
+PROTOCOL: dict[str, Any] = {"repeat": REPEAT, "longest_wait": MAX_WAIT, "time_limit": TIME_LIMIT}
 """What ``evaluate`` and the environments of the benchmark set."""
 
 CHANCES = 2**32  # kernels take a probability as a whole number of this many parts

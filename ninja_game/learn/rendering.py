@@ -22,14 +22,14 @@ _MOVING = {kind.number for kind in KINDS if kind.moves and (kind.disc or kind.bo
 _GONE_WHEN_0 = {GOLD, MINE}
 _NOWHERE = (0.0, 0.0)
 
-MOST_PX = 8192  # longest side of a picture
+MAX_PX = 8192  # longest side of a picture
 
 
 def checked_size(size: object) -> tuple[int, int]:
     """Width and height of a picture, px. Raises ArgumentError for anything else."""
     sides = list(size) if isinstance(size, tuple | list) else []
-    if len(sides) != 2 or not all(isinstance(side, int) and 1 <= side <= MOST_PX for side in sides):
-        raise ArgumentError(f"render_size is {size!r:.40}; expected width and height, 1 to {MOST_PX} px")
+    if len(sides) != 2 or not all(isinstance(side, int) and 1 <= side <= MAX_PX for side in sides):
+        raise ArgumentError(f"render_size is {size!r:.40}; expected width and height, 1 to {MAX_PX} px")
     return sides[0], sides[1]
 
 

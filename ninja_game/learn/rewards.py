@@ -95,7 +95,7 @@ def weights_of(terms: Sequence[RewardTerm]) -> list[float]:
     return [worth[ExitReward], -worth[DeathPenalty], worth[GoldReward], -worth[TimePenalty]]
 
 
-LOWEST = -1.0  # the lowest Φ: twice as far as at the start, or farther
+MIN_POTENTIAL = -1.0  # the lowest Φ: twice as far as at the start, or farther
 
 
 class Shaping:
@@ -121,4 +121,4 @@ class Shaping:
         ticks, start = self._goal.ticks[indices], self._goal.start[indices]
         there = (start > 0.0) & (start < FARTHEST)
         potential = 1.0 - ticks / np.where(there, start, 1.0)
-        return np.where(there, np.maximum(potential, LOWEST), 0.0)
+        return np.where(there, np.maximum(potential, MIN_POTENTIAL), 0.0)

@@ -147,7 +147,7 @@ class Attempt:
         return replace(replay, made=self.made)
 
 
-_MOST_TRIES = 20  # more than any place has killers: a ninja that is still crushed after so many tries is dead
+_MAX_TRIES = 20  # more than any place has killers: a ninja that is still crushed after so many tries is dead
 
 
 def tick_without_death(simulation: Simulation, keys: int) -> bool:
@@ -160,7 +160,7 @@ def tick_without_death(simulation: Simulation, keys: int) -> bool:
     left_out: dict[int, int] = {}
     share = 1.0
     simulation.step_keys(keys)
-    for _ in range(_MOST_TRIES):
+    for _ in range(_MAX_TRIES):
         if world.outcome != OUTCOME_DEAD:
             break
         killer = next(event.slot for event in world.events[: world.event_count] if event.kind == DIED)

@@ -42,11 +42,11 @@ from ninja_game.runs.deaths import KILLERS
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.level import BODIES
 
-MOST_FILES = 4096
-MOST_BYTES = 256 * 2**20  # of all files, unpacked
+MAX_FILES = 4096
+MAX_BYTES = 256 * 2**20  # of all files, unpacked
 
-MOST_REPLAYS = 5_000  # in its records
-MOST_ROWS = 100_000  # of any other table
+MAX_REPLAYS = 5_000  # in its records
+MAX_ROWS = 100_000  # of any other table
 
 BRANCHES = ".branches.json"  # suffix of a file beside a run: its branches in the TAS editor
 
@@ -60,10 +60,10 @@ FOLDERS = {
 act on some others by themselves, such as a ``desktop.ini``.
 """
 
-MOST_OF_LEVELS = 16 * 2**20  # bytes of all levels of the replays: each is read, and its replay run again
-MOST_OF_DRAFT = 2**20  # bytes of a level under edit
-MOST_OF_LEVEL = 2**20  # bytes of the level of a replay
-MOST_TICKS = 10_000_000  # of all replays, which are run again
+MAX_LEVELS_BYTES = 16 * 2**20  # bytes of all levels of the replays: each is read, and its replay run again
+MAX_DRAFT_BYTES = 2**20  # bytes of a level under edit
+MAX_LEVEL_BYTES = 2**20  # bytes of the level of a replay
+MAX_TICKS = 10_000_000  # of all replays, which are run again
 FEW_TICKS = 200_000  # that many are run before kernels would be ready
 
 _SCHEMA = "SELECT type, name, tbl_name, sql FROM sqlite_master WHERE sql IS NOT NULL"
@@ -120,7 +120,7 @@ def _problem(name: str, size: int = 0) -> str:
     folder, _, file = name.rpartition("/")
     if name in {SETTINGS, RECORDS}:
         return ""
-    if folder == EDITING and size > MOST_OF_DRAFT:
+    if folder == EDITING and size > MAX_DRAFT_BYTES:
         return "no level under edit"
     if not file.lower().endswith(FOLDERS.get(folder, ())) or file.startswith("."):
         return "no file of a player's"
@@ -156,7 +156,7 @@ def read_backup(player: PlayerData, data: bytes) -> list[str]:
 def _unpacked(data: bytes) -> tuple[dict[str, bytes], list[str]]:
     """The files of a backup for a player's folder, by name, and the names of others. Raises ValueError."""
     files, left_out = {}, []
-    archive = open_zip(io.BytesIO(data), most_files=MOST_FILES, most_bytes=MOST_BYTES)
+    archive = open_zip(io.BytesIO(data), most_files=MAX_FILES, most_bytes=MAX_BYTES)
     for entry in archive.infolist():
         name = entry.filename
         if not (problem := _problem(name, entry.file_size)):
@@ -194,17 +194,17 @@ def _open_records(path: Path) -> Store:
                 raise ValueError(f"damaged records: {state}")
             for name in SCHEMA.keys() & {name for _, name, *_ in there}:
                 ((rows,),) = db.execute(f"SELECT count(*) FROM {name}")
-                if rows > (most := MOST_REPLAYS if name == "replay" else MOST_ROWS):
+                if rows > (most := MAX_REPLAYS if name == "replay" else MAX_ROWS):
                     raise ValueError(f"{rows:,} rows in the table {name}, of which at most {most:,} are accepted")
             level = "length(CAST(level_text AS BLOB))"
             lengths = f"coalesce(max({level}), 0), total({level}), total(length(inputs))"
             ((longest, levels, ticks),) = db.execute(f"SELECT {lengths} FROM replay")
-            if longest > MOST_OF_LEVEL:
-                raise ValueError(f"a level of {longest:,} bytes, of which at most {MOST_OF_LEVEL:,} are accepted")
-            if levels > MOST_OF_LEVELS:
-                raise ValueError(f"levels of {levels:,.0f} bytes, of which at most {MOST_OF_LEVELS:,} are accepted")
-            if ticks > MOST_TICKS:
-                raise ValueError(f"replays of {ticks:,.0f} ticks, of which at most {MOST_TICKS:,} are accepted")
+            if longest > MAX_LEVEL_BYTES:
+                raise ValueError(f"a level of {longest:,} bytes, of which at most {MAX_LEVEL_BYTES:,} are accepted")
+            if levels > MAX_LEVELS_BYTES:
+                raise ValueError(f"levels of {levels:,.0f} bytes, of which at most {MAX_LEVELS_BYTES:,} are accepted")
+            if ticks > MAX_TICKS:
+                raise ValueError(f"replays of {ticks:,.0f} ticks, of which at most {MAX_TICKS:,} are accepted")
         store = Store(path)
     except sqlite3.Error as error:
         raise ValueError(str(error)) from None
@@ -245,7 +245,7 @@ class _TargetFolder:
     def _read(self, name: str) -> bytes:
         """The content of a file; for an unreadable one a byte that equals no file of ours."""
         with suppress(FileError, OSError):
-            content = read_bytes(self._tree.root / name, MOST_BYTES)
+            content = read_bytes(self._tree.root / name, MAX_BYTES)
             return _without_path(content) if self._tree.root.name == EDITING else content
         return b"\0"
 

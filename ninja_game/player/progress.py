@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
-from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_COLUMNS
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MAX_COLUMNS
 from ninja_game.formats.pack.pars import MEDALS, Pars
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
@@ -50,7 +50,7 @@ class PackProgress:
     def columns(self) -> list[ColumnProgress]:
         """The stored progress, read again when it may have changed; damaged columns start again."""
         if self._epoch != self.store.epoch:
-            self._columns = [ColumnProgress(*[(c * EPISODES_PER_COLUMN, 0)] * 2) for c in range(MOST_COLUMNS)]
+            self._columns = [ColumnProgress(*[(c * EPISODES_PER_COLUMN, 0)] * 2) for c in range(MAX_COLUMNS)]
             query = f"SELECT {_COLUMN_NAMES} FROM progress WHERE pack = ?"
             for number, *places in self.store.rows(query, (self.pack,), [int] * 5):
                 column = ColumnProgress((places[0], places[1]), (places[2], places[3]))
@@ -100,7 +100,7 @@ class PackProgress:
 def complete_columns(progress: PackProgress, episodes: Collection[int]) -> int:
     """The number of complete columns: all of the ``episodes`` that exist in them are beaten, and there are some."""
     count = 0
-    for column in range(MOST_COLUMNS):
+    for column in range(MAX_COLUMNS):
         present = [episode for episode in episodes if episode // EPISODES_PER_COLUMN == column]
         count += bool(present) and progress.is_beaten(max(present))
     return count
@@ -138,7 +138,7 @@ def new_unlocks(store: Store, columns: int, present: int) -> list[str]:
 
 
 def is_place(place: Place, column: int) -> bool:
-    return place[0] // EPISODES_PER_COLUMN == column in range(MOST_COLUMNS) and place[1] in range(LEVELS_PER_EPISODE)
+    return place[0] // EPISODES_PER_COLUMN == column in range(MAX_COLUMNS) and place[1] in range(LEVELS_PER_EPISODE)
 
 
 def _ends_column(episode: int) -> bool:

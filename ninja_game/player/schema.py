@@ -13,9 +13,9 @@ APPLICATION_ID = 0x6E696E6A  # distinguishes our files from other SQLite files
 
 OPENING_SECONDS = 1.0  # longest wait of a start for another program that has locked the file
 
-MOST_CELL_BYTES = 2**26  # the largest value, and row; SQLite itself makes values of a gigabyte if a file asks for it
+MAX_CELL_BYTES = 2**26  # the largest value, and row; SQLite itself makes values of a gigabyte if a file asks for it
 
-MOST_STEPS = 30
+MAX_STEPS = 30
 """Millions of instructions of SQLite to check a file: some four seconds; the records of years take one."""
 
 _WRITE_VERSION = 18  # place of a byte in the file's header: 1 or 2 if SQLite may write it
@@ -107,7 +107,7 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
     """
     connection = sqlite3.connect(name, timeout=seconds, isolation_level=None)
     try:
-        connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MOST_CELL_BYTES)
+        connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MAX_CELL_BYTES)
         # Text that is not UTF-8 damages one row only: do not fail.
         connection.text_factory = _text
         if source is not None:
@@ -135,7 +135,7 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
 def bounded(connection: sqlite3.Connection) -> Iterator[None]:
     """Bound the work of queries on a file, whatever its pages say. Raises sqlite3.DatabaseError beyond the bound."""
     steps = count(1)
-    connection.set_progress_handler(lambda: next(steps) > MOST_STEPS, 1_000_000)
+    connection.set_progress_handler(lambda: next(steps) > MAX_STEPS, 1_000_000)
     try:
         yield
     except sqlite3.OperationalError as error:

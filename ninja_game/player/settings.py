@@ -34,7 +34,7 @@ BY_COLUMN = "by-column"  # the palette that changes with the column of episodes
 GHOSTS = ("best", "next", "silver", "gold", "author")
 """Ghosts in play: the player's best run, or the pace of the next medal or of one."""
 
-MOST_INPUTS = 16  # most keys or buttons of one action
+MAX_INPUTS = 16  # most keys or buttons of one action
 
 InputNames = Mapping[str, tuple[str, ...]]  # action to the names of its inputs (ui/input/bindings.py)
 
@@ -85,7 +85,7 @@ def _is_bindings(value: Any) -> bool:
     return isinstance(value, Mapping) and all(
         isinstance(action, str)
         and isinstance(inputs, (list, tuple))
-        and len(inputs) <= MOST_INPUTS
+        and len(inputs) <= MAX_INPUTS
         and all(isinstance(name, str) and name.isprintable() for name in inputs)
         for action, inputs in value.items()
     )

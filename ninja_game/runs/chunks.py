@@ -159,7 +159,7 @@ def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result
         raise ClusterError(f"a worker of the cluster answers with something else than results ({error})") from None
 
 
-LARGEST = 2**53  # numbers of a result are smaller
+MAX_NUMBER = 2**53  # numbers of a result are smaller
 OUTCOMES = (*OUTCOME_NAMES, NOT_RUN)
 
 _TYPES = {name: hint for name, hint in get_type_hints(Verdict).items() if name != "problems"}
@@ -173,7 +173,7 @@ def result_from_data(data: object) -> Result:
         raise ValueError("not the fields of a result")
     for name, kind in _TYPES.items():
         value = data[name]
-        if isinstance(value, int) and abs(value) >= LARGEST:
+        if isinstance(value, int) and abs(value) >= MAX_NUMBER:
             raise ValueError(f"{name} is out of range")
         if not isinstance(value, kind) or (isinstance(value, bool) and bool not in (kind, *get_args(kind))):
             raise ValueError(f"{name} is {value!r}"[:80])
@@ -193,7 +193,7 @@ def _is_problem(data: object) -> bool:
 
 HEADER = {"checkpoint-log": "ninja-game verify", "version": __version__, "rules": RULES_VERSION}
 
-LONGEST_LINE = 2**26  # bytes; the results of a chunk are a thousandth of it
+MAX_LINE_BYTES = 2**26  # bytes; the results of a chunk are a thousandth of it
 
 
 class CheckpointLog:
@@ -238,9 +238,9 @@ class CheckpointLog:
     def _read_chunks(self, whole: int) -> int:
         """Index the chunks of all lines but the first; the end of the last whole line."""
         number = 1
-        while line := self._file.readline(LONGEST_LINE):
+        while line := self._file.readline(MAX_LINE_BYTES):
             number += 1
-            if not line.endswith(b"\n") and len(line) < LONGEST_LINE:
+            if not line.endswith(b"\n") and len(line) < MAX_LINE_BYTES:
                 break
             try:
                 self._places[_parse(line)[0]] = whole

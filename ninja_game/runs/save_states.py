@@ -8,11 +8,11 @@ from typing import Generic, TypeVar
 State = TypeVar("State")
 
 SPACING = 60  # a save-state every this many ticks, at first
-MOST_STATES = 300
+MAX_STATES = 300
 """With more save-states than this every second one is dropped, so that a run of any length fits into the memory."""
 
-MOST_VALUES = 300_000  # in all save-states together, some 100 MB
-FEWEST_STATES = 10  # that there may be even of the largest level and run
+MAX_VALUES = 300_000  # in all save-states together, some 100 MB
+MIN_STATES = 10  # that there may be even of the largest level and run
 
 
 class SaveStates(Generic[State]):
@@ -23,7 +23,7 @@ class SaveStates(Generic[State]):
 
     def __init__(self, tick: int, first: State, *, spacing: int = SPACING, values: int = 0) -> None:
         self.spacing = spacing
-        self._most = min(MOST_STATES, max(FEWEST_STATES, MOST_VALUES // max(1, values)))
+        self._most = min(MAX_STATES, max(MIN_STATES, MAX_VALUES // max(1, values)))
         self._ticks = [tick]
         self._states = [first]
 

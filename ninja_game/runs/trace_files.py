@@ -20,7 +20,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from ninja_game.errors import FileError, FormatError
 from ninja_game.files.reading import open_regular
-from ninja_game.files.untrusted import MOST_ARRAYS, UNREADABLE, open_zip, read_array
+from ninja_game.files.untrusted import MAX_ARRAYS, UNREADABLE, open_zip, read_array
 from ninja_game.runs.trace import NINJA_NAME, NINJA_RECORD, OBJECT_RECORD, RunTrace, rows
 from ninja_game.sim.inputs import MAX_TICKS, Input
 
@@ -30,7 +30,7 @@ COLUMNS = (
 )  # fmt: skip
 """Columns of the CSV. The ninja has no id; objects have neither keys, previous position, velocity, gold nor events."""
 
-MOST_BYTES = 2**28  # the largest CSV, or all arrays of a .npz: a million ticks of the ninja are a seventh of it
+MAX_BYTES = 2**28  # the largest CSV, or all arrays of a .npz: a million ticks of the ninja are a seventh of it
 
 _KEYS = (("L", Input.LEFT), ("R", Input.RIGHT), ("J", Input.JUMP_HELD), ("!", Input.JUMP_PRESSED))
 
@@ -158,7 +158,7 @@ def write_npz(traces: Iterable[FiledTrace], out: IO[bytes]) -> None:
 def read_npz(data: IO[bytes], path: Path) -> Iterator[FiledTrace]:
     """The traces of a file that ``write_npz`` wrote. Raises FormatError where it is something else."""
     try:
-        with open_zip(data, most_files=MOST_ARRAYS, most_bytes=MOST_BYTES) as archive:
+        with open_zip(data, most_files=MAX_ARRAYS, most_bytes=MAX_BYTES) as archive:
             arrays = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
             for number in sorted(int(name.removeprefix("ninja_")) for name in arrays if name.startswith("ninja_")):
                 yield _read_arrays(archive, arrays, number)
@@ -193,8 +193,8 @@ def is_trace(path: Path) -> bool:
 def read_traces(path: Path) -> Iterator[FiledTrace]:
     """The traces of a CSV or .npz file, by what the file begins with. Raises FormatError, FileError, OSError."""
     with open_regular(path) as file:
-        if os.fstat(file.fileno()).st_size > MOST_BYTES:
-            expected = f"at most {MOST_BYTES >> 20} MiB, unpacked"
+        if os.fstat(file.fileno()).st_size > MAX_BYTES:
+            expected = f"at most {MAX_BYTES >> 20} MiB, unpacked"
             raise FileError("the trace is too large", str(path), expected=expected)
         zipped = file.read(len(ZIPPED)) == ZIPPED
         file.seek(0)

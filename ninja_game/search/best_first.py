@@ -14,7 +14,7 @@ from __future__ import annotations
 from ninja_game.search.heuristics import point_at
 from ninja_game.search.known_run import KnownRun, nearest
 from ninja_game.search.macros import (
-    MOST_ROWS,
+    MAX_ROWS,
     PRESSED,
     PRESSED_AGAIN,
     RELEASED,
@@ -52,7 +52,7 @@ FOLLOW_CHOICES = 3
 """Rows of a known run from which it is followed: the one most like the present state, the one before, the next one."""
 BOUND_SHARE = 0.4
 """What share of the estimate counts when a node is compared with the best run: fields may be too high. Not tuned."""
-LEAST_GAIN = 0.5
+MIN_GAIN = 0.5
 """Ticks by which what is behind a span must seem to be shorter than the known run. Not tuned."""
 OTHER_ENDS = 8
 """Ends of a leg that are kept where another switch than a wanted one was touched. Not tuned."""
@@ -131,7 +131,7 @@ def expand(
                 action = action_code(direction, mode, held, played)
             else:
                 first = row + (choice - CHOICES + 1) % FOLLOW_CHOICES - 1
-                if not 0 <= first < MOST_ROWS:
+                if not 0 <= first < MAX_ROWS:
                     continue
                 copy_words(start.scratch, start.node)
                 played = 0
@@ -222,7 +222,7 @@ def keep_along(
         return
     _, to_go = nearest(known, w, goal.masks[switch_state])
     run_ticks = w.tick + to_go
-    delay = known.max_delay if w.tick < known.span[1] else -LEAST_GAIN
+    delay = known.max_delay if w.tick < known.span[1] else -MIN_GAIN
     if run_ticks <= arrays.counters[0].best_ticks + delay:
         index = keep_node(parent, action, slot, key, to_go, switch_state, start, arrays)
         # Two buckets a tick; the known run's own states wait in the middle one.

@@ -143,7 +143,7 @@ def save_replay(path: Path, replay: Replay) -> None:
     write_atomically(path, write_replay(replay))
 
 
-MOST_TICKS = 4000
+MAX_TICKS = 4000
 """Longer runs keep all their keys: a tick takes some 0.5 ms."""
 _CHOICES = (*range(8), *range(12, 16))
 """The inputs that a keyboard can make in a tick."""
@@ -155,7 +155,7 @@ def without_idle_keys(
     """A run with the same state after each tick, by plainer keys in the ticks ``first`` … ``last`` - 1 (None: all).
 
     Of keys that lead to just the same state each tick gets those of ``original``, the run that this one was made of, as
-    long as that goes the same way; then as few changes as possible. Runs over MOST_TICKS, and such with triggers that
+    long as that goes the same way; then as few changes as possible. Runs over MAX_TICKS, and such with triggers that
     no keyboard makes, stay as they are.
     """
     import numpy as np  # which a page has not
@@ -163,7 +163,7 @@ def without_idle_keys(
     from ninja_game.batch.batch import Batch
 
     last = len(inputs) if last is None else last
-    if len(inputs) > MOST_TICKS or with_press_bits(inputs) != inputs:
+    if len(inputs) > MAX_TICKS or with_press_bits(inputs) != inputs:
         return inputs
     batch = Batch(level, len(_CHOICES), body=body, threads=1)
 

@@ -125,7 +125,7 @@ class LegFields:
 
 Distances = NDArray[np.float64]  # ticks from each stop (row) to each stop (column)
 
-LONGEST_SEGMENT = 4  # stops that are moved together
+MAX_SEGMENT = 4  # stops that are moved together
 
 
 def short_tour(start: Distances, between: Distances, end: Distances, order: Sequence[int] = ()) -> list[int]:
@@ -165,7 +165,7 @@ def _best_place(
 def _move_a_segment(tour: list[int], start: Distances, between: Distances, end: Distances) -> bool:
     """Move the first segments that are better elsewhere, also turned round; whether any was moved."""
     moved = False
-    for length in range(1, min(LONGEST_SEGMENT, len(tour) - 1) + 1):
+    for length in range(1, min(MAX_SEGMENT, len(tour) - 1) + 1):
         for index in range(len(tour) - length + 1):
             segment = tour[index : index + length]
             rest = tour[:index] + tour[index + length :]

@@ -19,7 +19,7 @@ RELEASED, PRESSED, PRESSED_AGAIN = 0, 1, 2
 """Modes of the jump key: up; down (a press if it was up); up for one tick, then down."""
 FOLLOWED = 3
 """Mode of an action that plays on as a known run did, from the row in its bits 16 and up."""
-MOST_ROWS = 1 << 15  # an action has no room for a row from here on
+MAX_ROWS = 1 << 15  # an action has no room for a row from here on
 
 
 @fast

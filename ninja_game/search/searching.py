@@ -31,7 +31,7 @@ from ninja_game.search.nodes import (
 from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, WANTED, Goal
 
 NO_BACKED_UP = BackedUpHeuristic(zeroed(TableEntry, 1), Resolution())
-MOST_SWEEPS = 40
+MAX_SWEEPS = 40
 """Most sweeps over all links that back values up for the next search."""
 
 
@@ -112,7 +112,7 @@ class Search:
     def _learned(self) -> BackedUpHeuristic:
         """The table of the search just made, with its values; the next search gets the other table."""
         table = self.arrays.table
-        compiled(back_up_values)(table, self.arrays.links, int(self.counters.links), MOST_SWEEPS)
+        compiled(back_up_values)(table, self.arrays.links, int(self.counters.links), MAX_SWEEPS)
         other = new_table(self._nodes) if self._other_table is None else self._other_table
         other[:] = 0
         self.arrays = self.arrays._replace(table=other)

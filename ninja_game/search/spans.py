@@ -29,7 +29,7 @@ PLACE_PRICES, SPEED_PRICES = (0.6, 0.9, 1.2), (0.5, 1.0, 2.0, 4.0)
 ENEMY_CELLS = (0.0, 24.0)
 LENGTHS = (40, 60, 90, 150)
 """What is drawn for each search: see Resolution and KnownRun; ticks of a span. Not tuned: a spread of what may help."""
-LEAST_DELAY_FACTOR, MOST_DELAY_FACTOR = 0.5, 6.0
+MIN_DELAY_FACTOR, MAX_DELAY_FACTOR = 0.5, 6.0
 """By how much ``max_delay`` is multiplied: more while searches come to an end of their own, less while they do not."""
 FEW_TICKS, MANY_TICKS = 500_000, 2_000_000
 """An end of its own before the first is an early one, after the second a late one."""
@@ -119,7 +119,7 @@ class SpanSearches:
                 break
         early, late = ended == EXHAUSTED and search.ticks < FEW_TICKS, search.ticks >= MANY_TICKS
         factor = self._delay_factor * (1.15 if early else 0.8 if late else 1.0)
-        self._delay_factor = min(max(factor, LEAST_DELAY_FACTOR), MOST_DELAY_FACTOR)
+        self._delay_factor = min(max(factor, MIN_DELAY_FACTOR), MAX_DELAY_FACTOR)
         span = search.best()
         # A press is there where the key goes down; joined parts need it again.
         return with_press_bits(self._inputs[:first] + span) if span else None

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.runs.compare import Split, run_splits
-from ninja_game.search.formula.task import LONGEST_SPAN
+from ninja_game.search.formula.task import MAX_SPAN
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.session import Session
@@ -106,7 +106,7 @@ def reach_exit(span: SearchedSpan) -> SpanGoal:
     tick, outcome = span.session.timeline.end
     known = tick if outcome == "exit" else max(len(span.session.track), span.first + EXIT_TICKS)
     why = "up to the run's exit" if outcome == "exit" else "to the end, 5 s at least"
-    return SpanGoal("won", last=min(max(known, span.first + 1), span.first + LONGEST_SPAN), why=why)
+    return SpanGoal("won", last=min(max(known, span.first + 1), span.first + MAX_SPAN), why=why)
 
 
 def whole_run(span: SearchedSpan) -> SpanGoal:
@@ -131,7 +131,7 @@ def collect_too(span: SearchedSpan) -> SpanGoal:
     rest = _is_passed(span)
     goal = f"taken({_piece_left(span, span.first)}) and {be_there(span).goal}"
     return SpanGoal(
-        goal, rest=rest, last=min(span.last + TICKS_PER_SECOND, span.first + LONGEST_SPAN), why="and a second more"
+        goal, rest=rest, last=min(span.last + TICKS_PER_SECOND, span.first + MAX_SPAN), why="and a second more"
     )
 
 
@@ -178,7 +178,7 @@ class RunPiece(NamedTuple):
     wanted: SpanGoal
 
 
-SHORTEST_PIECE = 10  # ticks; a goal that is reached sooner belongs to the previous piece
+MIN_PIECE_TICKS = 10  # ticks; a goal that is reached sooner belongs to the previous piece
 GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened": "opened({})", "won": "won"}
 
 
@@ -193,18 +193,18 @@ def pieces_of(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
     passes = outcome == "exit"
     to_exit = not passes or span.last >= end
     for split in splits:
-        if span.first <= split.tick < span.last + to_exit and split.tick - first + 1 >= SHORTEST_PIECE:
+        if span.first <= split.tick < span.last + to_exit and split.tick - first + 1 >= MIN_PIECE_TICKS:
             goal, behind = GOALS[split.event].format(split.object_id), split.tick + 1
             rest = passes and behind <= end
             pieces.append(RunPiece(first, behind, f"To {split.name}", SpanGoal(goal, rest=rest)))
             first = behind
     if not passes and pieces:
-        last = min(max(span.last, first + EXIT_TICKS), first + LONGEST_SPAN)
+        last = min(max(span.last, first + EXIT_TICKS), first + MAX_SPAN)
         pieces.append(RunPiece(first, last, "To exit", SpanGoal("won")))
     elif not to_exit and len(pieces) < 2:
         half = (span.first + span.last) // 2
         for bounds in pairwise((first, span.last) if pieces else (first, half, span.last)):
-            if bounds[1] - bounds[0] >= SHORTEST_PIECE:
+            if bounds[1] - bounds[0] >= MIN_PIECE_TICKS:
                 wanted = same_end(SearchedSpan(span.session, *bounds))
                 pieces.append(RunPiece(*bounds, f"To tick {bounds[1] - 1}", wanted))
     if len(pieces) < 2:

@@ -150,7 +150,7 @@ class Lens(Canvas):
         return self._seen.copy()
 
 
-LARGEST_SCALE = 8.0  # px of the window per px of the level, at most
+MAX_SCALE = 8.0  # px of the window per px of the level, at most
 _MARGIN = 0.3  # share of the picture at each side in which a followed place moves the picture
 _STILL = 3  # less movement of the mouse than this, px, is a click
 
@@ -159,7 +159,7 @@ class Camera:
     """The part of a level in a picture of some size (``window``, px); the mouse zooms and moves it.
 
     ``zoom``: 1: all of the level; one notch of the wheel multiplies it by ``step``, up to ``most``, 0: to
-    LARGEST_SCALE. ``centre``: px of the level in the middle. ``held``: the px where a drag is, ``moved``: whether it
+    MAX_SCALE. ``centre``: px of the level in the middle. ``held``: the px where a drag is, ``moved``: whether it
     has moved.
     """
 
@@ -189,7 +189,7 @@ class Camera:
     def zoom_at(self, window: tuple[int, int], px: tuple[int, int], notches: float) -> None:
         """Zoom; the level's place under a px stays there as far as possible."""
         x, y = self.canvas(window).logical(px)
-        most = self._most or max(1.0, LARGEST_SCALE / Canvas(window).scale)
+        most = self._most or max(1.0, MAX_SCALE / Canvas(window).scale)
         steps = round(log(self.zoom, self._step)) + notches
         self.zoom = min(most, max(1.0, self._step**steps))
         scale = Canvas(window).scale * self.zoom

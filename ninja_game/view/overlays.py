@@ -34,7 +34,7 @@ _SIDES: tuple[tuple[float, float, float, float], ...] = (
 
 _THINKER = 9.0  # radius of the ring around a thinker, px
 
-_SMALLEST = 1.0  # half size, px, of a shape that is a point: the tip of a rocket
+_MIN_SIZE = 1.0  # half size, px, of a shape that is a point: the tip of a rocket
 
 
 @dataclass(frozen=True)
@@ -225,7 +225,7 @@ def hit_shapes(world: World) -> Iterator[HitShape]:
             if half is not None:
                 # Drones with a weapon do not hurt by touch.
                 deadly = kind.by_touch and (o.kind != DRONE or o.weapon == WEAPON_ZAP)
-                yield HitShape(o.x, o.y, max(half, _SMALLEST), kind.disc is not None, deadly)
+                yield HitShape(o.x, o.y, max(half, _MIN_SIZE), kind.disc is not None, deadly)
     n = world.ninja
     yield HitShape(n.x, n.y, rules.RADIUS, not n.box, ninja=True, vx=n.x - n.prev_x, vy=n.y - n.prev_y)
 

@@ -10,19 +10,19 @@ from types import FrameType
 from typing import Any
 
 NAME = "<your program>"
-MOST_LINES = 300_000  # most lines that a program may run
-MOST_SHOWN = 5_000  # most characters of its output
+MAX_LINES = 300_000  # most lines that a program may run
+MAX_SHOWN = 5_000  # most characters of its output
 
 
 def run_program(text: str) -> str:
     """Its output; after an error also its line and message."""
-    printed, left = StringIO(), MOST_LINES
+    printed, left = StringIO(), MAX_LINES
 
     def count(_frame: FrameType, event: str, _: object) -> Any:
         nonlocal left
         left -= event == "line"
         if left < 0:
-            raise TimeoutError(f"stopped after {MOST_LINES:,} lines; does a loop never end?")
+            raise TimeoutError(f"stopped after {MAX_LINES:,} lines; does a loop never end?")
         return count
 
     wrong = ""
@@ -37,4 +37,4 @@ def run_program(text: str) -> str:
         wrong = f"Line {line}: {type(error).__name__}: {words}"
     finally:
         sys.settrace(None)
-    return printed.getvalue()[:MOST_SHOWN] + wrong
+    return printed.getvalue()[:MAX_SHOWN] + wrong

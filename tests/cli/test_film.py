@@ -69,7 +69,7 @@ def test_record_of_a_file_becomes_a_folder_of_pictures(tmp_path: Path) -> None:
 def test_film_of_a_run_without_an_end_wants_its_last_tick_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(film, "MOST_PICTURES", 30)
+    monkeypatch.setattr(film, "MAX_PICTURES", 30)
     file = write_records(tmp_path / "long.txt", ("long", "0" * 713 + "|5^100,566", running(1000)))
     steps: list[int] = []
     step = Playback.step

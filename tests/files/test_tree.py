@@ -12,7 +12,7 @@ from hypothesis import given, strategies as st
 
 from ninja_game.errors import FileError
 from ninja_game.files import tree, writing
-from ninja_game.files.shown_text import MOST_NAME_BYTES, file_stem, name_key, name_problem
+from ninja_game.files.shown_text import MAX_NAME_BYTES, file_stem, name_key, name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import export_path, free_path
 
@@ -173,7 +173,7 @@ def test_other_names_are_taken(name: str) -> None:
 def test_what_a_text_names_is_good_on_every_system(text: str) -> None:
     name = f"{file_stem(text, 'replay')}.replay.txt"
     assert name_problem(name) == ""
-    assert len(name.encode()) <= MOST_NAME_BYTES + len(".replay.txt")
+    assert len(name.encode()) <= MAX_NAME_BYTES + len(".replay.txt")
 
 
 def test_names_that_are_one_file_somewhere_are_one_here(tmp_path: Path) -> None:

@@ -126,7 +126,7 @@ def test_a_marker_costs_as_much_among_many() -> None:
 
 
 def test_more_markers_than_a_text_may_hold_are_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(input_text, "MOST_MARKERS", 5)
+    monkeypatch.setattr(input_text, "MAX_MARKERS", 5)
     assert len(read_inputs([(1, "#a #b #c #d #e R")]).markers) == 5
     with pytest.raises(ReplayError, match=r"2:4: too many markers; found '#f'; expected at most 5"):
         read_inputs([(1, "#a #b #c #d #e R"), (2, "   #f R")])
@@ -143,7 +143,7 @@ def test_more_ticks_than_demos_of_older_versions_may_hold_together_are_told(
     path = tmp_path / "old.txt"
     path.write_text(f"$n#a#c#{WALK}#AR5L7#\n" * 3)
     (first, *_) = load_replays(path)
-    monkeypatch.setattr("ninja_game.formats.recording.MOST_LEGACY_TICKS", 2 * first.ticks)
+    monkeypatch.setattr("ninja_game.formats.recording.MAX_LEGACY_TICKS", 2 * first.ticks)
     with pytest.raises(ReplayError, match=r"old\.txt:3: the demos of older versions .* are too long together"):
         load_replays(path)
 

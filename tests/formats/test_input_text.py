@@ -14,7 +14,7 @@ from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.recording import parse_replays, record_of
-from ninja_game.formats.replay.input_text import MOST_INCLUDES, read_inputs
+from ninja_game.formats.replay.input_text import MAX_INCLUDES, read_inputs
 from ninja_game.formats.replay.notations import Marker, in_our_notation, write_inputs
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay
@@ -143,7 +143,7 @@ def test_files_that_take_in_each_other_end(run: Path) -> None:
     with pytest.raises(ReplayError, match="takes in itself"):
         load_replays(run)
     part.write_text("R\n")
-    run.write_text(LOOSE + "  include parts/jump.txt\n" * (MOST_INCLUDES + 1))
+    run.write_text(LOOSE + "  include parts/jump.txt\n" * (MAX_INCLUDES + 1))
     with pytest.raises(ReplayError, match="too many files"):
         load_replays(run)
 

@@ -22,9 +22,9 @@ from ninja_game.files import reading
 from ninja_game.files.user_folder import bundled_levels, bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.links import (
-    MOST_BYTES,
-    MOST_CHARACTERS,
-    MOST_TEXTS,
+    MAX_BYTES,
+    MAX_CHARACTERS,
+    MAX_TEXTS,
     is_link,
     level_link,
     linked_texts,
@@ -134,7 +134,7 @@ def test_several_replays_are_one_link() -> None:
     link = recording_link(found)
     assert [each.name for each in load_replays(link)] == [each.name for each in found]
     with pytest.raises(LinkError, match="no link carries 10"):
-        recording_link(found[:1] * (MOST_TEXTS + 1))
+        recording_link(found[:1] * (MAX_TEXTS + 1))
 
 
 def test_what_mail_and_chat_do_to_a_link_does_no_harm() -> None:
@@ -171,9 +171,9 @@ def packed(data: bytes, *, checked: bool = True) -> str:
         (LINK.replace("#level", "#replay") + "&" + LINK[1:], "too many things"),
         (f"#level=1.{packed(b'x', checked=False)}", "not whole"),
         (f"#level=1.{packed(bytes(20))}", "not a text file"),
-        (f"#level=1.{packed(b'0' * (MOST_BYTES + 1))}", "unpacks to too much"),
-        ("#replay=" + "&replay=".join([f"1.{packed(b'0' * (MOST_BYTES // 2 + 1))}"] * 2), "unpacks to too much"),
-        ("#level=1." + "A" * MOST_CHARACTERS, "too long"),
+        (f"#level=1.{packed(b'0' * (MAX_BYTES + 1))}", "unpacks to too much"),
+        ("#replay=" + "&replay=".join([f"1.{packed(b'0' * (MAX_BYTES // 2 + 1))}"] * 2), "unpacks to too much"),
+        ("#level=1." + "A" * MAX_CHARACTERS, "too long"),
     ],
 )
 def test_broken_links_say_so(link: str, message: str) -> None:
@@ -183,8 +183,8 @@ def test_broken_links_say_so(link: str, message: str) -> None:
 
 
 def test_too_much_for_a_link_is_refused_when_it_is_made() -> None:
-    noise = "".join(map(chr, random.Random(1).choices(range(0x100, 0x2000), k=MOST_CHARACTERS // 2)))
-    for text in ("0" * (MOST_BYTES + 1), noise):
+    noise = "".join(map(chr, random.Random(1).choices(range(0x100, 0x2000), k=MAX_CHARACTERS // 2)))
+    for text in ("0" * (MAX_BYTES + 1), noise):
         with pytest.raises(LinkError, match="too much for a link"):
             write_link("level", [text])
 
@@ -196,7 +196,7 @@ def test_bomb_takes_no_more_memory_than_the_limit() -> None:
         pack_texts(bomb)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert peak < 4 * MOST_BYTES
+    assert peak < 4 * MAX_BYTES
 
 
 def test_replay_in_a_link_reads_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

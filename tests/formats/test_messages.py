@@ -6,7 +6,7 @@ import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.messages import MOST_LETTERS, parse_messages
+from ninja_game.formats.messages import MAX_LETTERS, parse_messages
 
 PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
 
@@ -20,7 +20,7 @@ PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
         ("death 0: jump", "unknown moment"),
         ("at 32,5: jump", "unknown moment"),
         ("start: press {fly}", "unknown key in 'says'; found {fly}; expected left, right, jump"),
-        ("start: " + "x" * (MOST_LETTERS + 1), "at most 120 printable letters"),
+        ("start: " + "x" * (MAX_LETTERS + 1), "at most 120 printable letters"),
         ("start: \x07", "printable"),
         (" | ".join(["start: a"] * 5), "too many texts in 'says'; found 5; expected at most 4"),
     ],

@@ -115,11 +115,11 @@ def test_zip_that_is_none_broken_or_too_large_is_an_error_of_ours(
     with pytest.raises(FileError, match=r"no\.zip: neither a folder nor a zip"):
         Pack(tmp_path / "no.zip")
     path = zip_pack(tmp_path / "two.zip", {"pack.toml": INDEX, "a.txt": LEVEL, "bomb.txt": "0" * 10**6})
-    monkeypatch.setattr(pack_files, "MOST_BYTES", 10**5)
+    monkeypatch.setattr(pack_files, "MAX_FILE_BYTES", 10**5)
     pack = Pack(path)
     assert list(pack.levels) == ["a.txt"]
     assert "bomb.txt: the file is too large" in pack.problems[0]
-    monkeypatch.setattr(pack_files, "MOST_FILES", 2)
+    monkeypatch.setattr(pack_files, "MAX_FILES", 2)
     with pytest.raises(FileError, match="found more than 2 files in a zip"):
         Pack(path)
     data = bytearray(path.read_bytes())

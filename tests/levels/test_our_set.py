@@ -20,8 +20,8 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 from tests.support.memories import BOTH
 from tools.measure.level_statistics import (
     KNOWN,
-    MOST_SHARED,
-    MOST_WITH_MOTIF,
+    MAX_SHARED,
+    MAX_WITH_MOTIF,
     alike,
     common_motifs,
     figures_of_set,
@@ -129,11 +129,11 @@ def test_median_is_within_the_quartiles_of_the_reference(key: str) -> None:
 
 
 def test_no_two_levels_share_too_many_of_their_solid_cells() -> None:
-    assert alike(LEVELS, MOST_SHARED) == []
+    assert alike(LEVELS, MAX_SHARED) == []
 
 
 def test_no_motif_is_in_more_than_a_fifth_of_the_levels() -> None:
-    found = common_motifs(LEVELS, MOST_WITH_MOTIF * len(LEVELS))
+    found = common_motifs(LEVELS, MAX_WITH_MOTIF * len(LEVELS))
     assert [(motif_text(motif), files) for motif, files in found] == []
 
 

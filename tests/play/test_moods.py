@@ -39,10 +39,10 @@ SIGHTS = {
 }
 """Machado, Oliveira, Fernandes 2009: the matrix to what is seen of linear RGB, at severity 1.0."""
 
-LEAST = 18.0
+MIN_DIFFERENCE = 18.0
 """Difference in CIE Lab from which on two colours are told apart at a glance."""
 
-LEAST_SHARE = 0.3
+MIN_SHARE = 0.3
 """How much of a drawing has to stand out; the rest is shading and highlights."""
 
 THINGS: dict[str, tuple[SpriteKey, LightStyle | None]] = {
@@ -115,8 +115,8 @@ def test_things_stand_out_from_the_scenery(palette: Palette) -> None:
         drawn = rgba(SpriteBook(2.0, palette).sprite(key).surface)
         solid, times = np.unique(drawn[drawn[:, 3] > 250][:, :3], axis=0, return_counts=True)
         for sight in SIGHTS:
-            told = times @ (differences(solid, grounds(palette, look), sight) >= LEAST) / times.sum()
-            unseen += [(thing, sight, told.min())] * bool(told.min() < LEAST_SHARE)
+            told = times @ (differences(solid, grounds(palette, look), sight) >= MIN_DIFFERENCE) / times.sum()
+            unseen += [(thing, sight, told.min())] * bool(told.min() < MIN_SHARE)
     assert unseen == []
 
 
@@ -128,14 +128,14 @@ def test_lines_stand_out_from_the_scenery(palette: Palette) -> None:
         for role, colour in colours.items()
         for sight in SIGHTS
     }
-    assert {case: value for case, value in least.items() if value < LEAST} == {}
+    assert {case: value for case, value in least.items() if value < MIN_DIFFERENCE} == {}
 
 
 @moods
 @pytest.mark.parametrize("sight", SIGHTS)
 def test_the_arrow_of_an_open_exit_stands_out_from_its_doorway(palette: Palette, sight: str) -> None:
     arrow, doorway = (np.array([getattr(palette, role)[:3]], np.float64) for role in ("exit", "exit_light"))
-    assert differences(arrow, doorway, sight).min() >= LEAST
+    assert differences(arrow, doorway, sight).min() >= MIN_DIFFERENCE
 
 
 @moods

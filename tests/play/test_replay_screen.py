@@ -345,14 +345,14 @@ def test_a_run_that_costs_too_much_is_shown_as_far_as_it_may_go(monkeypatch: pyt
 
 def test_save_states_of_large_levels_are_few(monkeypatch: pytest.MonkeyPatch) -> None:
     """A tenth of the values in a tenth of the level."""
-    monkeypatch.setattr(save_states, "MOST_VALUES", save_states.MOST_VALUES // 10)
+    monkeypatch.setattr(save_states, "MAX_VALUES", save_states.MAX_VALUES // 10)
     played = playback.Playback(Simulation(heavy_level(300)), bytes(110), spacing=1)
     played.seek(110)
     assert len(played._states) <= 30_000 / 300
 
 
 def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(save_states, "MOST_STATES", 10)
+    monkeypatch.setattr(save_states, "MAX_STATES", 10)
     played = playback.Playback(Simulation(RUN.level), RUN.inputs, spacing=4)
     digests = straight_digests(RUN, 300)
     played.seek(300)

@@ -20,7 +20,7 @@ from ninja_game.editor.files import ascii_text, recovered
 from ninja_game.errors import FileError
 from ninja_game.files.tree import Tree
 from ninja_game.player import backup, schema
-from ninja_game.player.backup import MOST_REPLAYS, MOST_ROWS, _TargetFolder, read_backup, write_backup
+from ninja_game.player.backup import MAX_REPLAYS, MAX_ROWS, _TargetFolder, read_backup, write_backup
 from ninja_game.player.player_data import PlayerData, keep_replay
 from ninja_game.player.playthrough import LevelSession
 from tests.support.level_maker import ROOM
@@ -143,7 +143,7 @@ def test_what_would_not_be_taken_in_is_told_when_it_is_written(tmp_path: Path, m
     (tmp_path / "editing").mkdir(exist_ok=True)
     (tmp_path / "editing" / "long.json").write_bytes(bytes(2**20 + 1))
     assert write_backup(data, tmp_path / "one.zip") == ["left out: editing/long.json: no level under edit"]
-    monkeypatch.setattr(backup, "MOST_REPLAYS", 2)
+    monkeypatch.setattr(backup, "MAX_REPLAYS", 2)
     told = write_backup(data, tmp_path / "all.zip")[-1]
     assert told.startswith("too large to be taken in: 6 rows in the table replay, of which at most 2 are accepted")
     with pytest.raises(FileError, match="6 rows"):
@@ -170,7 +170,7 @@ def test_own_records_whose_pages_lead_in_circles_are_put_aside(tmp_path: Path, m
     endless = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT max(i) FROM n"
     filled(tmp_path)
     looks = iter([endless])
-    monkeypatch.setattr(schema, "MOST_STEPS", 1)
+    monkeypatch.setattr(schema, "MAX_STEPS", 1)
     monkeypatch.setattr(schema, "_check_tables", lambda db: db.execute(next(looks, "SELECT 1")).fetchall())
     data = player_data(tmp_path)
     assert not data.records.replays()
@@ -277,8 +277,8 @@ COUNTING = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHER
 @pytest.mark.parametrize(
     "statement, said",
     [
-        (f"INSERT INTO played {COUNTING.format(MOST_ROWS)} SELECT i, 1, 1, 1, 1, 1 FROM n", "rows in the table played"),
-        (f"INSERT INTO replay {COUNTING.format(MOST_REPLAYS)} SELECT {NOTHING} FROM n", "rows in the table replay"),
+        (f"INSERT INTO played {COUNTING.format(MAX_ROWS)} SELECT i, 1, 1, 1, 1, 1 FROM n", "rows in the table played"),
+        (f"INSERT INTO replay {COUNTING.format(MAX_REPLAYS)} SELECT {NOTHING} FROM n", "rows in the table replay"),
         ("CREATE TRIGGER t BEFORE UPDATE ON replay BEGIN DELETE FROM replay; END", "the trigger t is not ours"),
         ("CREATE TRIGGER replay BEFORE UPDATE ON replay BEGIN DELETE FROM replay; END", "trigger replay is not ours"),
         ("CREATE INDEX i ON replay (length(hex(inputs)))", "the index i is not ours"),

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings as hypothesis_settings, strategies as st
 
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.settings import GHOSTS, MOST_INPUTS, RULES, Settings, read_settings, write_changes
+from ninja_game.player.settings import GHOSTS, MAX_INPUTS, RULES, Settings, read_settings, write_changes
 from tools.draw import how_it_works
 
 PRINTABLE = st.text(st.characters(exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp", "Zs", "Co", "Cn"]), max_size=30)
@@ -148,7 +148,7 @@ def test_odd_value_falls_back_alone_with_a_word(tmp_path: Path, line: str) -> No
 UNREADABLE = [b"a = " + b"[" * 5000, b"\xff\xfe", b"\xed\xa0\x80 = 1", b"a = 1\na = 2", b"[a]\n[a]", b"x" * 2**17,
               b"a.b = 1\na = 2"]  # fmt: skip
 READABLE = [b"look = 3\nkeys = 4\nsound = [1]", b"[[look]]\n[[keys]]",
-            b"[keys]\njump = [" + b"'a', " * (MOST_INPUTS + 1) + b"]", b"keys.jump = []",
+            b"[keys]\njump = [" + b"'a', " * (MAX_INPUTS + 1) + b"]", b"keys.jump = []",
             b"[look.palette]"]  # fmt: skip
 
 

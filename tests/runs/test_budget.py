@@ -230,7 +230,7 @@ def test_a_page_says_which_names_no_file_can_have(name: str) -> None:
 
 def test_a_level_whose_pictures_would_hold_a_page_is_opened_on_a_desktop_only(monkeypatch: pytest.MonkeyPatch) -> None:
     Simulation(heavy_level(3000), memory="plain")
-    monkeypatch.setattr(memories, "_MOST_TICK_COST", PAGE_TICK_COST)
+    monkeypatch.setattr(memories, "_MAX_TICK_COST", PAGE_TICK_COST)
     Simulation(heavy_level(400), memory="plain")
     with pytest.raises(LevelError, match=r"too many objects for a page.*play it on a desktop"):
         Simulation(heavy_level(3000), memory="plain")

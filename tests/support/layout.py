@@ -22,7 +22,7 @@ from ninja_game.ui.widgets import Widget
 LONG_NAME = 8 * "W"
 """In what has no length of its own, names and paths, and may be shortened."""
 
-SMALLEST_BOX = (60.0, 14.0)
+MIN_BOX = (60.0, 14.0)
 """Logical px from which on a filled rectangle is a panel that its texts must not leave."""
 
 
@@ -114,7 +114,7 @@ def noted() -> Iterator[list[Layout]]:
 
     def fill_rect(self: Canvas, surface: pygame.Surface, colour: Any, *place: Any, **options: Any) -> pygame.Rect:
         rect = fill(self, surface, colour, *place, **options)
-        if layouts and pygame.Color(colour).a == 255 and place[2] >= SMALLEST_BOX[0] and place[3] >= SMALLEST_BOX[1]:
+        if layouts and pygame.Color(colour).a == 255 and place[2] >= MIN_BOX[0] and place[3] >= MIN_BOX[1]:
             layouts[-1].cover(rect, everything=False)
         return rect
 

@@ -21,8 +21,8 @@ from ninja_game.web.board.copies import Course, Courses, course_of
 from tests.support.reference import RunRow, positions, recordings
 
 COUNTS = (1, 2, 5, 10, 20, 50, 100, 200)
-MOST_TRIES = 1500
-LONGEST_BLOCK = 60
+MAX_TRIES = 1500
+MAX_BLOCK = 60
 
 
 def near_ones(course: Course, earlier: Sequence[Course]) -> list[int]:
@@ -73,8 +73,8 @@ def shift_ticks(keys: bytearray, rng: random.Random) -> None:
 
 
 def change_block(keys: bytearray, rng: random.Random) -> None:
-    """Other keys in up to LONGEST_BLOCK ticks in a row."""
-    first, ticks = rng.randrange(len(keys)), rng.randrange(1, LONGEST_BLOCK)
+    """Other keys in up to MAX_BLOCK ticks in a row."""
+    first, ticks = rng.randrange(len(keys)), rng.randrange(1, MAX_BLOCK)
     keys[first : first + ticks] = bytes([rng.randrange(KEYS_DOWN + 1)]) * len(keys[first : first + ticks])
 
 
@@ -88,10 +88,10 @@ EDITS: dict[str, Callable[[bytearray, random.Random], None]] = {
 def surviving(recording: Recording, edit: Callable[[bytearray], None]) -> Iterator[tuple[bytes, RunResult]]:
     """Inputs and result of a run after each edit that still passes, one after the other."""
     keys = bytearray(each & KEYS_DOWN for each in recording.inputs)
-    for _ in range(MOST_TRIES):
+    for _ in range(MAX_TRIES):
         tried = keys.copy()
         edit(tried)
-        inputs = with_press_bits(bytes(tried) + bytes(LONGEST_BLOCK))
+        inputs = with_press_bits(bytes(tried) + bytes(MAX_BLOCK))
         run = run_level(recording.level, inputs)
         if run.outcome == "exit":
             keys = tried

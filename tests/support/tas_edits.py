@@ -13,7 +13,7 @@ from ninja_game.tas.session import Session
 if TYPE_CHECKING:
     from tests.support.tas_driver import TasDriver
 
-MOST_BRANCHES = 6
+MAX_BRANCHES = 6
 
 
 def edit_at_random(session: Session, rng: Random, *, strokes: bool = True) -> None:
@@ -21,7 +21,7 @@ def edit_at_random(session: Session, rng: Random, *, strokes: bool = True) -> No
     track = session.track
     first = rng.randrange(len(track) + 2)
     what = rng.randrange(10)
-    if what == 0 and len(session.branches) < MOST_BRANCHES:
+    if what == 0 and len(session.branches) < MAX_BRANCHES:
         session.keep_branch("bé"[rng.randrange(2) :])
     elif what == 1 and len(session.branches):
         session.checkout_branch(rng.randrange(len(session.branches)))

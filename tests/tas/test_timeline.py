@@ -70,7 +70,7 @@ def check(timeline: Timeline) -> None:
 @settings(max_examples=40)
 @given(st.data())
 def test_after_any_edits_every_row_is_that_of_a_straight_run(memory: str, data: st.DataObject) -> None:
-    most, save_states.MOST_STATES = save_states.MOST_STATES, data.draw(st.sampled_from([2, 3, 300]))
+    most, save_states.MAX_STATES = save_states.MAX_STATES, data.draw(st.sampled_from([2, 3, 300]))
     try:
         track = InputTrack(
             with_press_bits(data.draw(st.lists(st.integers(0, 7), max_size=20))) * data.draw(st.integers(1, 12))
@@ -99,7 +99,7 @@ def test_after_any_edits_every_row_is_that_of_a_straight_run(memory: str, data: 
         assert timeline.simulated_until == len(timeline) == len(track) + AFTERMATH
         check(timeline)
     finally:
-        save_states.MOST_STATES = most
+        save_states.MAX_STATES = most
 
 
 def test_an_edit_keeps_what_comes_before_it() -> None:
@@ -150,7 +150,7 @@ def test_save_states_are_thinned_and_never_far_apart() -> None:
         at, state = states.nearest(tick)
         assert at == state <= tick
         assert tick - at <= states.spacing
-    assert len(states) <= save_states.MOST_STATES
+    assert len(states) <= save_states.MAX_STATES
 
 
 @pytest.mark.parametrize("name", the_rest_is_slow([*RUNS], 1))

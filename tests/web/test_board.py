@@ -25,7 +25,7 @@ from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.run import record_replay
 from ninja_game.web.board import collect
-from ninja_game.web.board.collect import MOST_RECORDS
+from ninja_game.web.board.collect import MAX_RECORDS
 from ninja_game.web.board.judge import judge
 from ninja_game.web.board.level_pages import paths
 from ninja_game.web.board.pages import BoardPages
@@ -148,7 +148,7 @@ def test_a_batch_is_one_row_of_the_first_page(
     put(runs, "a.txt", slow_walk(author="Ann"))
     put(runs, "b.txt", replay(author="Bot", made=Provenance(edits=7)))
     for most, rows, told in ((2, 2, False), (1, 1, True)):
-        monkeypatch.setattr("ninja_game.web.board.pages.MOST_OF_A_MOMENT", most)
+        monkeypatch.setattr("ninja_game.web.board.pages.MAX_OF_A_MOMENT", most)
         index = (board_of(runs, levels, tmp_path / f"{most}") / "index.html").read_text("utf-8")
         newest = index.partition("<h2>Newest records")[2].partition("</tbody>")[0]
         count = newest.partition("</ul>")[0].count("<li ") if not told else newest.count("<tr>") - 1
@@ -449,7 +449,7 @@ def pipe(folder: Path) -> None:
 
 
 def records(folder: Path) -> None:
-    put(folder, "many.txt", record() * (MOST_RECORDS + 1))
+    put(folder, "many.txt", record() * (MAX_RECORDS + 1))
 
 
 TRICKS: dict[str, tuple[Callable[[Path], object] | str, str]] = {

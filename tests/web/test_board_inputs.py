@@ -21,7 +21,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.files.user_folder import bundled_replays, data_folder
-from ninja_game.formats.lines import MOST_NAME
+from ninja_game.formats.lines import MAX_NAME
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import write_replay
@@ -254,11 +254,11 @@ def test_one_odd_file_does_not_stop_the_others(tmp_path: Path, levels: Path, run
 
 
 def test_a_name_of_letters_that_stand_for_many_is_cut(tmp_path: Path, levels: Path, runs: Path) -> None:
-    put(runs, "ann.txt", replay(author="\ufdfa" * MOST_NAME))
+    put(runs, "ann.txt", replay(author="\ufdfa" * MAX_NAME))
     code, text = board(runs, levels, "--site", str(tmp_path / "site"))
     (shared,) = (tmp_path / "site" / "replays").glob("*.txt")
     (run,) = load_replays(shared)
-    assert (code, len(run.author)) == (0, MOST_NAME), text
+    assert (code, len(run.author)) == (0, MAX_NAME), text
 
 
 @pytest.mark.parametrize("odd", ["[made:  from a run by Ann]", "odd"])

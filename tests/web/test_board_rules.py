@@ -14,7 +14,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.web.board.judge import judge
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.rules import FASTEST, MOST_CATEGORIES, NAMES, USUAL, Category, read_categories
+from ninja_game.web.board.rules import FASTEST, MAX_CATEGORIES, NAMES, USUAL, Category, read_categories
 from ninja_game.web.board.runs import ASSISTED, PLAYED
 from ninja_game.web.pages.gallery import path_data, published_levels
 from tests.support.board import DIGEST, Tags, board, put, slow_walk
@@ -100,7 +100,7 @@ def test_the_first_of_a_table_holds_the_record_by_the_second_number_too(runs: Pa
 
 BROKEN = {
     "": "1 to 12 tables [[category]] alone", "category = 3": "not the rules", "x = 1\n" + category(): "not the rules",
-    "[[category": "no TOML", category() * (MOST_CATEGORIES + 1): "not the rules", category() * 2: "two categories",
+    "[[category": "no TOML", category() * (MAX_CATEGORIES + 1): "not the rules", category() * 2: "two categories",
     category(rank=[]): "list of formulas", category(rank=[3]): "list of formulas", category(rank="ticks"): "wrong type",
     category(name=""): "empty or too long", category(name="x" * 41): "empty or too long",
     category(order=3): "not the keys",

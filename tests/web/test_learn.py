@@ -19,7 +19,7 @@ from ninja_game.sim.collision.tiles import EDGE_OF_FACES
 from ninja_game.sim.grid import cell_at
 from ninja_game.view.overlays import touched_cells
 from ninja_game.web.pages.gallery import published_levels, write_gallery
-from ninja_game.web.program import MOST_LINES, MOST_SHOWN, run_program
+from ninja_game.web.program import MAX_LINES, MAX_SHOWN, run_program
 from tests.support.slow import the_rest_is_slow
 from tests.support.visitor import Visitor, eventually
 from tests.support.web_page import served
@@ -29,7 +29,7 @@ CHAPTERS = sorted((Path(__file__).parents[2] / "docs" / "learn").glob("[0-9]*.md
 PROGRAM = re.compile(r"^```python try\n(.*?)^```\n\nIt prints:\n\n^```text\n(.*?)^```", re.MULTILINE | re.DOTALL)
 """A program of a chapter, and what the chapter says that it prints."""
 
-MOST_TICKS = 120
+MAX_TICKS = 120
 """After a reset, in which a figure that moves by itself is looked at."""
 
 Numbers = list[tuple[str, str]]
@@ -147,8 +147,8 @@ def test_circle_and_box_of_the_chapter_part_at_a_ledge_as_those_of_the_figure() 
         ("def f():\n    return 1 / 0\n\nf()", "Line 2: ZeroDivisionError: division by zero"),
         ("a = 1\nif a:\nb = 2", "Line 3: IndentationError: expected an indented block after 'if' statement on line 2"),
         ("import sys\nsys.exit(3)", "Line 2: SystemExit: 3"),
-        ("while True:\n    pass", f"TimeoutError: stopped after {MOST_LINES:,} lines; does a loop never end?"),
-        ("print('x' * 9999)", "x" * MOST_SHOWN),
+        ("while True:\n    pass", f"TimeoutError: stopped after {MAX_LINES:,} lines; does a loop never end?"),
+        ("print('x' * 9999)", "x" * MAX_SHOWN),
         ("a = 1", ""),
     ],
 )
@@ -189,7 +189,7 @@ def test_a_figure_shows_what_the_functions_of_the_game_give(new_visitor: Callabl
     for number, name in enumerate(figures):
         given = FIGURES[name]()
         possible = [given.numbers()[:6]]  # of projection the seventh counts ticks
-        for _ in range(MOST_TICKS):
+        for _ in range(MAX_TICKS):
             given.tick()
             possible.append(given.numbers()[:6])
         figure = open_figure(visitor, chapter, number)

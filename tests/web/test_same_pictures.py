@@ -18,9 +18,9 @@ from tests.support.page_scenes import Scene, scenes, show_scene
 from tests.support.slow import the_rest_is_slow
 from tests.support.web_page import BUSY, SCENES, SIZE, run_in
 
-MOST = 1.6
+MAX_DIFFERENCE = 1.6
 """Mean difference of a channel, of 255: a page rounds faint layers down, a desktop up, so that rock is darker there."""
-MOST_IN_A_CELL = 9.0
+MAX_IN_A_CELL = 9.0
 """The same of a square of 24 px, of rock with a stone in it say; most sprites that are missing differ by more."""
 
 ALL = scenes(busy_level, BusyRun, Restless)
@@ -80,6 +80,6 @@ def test_a_scene_looks_as_it_does_here(scene: Scene, app: App, page: Any) -> Non
     there = pixels(base64.b64decode(page.evaluate(PIXELS, scene[0])))
     assert here.std() > 1, "nothing is shown"
     difference = np.abs(here - there)
-    assert difference.mean() <= MOST
+    assert difference.mean() <= MAX_DIFFERENCE
     cells = difference.reshape(SIZE[1] // 24, 24, SIZE[0] // 24, 24, 3).mean((1, 3, 4))
-    assert cells.max() <= MOST_IN_A_CELL, f"row, column {divmod(int(cells.argmax()), SIZE[0] // 24)}"
+    assert cells.max() <= MAX_IN_A_CELL, f"row, column {divmod(int(cells.argmax()), SIZE[0] // 24)}"

@@ -219,9 +219,9 @@ def quartiles(values: Sequence[float]) -> tuple[float, float, float]:
 HEADING = "## The figures"
 """Of the page docs/level-set.md, below which the tables stand."""
 
-MOST_SHARED = 0.6
+MAX_SHARED = 0.6
 """Share of their solid cells that two levels may have in common at most. Caves in rock share much of the rock."""
-MOST_WITH_MOTIF = 0.2
+MAX_WITH_MOTIF = 0.2
 """Share of the levels that may have a motif in common: where curves are fitted to tiles, their joints repeat."""
 
 
@@ -318,9 +318,9 @@ def tell_set(pack: Pack) -> None:
     print(table_of_levels(rows), table_of_set(list(rows.values())), table_of_kinds(levels), sep="\n\n")
     absent, tiles = missing(levels)
     print(f"\n{len(levels)} levels; variants that none has: {', '.join(absent) or 'none'}; tiles: {tiles or 'none'}")
-    for share, first, second in alike(levels, MOST_SHARED):
+    for share, first, second in alike(levels, MAX_SHARED):
         print(f"{first} and {second} share {share:.2f} of their solid cells")
-    for motif, names in common_motifs(levels, max(2, MOST_WITH_MOTIF * len(levels))):
+    for motif, names in common_motifs(levels, max(2, MAX_WITH_MOTIF * len(levels))):
         print(f"the motif {motif_text(motif)} is in {len(names)} levels: {', '.join(names)}")
 
 

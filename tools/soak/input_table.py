@@ -69,7 +69,7 @@ from tests.support.samples import WALK, replay_of_walk
 from tools.soak.mutators import as_text
 
 LEVEL = parse_level_string(WALK)
-LONGEST_RUN, MOST_TICKS = 100, 20_000
+MAX_RUN_TICKS, MAX_TICKS = 100, 20_000
 """Ticks of a run that is simulated here, and of all of a file; what runs cost is the business of their budgets."""
 
 _FILE = re.compile(r"^--- ([\w-][\w.-]{0,80})\n", re.MULTILINE)
@@ -179,7 +179,7 @@ def _archive(path: Path) -> None:
 def _verified(path: Path) -> None:
     """Short runs, as `verify` and the page judge them."""
     # One unreadable record hides no long run in the others.
-    if sum(each.ticks for each in recordings_in([path]) if isinstance(each, Recording)) <= MOST_TICKS:
+    if sum(each.ticks for each in recordings_in([path]) if isinstance(each, Recording)) <= MAX_TICKS:
         for chunk in map(self_contained, chunks_in([path])):
             results = verify_chunk(chunk, "plain")
             _same("results", results_from_text(results_as_text([results]), [chunk]), [results])
@@ -189,7 +189,7 @@ def _run(path: Path) -> None:
     """A run as the TAS editor opens it: beside the runs of its file, and in all notations that can say it."""
     opened = open_run(path, level=LEVEL)
     runs_of_level(path, replace(opened.recording, file=""))
-    if len(opened.track) <= LONGEST_RUN:
+    if len(opened.track) <= MAX_RUN_TICKS:
         if len(opened.track):
             write_replay(replay_of_track(opened.recording, opened.track))
         notations: list[Callable[[bytes], str]] = [partial(write_celeste, markers=opened.track.markers), write_libtas]
@@ -253,7 +253,7 @@ def _name(text: str) -> None:
 def _journal(path: Path) -> None:
     journal.read_journal(path)
     for found in journal.recovered(path.parent.parent):
-        if len(found.opened.track) <= LONGEST_RUN and all(len(take) <= LONGEST_RUN for take in found.tracks):
+        if len(found.opened.track) <= MAX_RUN_TICKS and all(len(take) <= MAX_RUN_TICKS for take in found.tracks):
             Session(found.opened, path.parent.parent, memory="plain").recover(found)
 
 

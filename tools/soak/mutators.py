@@ -15,7 +15,7 @@ from zipfile import ZIP_BZIP2, ZIP_DEFLATED, ZIP_STORED, ZipFile
 
 import numpy as np
 
-MOST = 150_000
+MAX_BYTES = 150_000
 """Longest input, bytes: more than this is a question of limits, not of forms."""
 
 NUMBERS = (
@@ -52,7 +52,7 @@ def mutated(data: bytes, other: bytes, rng: random.Random) -> bytes:
     """An input with one to six things wrong; ``other``: another input, to take parts from."""
     for _ in range(rng.choice((1, 1, 1, 2, 3, 6))):
         with suppress(Exception):  # what is odd already cannot always be taken apart
-            data = _once(data, other, rng)[:MOST]
+            data = _once(data, other, rng)[:MAX_BYTES]
     return data
 
 
@@ -121,7 +121,7 @@ def _rearranged(parts: list[str], theirs: list[str], rng: random.Random) -> list
     piece = parts[place:end]
     what = rng.randrange(7)
     if what == 0:
-        piece *= rng.choice((2, 3, 100, 1 + min(30_000, MOST // (1 + sum(map(len, piece))))))
+        piece *= rng.choice((2, 3, 100, 1 + min(30_000, MAX_BYTES // (1 + sum(map(len, piece))))))
     elif what == 1:
         piece = []
     elif what == 2:

@@ -16,12 +16,12 @@ Cell = tuple[int, int]
 Point = tuple[float, float]  # x and y: px of the world or of a screen, or parts of cells
 
 _NUMBER = re.compile(r"[+-]?(\d++(\.\d*+)?|\.\d++)(e[+-]?\d++)?|nan|[+-]?inf", re.ASCII)
-_LONGEST_SHOWN = 40
+_MAX_SHOWN = 40
 
 
 def shown(text: str) -> str:
     """A word of the file in quotes, truncated if it is long."""
-    return repr(text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}...")
+    return repr(text if len(text) <= _MAX_SHOWN else f"{text[:_MAX_SHOWN]}...")
 
 
 def same_bits(a: float, b: float) -> bool:

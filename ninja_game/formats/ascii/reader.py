@@ -10,7 +10,7 @@ from ninja_game.formats.ascii.object_lines import ListedObject, OddTile, read_ob
 from ninja_game.formats.ascii.picture import ROW_END, ROW_START, Problems, merge_picture_and_list, read_picture
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION
-from ninja_game.formats.lines import MOST_NAME, UNCOMMENTED, Line, numbered_lines, read_quoted
+from ninja_game.formats.lines import MAX_NAME, UNCOMMENTED, Line, numbered_lines, read_quoted
 from ninja_game.formats.messages import parse_messages
 from ninja_game.sim.level import Level
 
@@ -113,9 +113,9 @@ def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
             value = value.strip()
             quoted = read_quoted(value) if value.startswith('"') else None
             fields[key] = value if quoted is None else quoted
-            if len(fields[key]) > MOST_NAME and key != "comment":
+            if len(fields[key]) > MAX_NAME and key != "comment":
                 what = f"a text of {len(fields[key]):,} characters"
-                problems.add(what, number, found=shown(fields[key]), expected=f"at most {MOST_NAME:,}")
+                problems.add(what, number, found=shown(fields[key]), expected=f"at most {MAX_NAME:,}")
             elif key == "says":
                 try:
                     parse_messages(fields[key])

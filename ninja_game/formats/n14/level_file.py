@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from urllib.parse import unquote
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.lines import MOST_NAME
+from ninja_game.formats.lines import MAX_NAME
 from ninja_game.formats.n14.level_string import tidy_level_string
 from ninja_game.sim.level import TILES
 
@@ -117,9 +117,9 @@ def _read_record(part: str, number: int, line: int, file: str) -> LevelRecord | 
     if not level and not demo:
         raise LevelError(f"record {number} has no level string", file=file, line=line, expected=SHAPE)
     name, author, comment = (_one_line(field) for field in [*fields, "", "", ""][:3])
-    if (longest := max(len(name), len(author))) > MOST_NAME:
+    if (longest := max(len(name), len(author))) > MAX_NAME:
         what = f"record {number} has a name of {longest:,} characters"
-        raise LevelError(what, file=file, line=line, expected=f"at most {MOST_NAME:,}")
+        raise LevelError(what, file=file, line=line, expected=f"at most {MAX_NAME:,}")
     if place == 2:
         comment = ""
     note = fields[4].strip() if last >= 4 and not demo else ""

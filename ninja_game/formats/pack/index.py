@@ -10,8 +10,8 @@ from typing import Any
 from ninja_game.errors import PackError
 from ninja_game.files.untrusted import parse_toml
 
-MOST_COLUMNS, EPISODES_PER_COLUMN, LEVELS_PER_EPISODE = 10, 10, 5
-MOST_EPISODES = MOST_COLUMNS * EPISODES_PER_COLUMN
+MAX_COLUMNS, EPISODES_PER_COLUMN, LEVELS_PER_EPISODE = 10, 10, 5
+MAX_EPISODES = MAX_COLUMNS * EPISODES_PER_COLUMN
 
 NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")  # findings of what cannot be played, by code
 
@@ -103,8 +103,8 @@ def parse_index(text: str, *, file: str = "") -> PackIndex:
     if not name:
         raise PackError("a pack without a name", file, whole.line("name"), expected='name = "…"')
     columns = whole.texts("columns") or ()
-    if len(columns) > MOST_COLUMNS:
-        found, expected = str(len(columns)), f"at most {MOST_COLUMNS}"
+    if len(columns) > MAX_COLUMNS:
+        found, expected = str(len(columns)), f"at most {MAX_COLUMNS}"
         raise PackError("too many columns", file, whole.line("columns"), found=found, expected=expected)
     accepted = []
     for entry in whole.tables("accept"):
@@ -129,8 +129,8 @@ def _episodes(whole: _Table) -> tuple[EpisodeIndex, ...]:
     for table in whole.tables("episode"):
         table.check(_EPISODE_KEYS)
         number, file = table.table.get("number"), whole.file
-        if type(number) is not int or not 0 <= number < MOST_EPISODES:
-            place, expected = table.line("number") or table.start, f"a number from 0 to {MOST_EPISODES - 1}"
+        if type(number) is not int or not 0 <= number < MAX_EPISODES:
+            place, expected = table.line("number") or table.start, f"a number from 0 to {MAX_EPISODES - 1}"
             raise PackError("an episode's number", file, place, found=repr(number)[:40], expected=expected)
         if number in indexes:
             other = f"line {indexes[number].line} too"

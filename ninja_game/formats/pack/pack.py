@@ -29,9 +29,9 @@ PARS = "pars.toml"  # the table of par times
 CERTIFICATES = "certificates"  # the folder of replays
 RECEIVED = "received"  # marks a pack as received by a link; copies of the pack do not get this file
 
-MOST_FILES = 4096  # in a zip; all of them together may hold MAX_BYTES
+MAX_FILES = 4096  # in a zip; all of them together may hold MAX_BYTES
 
-MOST_BYTES = 4 * 2**20  # the largest size of one file
+MAX_FILE_BYTES = 4 * 2**20  # the largest size of one file
 
 LEVEL_FILES = re.compile(r"[^/\\:]+\.txt", re.IGNORECASE)
 
@@ -74,7 +74,7 @@ class PackFiles:
 
     def _open_zip(self, data: bytes) -> None:
         try:
-            self._zip = open_zip(BytesIO(data), most_files=MOST_FILES, most_bytes=MAX_BYTES)
+            self._zip = open_zip(BytesIO(data), most_files=MAX_FILES, most_bytes=MAX_BYTES)
         except ValueError as error:
             what, found = "neither a folder nor a zip that can be a pack", str(error)
             raise FileError(what, str(self.path), found=found, expected=f"a pack, with {INDEX}") from None
@@ -130,11 +130,11 @@ class PackFiles:
 
     def _bytes(self, name: str) -> bytes:
         if self._zip is None and not self._texts:
-            return read_bytes(self.path / name, MOST_BYTES)
+            return read_bytes(self.path / name, MAX_FILE_BYTES)
         if self._zip is None or name not in self._entries:
             raise FileError("not in the pack", self.place(name))
-        if self._entries[name].file_size > MOST_BYTES:
-            raise FileError("the file is too large", self.place(name), expected=f"at most {MOST_BYTES >> 20} MiB")
+        if self._entries[name].file_size > MAX_FILE_BYTES:
+            raise FileError("the file is too large", self.place(name), expected=f"at most {MAX_FILE_BYTES >> 20} MiB")
         try:
             return unpacked(self._zip, self._entries[name])
         except ValueError as error:

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeVar
 
 from ninja_game.errors import LevelError, ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.lines import MOST_NAME, Line, read_quoted
+from ninja_game.formats.lines import MAX_NAME, Line, read_quoted
 from ninja_game.formats.numbers import NAN, parse_number
 from ninja_game.formats.replay.provenance import Provenance, names_of_text, parse_provenance
 from ninja_game.sim.level import Level
@@ -31,7 +31,7 @@ COUNT_LIMIT = 10**9
 
 # Recordings of one level usually follow each other.
 LEVELS_KEPT = 512  # levels in memory, some 10 MB
-LONGEST_KEPT = 2**15  # characters of their texts
+MAX_KEPT_LENGTH = 2**15  # characters of their texts
 
 _HEADER_LINE = re.compile(r"([a-z-]+):(.*)", re.DOTALL)
 _DIGEST = re.compile(r"[0-9a-f]{64}")
@@ -93,8 +93,8 @@ class Headers:
             if quoted is None:
                 raise self.error(key, f"a broken text in '{key}'", "text, or a JSON string", "close the double quotes")
             value = quoted
-        if len(value) > MOST_NAME:
-            raise self.error(key, f"a text of {len(value):,} characters in '{key}'", f"at most {MOST_NAME:,}")
+        if len(value) > MAX_NAME:
+            raise self.error(key, f"a text of {len(value):,} characters in '{key}'", f"at most {MAX_NAME:,}")
         return value
 
     def count(self, key: str) -> int:
@@ -130,9 +130,9 @@ class Headers:
 
     def co_authors(self) -> tuple[str, ...]:
         names = names_of_text(self.text("co-authors"))
-        if (length := len(", ".join(names))) > MOST_NAME:
+        if (length := len(", ".join(names))) > MAX_NAME:
             what = f"{length:,} characters of names, with ', ' between them, in 'co-authors'"
-            raise self.error("co-authors", what, f"at most {MOST_NAME:,}")
+            raise self.error("co-authors", what, f"at most {MAX_NAME:,}")
         return names
 
     def digest(self, key: str) -> str:
@@ -157,7 +157,7 @@ def read_level(lines: Sequence[Line], file: str) -> tuple[Level | None, str, str
         return None, "", ""
     try:
         text = "\n".join(line for _, line in lines)
-        return _level_of(text) if len(text) <= LONGEST_KEPT else _level_of.__wrapped__(text)
+        return _level_of(text) if len(text) <= MAX_KEPT_LENGTH else _level_of.__wrapped__(text)
     except LevelError:
         placed = [""] * lines[-1][0]
         for number, line in lines:

@@ -20,9 +20,9 @@ from ninja_game.formats.replay.notations import (
 )
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, with_press_bit
 
-MOST_INCLUDES = 100  # files that a text may take in, the same one every time
+MAX_INCLUDES = 100  # files that a text may take in, the same one every time
 
-MOST_MARKERS = 100_000  # in a text with all that it takes in
+MAX_MARKERS = 100_000  # in a text with all that it takes in
 
 DEEPEST = 8  # how deep files may take in others, and blocks may lie in blocks
 
@@ -122,8 +122,8 @@ class _Reader:
             if name in seen:
                 raise ReplayError("a marker given twice", *place, repr(text), hint="choose another name")
             self._markers += 1
-            if self._markers > MOST_MARKERS:
-                raise ReplayError("too many markers", *place, repr(text), f"at most {MOST_MARKERS:,}")
+            if self._markers > MAX_MARKERS:
+                raise ReplayError("too many markers", *place, repr(text), f"at most {MAX_MARKERS:,}")
             seen.add(name)
             stack[-1].items.append(name)
         else:
@@ -137,8 +137,8 @@ class _Reader:
         self._included += 1
         if self._include is None:
             raise ReplayError("a text that is in no folder takes in no file", *place, repr(name[:40]))
-        if self._included > MOST_INCLUDES or len(files) > DEEPEST:
-            expected = f"at most {MOST_INCLUDES}, {DEEPEST} deep"
+        if self._included > MAX_INCLUDES or len(files) > DEEPEST:
+            expected = f"at most {MAX_INCLUDES}, {DEEPEST} deep"
             raise ReplayError("too many files taken in", *place, repr(name[:40]), expected)
         try:
             path, text = self._include(name)

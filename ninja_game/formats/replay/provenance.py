@@ -7,7 +7,7 @@ from contextlib import suppress
 from functools import lru_cache
 from typing import NamedTuple, Self
 
-from ninja_game.formats.lines import MOST_NAME
+from ninja_game.formats.lines import MAX_NAME
 
 _BEGUN = " from a run by "
 _NAMES = "[a-z][a-z -]{0,30}(?:, [a-z][a-z -]{0,30}){0,20}"
@@ -15,7 +15,7 @@ _MADE = re.compile(
     rf"(?:played(?: \((?P<assists>{_NAMES})\))?)?(?:(?:^|, )edited (?P<edits>[1-9][0-9]{{0,8}}))?"
     rf"(?:(?:^|, )searched \((?P<searches>{_NAMES})\))?"
 )
-_MOST_EDITS, _LONGEST = 10**9 - 1, 200
+_MAX_EDITS, _MAX_NAME = 10**9 - 1, 200
 
 
 class Provenance(NamedTuple):
@@ -51,12 +51,12 @@ class Provenance(NamedTuple):
 
     def edited(self, edits: int) -> Self:
         """With so many more edits."""
-        return self._replace(edits=min(self.edits + edits, _MOST_EDITS))
+        return self._replace(edits=min(self.edits + edits, _MAX_EDITS))
 
     def searched(self, *commands: str, begun_by: str = "") -> Self:
         """With further commands that searched. ``begun_by``: the author so far, unless it says one already."""
         searches = tuple(dict.fromkeys((*self.searches, *commands)))
-        return self._replace(searches=searches, begun_by=self.begun_by or " ".join(begun_by.split())[:_LONGEST])
+        return self._replace(searches=searches, begun_by=self.begun_by or " ".join(begun_by.split())[:_MAX_NAME])
 
 
 UNKNOWN = Provenance()
@@ -95,7 +95,7 @@ def can_be_written(made: Provenance, co_authors: tuple[str, ...]) -> bool:
     """
     how, names = str(made), ", ".join(co_authors)
     with suppress(ValueError):
-        whole = max(len(how), len(names)) <= MOST_NAME
+        whole = max(len(how), len(names)) <= MAX_NAME
         return whole and parse_provenance(how.strip()) == made and names_of_text(names) == co_authors
     return False
 
@@ -122,7 +122,7 @@ def without_provenance(comment: str) -> tuple[str, Provenance, tuple[str, ...]]:
     (('all gold', ('Bob',)), '[made: by me]')
     """
     start = comment.rfind(_MARK)
-    if start >= 0 and comment.endswith("]") and len(_MARK) + 1 < len(comment) - start <= 2 * MOST_NAME:
+    if start >= 0 and comment.endswith("]") and len(_MARK) + 1 < len(comment) - start <= 2 * MAX_NAME:
         how, _, names = comment[start + len(_MARK) : -1].partition(_WITH)
         with suppress(ValueError):
             made, co_authors = parse_provenance(how), names_of_text(names)

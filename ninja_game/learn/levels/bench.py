@@ -27,7 +27,7 @@ from ninja_game.editor.specs import carried
 from ninja_game.errors import ArgumentError
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.user_folder import data_folder
-from ninja_game.generator.packed import FROZEN, MOST_BYTES, frozen_level
+from ninja_game.generator.packed import FROZEN, MAX_BYTES, frozen_level
 from ninja_game.learn.levels.source import LevelSource, draws
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, with_press_bit
 from ninja_game.sim.kinds import EXIT, GOLD, KIND_OF, NINJA
@@ -185,7 +185,7 @@ class BenchSource(LevelSource):
     @property
     def digest(self) -> str:
         """Sha256 (hex) of what makes them."""
-        assets = [read_bytes(data_folder("assets") / name, MOST_BYTES) for name in (FROZEN, TABLE)]
+        assets = [read_bytes(data_folder("assets") / name, MAX_BYTES) for name in (FROZEN, TABLE)]
         return sha256(f"{self.levels.split} {self.levels.numbers}".encode() + b"".join(assets)).hexdigest()
 
 

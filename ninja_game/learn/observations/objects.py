@@ -24,7 +24,7 @@ from ninja_game.sim.rules import CHASE_PACE, GRID_COLUMNS, GRID_ROWS, GUARD_SPEE
 from ninja_game.sim.states import DRONE_MOVE, GUARD_CHASE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, THWUMP_MOVE, TRAP
 from ninja_game.sim.traces import contact_place_of
 
-HIGHEST_ROUTINE = 3.0  # the highest number of a drone's or a turret's routine
+MAX_ROUTINE = 3.0  # the highest number of a drone's or a turret's routine
 
 
 @fast
@@ -92,7 +92,7 @@ def activity_of(o: Object) -> float:
     if kind == kinds.LAUNCHER:
         return 1.0 if o.routine == LAUNCHER_FLIGHT else 0.0 if o.routine == LAUNCHER_IDLE else 0.5
     if kind == kinds.DRONE or kind == kinds.TURRET:
-        return float(o.routine) / HIGHEST_ROUTINE if o.updating else 0.0
+        return float(o.routine) / MAX_ROUTINE if o.updating else 0.0
     return 0.0
 
 
@@ -101,7 +101,7 @@ OBSERVED_KINDS = tuple(kind.name for kind in OBSERVED)
 OBJECT_COLUMNS = (*OBSERVED_KINDS, "dx", "dy", "vx", "vy", "face_x", "face_y", "moment")
 """Columns of an object: its kind, a flag each; the way from the ninja, px; its velocity, px/tick."""
 DX = len(OBSERVED_KINDS)
-MOST_OBJECTS = 64
+MAX_OBJECTS = 64
 
 
 @dataclass(frozen=True)
@@ -118,8 +118,8 @@ class NearObjects(Part):
     kinds: tuple[str, ...] = OBSERVED_KINDS
 
     def __post_init__(self) -> None:
-        if self.count not in range(1, MOST_OBJECTS + 1):
-            raise ArgumentError(f"the count of near objects is {self.count!r}; expected 1 to {MOST_OBJECTS}")
+        if self.count not in range(1, MAX_OBJECTS + 1):
+            raise ArgumentError(f"the count of near objects is {self.count!r}; expected 1 to {MAX_OBJECTS}")
         if not self.kinds or not set(self.kinds) <= set(OBSERVED_KINDS):
             raise ArgumentError(f"the kinds of near objects are {self.kinds!r:.60}; expected some of {OBSERVED_KINDS}")
 
@@ -201,7 +201,7 @@ def observe_objects(
 
 PLANES = ("solid", *OBSERVED_KINDS, "ninja")
 """How much of a cell is solid; where objects of each kind are; where the ninja is."""
-HIGHEST = 255
+MAX_BYTE = 255
 CLOSED_EXIT = 128
 
 
@@ -218,7 +218,7 @@ class LevelPlanes(Part):
     @property
     def box(self) -> Box:
         shape = (len(PLANES), ROWS, COLUMNS)
-        return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, HIGHEST, shape, np.uint8)
+        return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, MAX_BYTE, shape, np.uint8)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
         """The solid plane of each level; each level's objects and their planes; the values."""
@@ -226,16 +226,16 @@ class LevelPlanes(Part):
         def shades(number: int) -> Array:
             points = solidity(context, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE)
             solid = points.reshape(GRID_ROWS, FINE, GRID_COLUMNS, FINE).mean((1, 3))[1:-1, 1:-1]
-            return np.asarray(np.rint(solid * HIGHEST) * factor)
+            return np.asarray(np.rint(solid * MAX_BYTE) * factor)
 
-        factor = 1.0 / HIGHEST if self.normalised else 1
+        factor = 1.0 / MAX_BYTE if self.normalised else 1
         values: Any = np.float64 if self.normalised else np.int64
         planes = {kind.number: 1 + place for place, kind in enumerate(OBSERVED)}
         return (
             observe_planes,
             context.values(shades, values),
             *context.rows(lambda number: [(o.slot, planes[o.kind]) for o in context.objects(number, *planes)], 2),
-            HIGHEST * factor,
+            MAX_BYTE * factor,
             CLOSED_EXIT * factor,
         )
 

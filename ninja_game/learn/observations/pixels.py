@@ -171,7 +171,7 @@ def draw_object(o: Object, picture: Any, frame: Frame, size: float, box: bool, s
                 paint(picture, frame, x + part * dx, y + part * dy, BEAM_RADIUS, BEAM_RADIUS, True, shade)
 
 
-LARGEST = 512
+MAX_SIDE = 512
 NEAREST_VIEW, WIDEST_VIEW = 48.0, WORLD_WIDTH
 SAMPLES = 4
 """Points across a pixel by which tiles are drawn."""
@@ -205,8 +205,8 @@ class Pixels(Part):
     normalised: bool = field(default=False, kw_only=True)
 
     def __post_init__(self) -> None:
-        if not all(isinstance(side, int) and 1 <= side <= LARGEST for side in (self.width, self.height)):
-            raise ArgumentError(f"pixels are {self.width!r} x {self.height!r}; expected 1 to {LARGEST} each")
+        if not all(isinstance(side, int) and 1 <= side <= MAX_SIDE for side in (self.width, self.height)):
+            raise ArgumentError(f"pixels are {self.width!r} x {self.height!r}; expected 1 to {MAX_SIDE} each")
         if self.view is not None and not NEAREST_VIEW <= self.view <= WIDEST_VIEW:
             raise ArgumentError(f"the view is {self.view!r} px; expected {NEAREST_VIEW:g} to {WIDEST_VIEW:g}, or None")
 

@@ -104,7 +104,7 @@ def surface_distances(context: PartContext, number: int, reach: float) -> NDArra
 FORMS = ("distance", "one-hot")
 TILE_KINDS = len(SHAPE)
 FULL_TILE = SHAPE.index(FULL)
-BIGGEST = 31
+MAX_SIZE = 31
 REACH = 48.0
 """px; distances are cut off there."""
 
@@ -124,8 +124,8 @@ class LocalTiles(Part):
     form: str = "distance"
 
     def __post_init__(self) -> None:
-        if self.size not in range(1, BIGGEST + 1, 2):
-            raise ArgumentError(f"the size of local tiles is {self.size!r}; expected an odd number up to {BIGGEST}")
+        if self.size not in range(1, MAX_SIZE + 1, 2):
+            raise ArgumentError(f"the size of local tiles is {self.size!r}; expected an odd number up to {MAX_SIZE}")
         if self.form not in FORMS:
             raise ArgumentError(f"the form of local tiles is {self.form!r}; expected one of {FORMS}")
 
@@ -198,7 +198,7 @@ def corner(x: float, y: float, width: int) -> int:
     return row * width + column
 
 
-MOST_RAYS = 360
+MAX_RAYS = 360
 
 
 @dataclass(frozen=True)
@@ -215,9 +215,9 @@ class Rays(Part):
     reach: float = WORLD_WIDTH / 2
 
     def __post_init__(self) -> None:
-        if self.count not in range(1, MOST_RAYS + 1) or not self.reach > 0.0:
+        if self.count not in range(1, MAX_RAYS + 1) or not self.reach > 0.0:
             found = f"{self.count!r} rays of {self.reach!r} px"
-            raise ArgumentError(f"found {found}; expected 1 to {MOST_RAYS} rays of more than 0 px")
+            raise ArgumentError(f"found {found}; expected 1 to {MAX_RAYS} rays of more than 0 px")
 
     @property
     def box(self) -> Box:

@@ -16,7 +16,7 @@ from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import EXIT, GOLD
 from ninja_game.sim.memory.declare import fast, kernel
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.rules import CELL, HALF, LONGEST_JUMP, ROOT2, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.rules import CELL, HALF, MAX_JUMP_TICKS, ROOT2, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import JUMPING, STATE_NAMES
 
 MAX_SPEED = 24.0  # px/tick; a ninja is seldom faster than 10
@@ -37,7 +37,7 @@ FIELDS: dict[str, tuple[float, float, float]] = {
     "floor_x": _SIGN,
     "floor_y": _SIGN,
     "jump_held": _FLAG,
-    "jump_ticks": (0.0, float(LONGEST_JUMP), float(LONGEST_JUMP)),
+    "jump_ticks": (0.0, float(MAX_JUMP_TICKS), float(MAX_JUMP_TICKS)),
     "exit_there": _FLAG,
     "exit_open": _FLAG,
     "exit_dx": _DX,
@@ -59,7 +59,7 @@ _NAMES = tuple(FIELDS)
 FIRST_EXIT, FIRST_GOLD, FIRST_STATE = (_NAMES.index(name) for name in ("exit_there", "gold_there", STATE_NAMES[0]))
 FAR = 1.0e18
 """px², farther than anything."""
-MOST_EXITS = 60  # exits of a level that are looked at: its first
+MAX_EXITS = 60  # exits of a level that are looked at: its first
 
 
 @dataclass(frozen=True)
@@ -178,7 +178,7 @@ def observe_ninja(w: World, out: Any, index: int, offset: int, factors: Any, low
 def open_exits(w: World, exits: Any, start: int, end: int) -> int:
     """Which exits of a level are open, a bit each; of more than there are bits, the first."""
     opened = 0
-    for k in range(start, min(end, start + MOST_EXITS)):
+    for k in range(start, min(end, start + MAX_EXITS)):
         if w.objects[int(exits[k])].is_open:
             opened |= 1 << (k - start)
     return opened
@@ -192,7 +192,7 @@ def choose_exit(
     best = FAR
     chosen = -1
     chosen_open = 0
-    for k in range(start, min(end, start + MOST_EXITS)):
+    for k in range(start, min(end, start + MAX_EXITS)):
         is_open = (opened >> (k - start)) & 1
         dx = (exit_x[k] if is_open else switch_x[k]) - x
         dy = (exit_y[k] if is_open else switch_y[k]) - y
@@ -230,7 +230,7 @@ def nearest_gold(w: World, gold: Any, gold_x: Any, gold_y: Any, start: int, end:
     return chosen
 
 
-LONGEST = 1_000_000.0  # ticks
+MAX_TIME_LEFT = 1_000_000.0  # ticks
 
 
 @dataclass(frozen=True)
@@ -241,7 +241,7 @@ class TimeLeft(Part):
 
     @property
     def box(self) -> Box:
-        return Box(0.0, 1.0 if self.normalised else LONGEST, (1,), np.float32)
+        return Box(0.0, 1.0 if self.normalised else MAX_TIME_LEFT, (1,), np.float32)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
         """The time limit, the factor, the highest value."""

@@ -16,8 +16,8 @@ from ninja_game.formats.ascii.places import Cell, Point, cell_of, is_inside
 from ninja_game.formats.messages import (
     BAR,
     KEYS,
+    MAX_LETTERS,
     MAX_MESSAGES,
-    MOST_LETTERS,
     NEAR,
     TARGETS,
     arrow_targets,
@@ -195,7 +195,7 @@ class MessagesScreen(MenuScreen):
 
     def _row(self, number: int) -> list[Widget]:
         message, y = self.messages[number], TOP + ROW * number
-        text = TextArea((36, y + 31, WIDE, 60), "What is said", message.text, lambda _: None, longest=MOST_LETTERS)
+        text = TextArea((36, y + 31, WIDE, 60), "What is said", message.text, lambda _: None, longest=MAX_LETTERS)
 
         def put(typed: str) -> None:
             message.text = typed
@@ -306,8 +306,8 @@ class MessagesScreen(MenuScreen):
         theme = self.theme
         for number, message in enumerate(self.messages):
             row, length = TOP + ROW * number, len(message.text)
-            colour = theme.palette.faint if length < MOST_LETTERS else theme.palette.bad
-            count = f"{length} of {MOST_LETTERS}"
+            colour = theme.palette.faint if length < MAX_LETTERS else theme.palette.bad
+            count = f"{length} of {MAX_LETTERS}"
             theme.text(surface, count, 36 + WIDE, row + 95, size=8.5, colour=colour, align="right")
             wrong = message.problem[1] if self._refused else ""
             if message.unknown:

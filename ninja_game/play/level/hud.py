@@ -20,7 +20,7 @@ from ninja_game.ui.medals import draw_medal, draw_stamp
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0  # left end and middle, px
-_BAR_LONGEST = 630.0  # px, for the lifetime at a level's start or more
+_BAR_LENGTH = 630.0  # px, for the lifetime at a level's start or more
 _WARNING_TICKS = 1800  # below this lifetime the time bar turns red
 _LAST_TICKS = 800  # below this lifetime a text warns
 _MARK_SIZE = 12.0  # of a medal on the time bar, px
@@ -63,7 +63,7 @@ def bar_length(lifetime: float) -> float:
     >>> bar_length(900), bar_length(3600), bar_length(7200)
     (157.5, 630.0, 630.0)
     """
-    return _BAR_LONGEST * min(1.0, max(0.0, lifetime / LIFETIME))
+    return _BAR_LENGTH * min(1.0, max(0.0, lifetime / LIFETIME))
 
 
 def trough(palette: Palette) -> pygame.Color:
@@ -194,14 +194,14 @@ class Hud:
         danger = min(1.0, max(0.0, 1 - left / _WARNING_TICKS))
         thick = 5 + 8 * danger
         top = _BAR_MIDDLE - thick / 2
-        frame = canvas.fill_rect(surface, trough(palette), _BAR_LEFT - 1, top - 1, _BAR_LONGEST + 2, thick + 2, 2)
+        frame = canvas.fill_rect(surface, trough(palette), _BAR_LEFT - 1, top - 1, _BAR_LENGTH + 2, thick + 2, 2)
         full = mixed(palette.bar_full, palette.bar_empty, danger)
         for colour, ticks in ((full, left), (palette.gold, left - LIFETIME)):
             if length := bar_length(ticks):
                 canvas.fill_rect(surface, colour, _BAR_LEFT, top, length, thick, 1.5)
         for medal, ticks in pars:
             draw_medal(surface, self.theme, medal, _BAR_LEFT + bar_length(ticks), _BAR_MIDDLE, _MARK_SIZE)
-        x = _BAR_LEFT + _BAR_LONGEST
+        x = _BAR_LEFT + _BAR_LENGTH
         text = self.theme.text(
             surface,
             f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS),

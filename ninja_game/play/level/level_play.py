@@ -41,7 +41,7 @@ STAMP_TICKS = 14
 # After a pass the failed tries are shown together.
 TRIES_FROM = 40  # ticks after the exit contact
 TRIES_TICKS = 80  # of the show
-MOST_TRIES = 24  # the newest are shown
+MAX_TRIES = 24  # the newest are shown
 
 SLOW_TICK_MS = 100
 """A tick in slow motion: a quarter of the speed."""
@@ -49,7 +49,7 @@ SLOW_TICK_MS = 100
 STUCK_AFTER = 4
 """Failed tries of a level before help is offered."""
 
-SHORTEST_TRY = 20
+MIN_TRY_TICKS = 20
 """Least ticks of a try that is shown after a pass."""
 
 REWIND_TICKS = 2
@@ -120,7 +120,7 @@ class LevelPlay:
         self.messages = MessageQueue(messages, helps=context.shows_hints)
         self.shown_lifetime = float(self.attempt.lifetime)
         self.ghosts: list[Ghost] = []
-        self.tries: deque[bytes] = deque(maxlen=MOST_TRIES)
+        self.tries: deque[bytes] = deque(maxlen=MAX_TRIES)
         self._frozen_ms = 0
         self._phase_before = Phase.READY
         self._wait_at_start()
@@ -169,7 +169,7 @@ class LevelPlay:
 
     def retry(self, *, ignored: int = 0) -> None:
         """Back to the level's start. Held keys count for this try, except the keys ``ignored``."""
-        if self.attempt.outcome != "exit" and not self.attempt.assisted and len(self.attempt.inputs) > SHORTEST_TRY:
+        if self.attempt.outcome != "exit" and not self.attempt.assisted and len(self.attempt.inputs) > MIN_TRY_TICKS:
             self.tries.append(bytes(self.attempt.inputs))
         self.view.ghosts = self.ghosts
         self.attempt.restart()

@@ -15,7 +15,7 @@ from ninja_game.sim.rules import CELL
 from ninja_game.ui.canvas import WIDTH
 
 _BESIDE = 36.0  # px from a place to the panel of its message: far enough not to fade while the ninja is there
-_LOWEST = 573.0  # lowest end of a panel: below are the level's name and the texts after a pass, px
+_MAX_BOTTOM = 573.0  # lowest end of a panel: below are the level's name and the texts after a pass, px
 _NEAR = 16.0  # px between a panel and the middle of a thing
 _ALONG = 7  # open cells that cost as much as an open cell beside a solid one
 
@@ -87,10 +87,10 @@ def solid_place(
 
     edge = CELL + 4
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
-    apart = (_LOWEST - h - edge) / max(1, rows - 1) if rows else 6
-    tops = [edge + k * apart for k in range(rows or int((_LOWEST - h - edge) / 6))]
+    apart = (_MAX_BOTTOM - h - edge) / max(1, rows - 1) if rows else 6
+    tops = [edge + k * apart for k in range(rows or int((_MAX_BOTTOM - h - edge) / 6))]
     if beside:
-        ends = (beside[0], w, WIDTH - edge), (beside[1], h, _LOWEST)
+        ends = (beside[0], w, WIDTH - edge), (beside[1], h, _MAX_BOTTOM)
         lefts, tops = (
             [min(max(edge, at + k * (_BESIDE + size / 2) / 4 - size / 2), end - size) for k in range(-4, 5)]
             for at, size, end in ends

@@ -26,10 +26,10 @@ from ninja_game.ui.medals import MEDALS, draw_all_gold, draw_medal
 from ninja_game.ui.theme import Area, Theme, mixed
 from ninja_game.ui.widgets import Button, Choice, Widget
 
-LEFT, TOP, WIDE, MOST_HIGH = 44, 116, 318, 286
-"""Place and greatest height of the grid, px; cells are up to LARGEST px large."""
+LEFT, TOP, WIDE, MAX_HEIGHT = 44, 116, 318, 286
+"""Place and greatest height of the grid, px; cells are up to MAX_CELL px large."""
 
-LARGEST = 62
+MAX_CELL = 62
 NAMED = 48
 """Least width of a cell under its column's name, px."""
 
@@ -50,7 +50,7 @@ class Cells(ListView):
         self.heads = sorted({number // EPISODES_PER_COLUMN for number in numbers})
         lines = max((number % EPISODES_PER_COLUMN for number in numbers), default=0) + 1
         self.columns = max(1, len(self.heads))
-        self.cell_height = min(LARGEST, WIDE / self.columns, MOST_HIGH / lines)
+        self.cell_height = min(MAX_CELL, WIDE / self.columns, MAX_HEIGHT / lines)
         self.area = LEFT, TOP, self.cell_height * self.columns + BAR + 4, self.cell_height * lines
         places = [column * EPISODES_PER_COLUMN + line for line in range(lines) for column in self.heads]
         self.numbers = [number if number in numbers else -1 for number in places]
@@ -139,7 +139,7 @@ class EpisodeGrid(ThumbnailScreen):
         self.pack = self.player.catalogue.ours
         self.marks: dict[str, Mark] = {}
         self.passed: set[str] = set()
-        self.grid = Cells((LEFT, TOP, WIDE, MOST_HIGH), 1, self._draw_cell, self._play, opens=True)
+        self.grid = Cells((LEFT, TOP, WIDE, MAX_HEIGHT), 1, self._draw_cell, self._play, opens=True)
         self.grid.selected = self._selected
         self.play = Button((SIDE + 274, 64, 90, 30), "Play", lambda: self._play(self.grid.index))
         self.rows = ListView((SIDE, 132, 364, ROW * 5), ROW, self._draw_row, self._trial, opens=True)

@@ -16,7 +16,7 @@ from ninja_game.ui.widgets import Button, Widget
 
 ROW = 33
 SEARCH = "Search for 5 minutes"
-LONGEST = 900
+MAX_TEXT = 900
 """Most characters of a problem that are shown; no message of the program has more."""
 
 
@@ -95,7 +95,7 @@ class ProblemsScreen(MenuScreen):
         super().draw_frame(surface)
         theme, problem = self.theme, self.selected
         theme.panel(surface, 44, 418, 704, 104)
-        texts = [f"{shown_text(problem.text, LONGEST)}.", problem.hint] if problem.text else []
+        texts = [f"{shown_text(problem.text, MAX_TEXT)}.", problem.hint] if problem.text else []
         theme.paragraph(surface, texts, (54, 426, 684, 90), 11, 14)
         accepted, to_do = (sum(getattr(other, kind) for other in self.problems) for kind in ("accepted", "to_do"))
         count = counted(len(self.problems) - accepted - to_do, "problem") + f", {accepted} accepted" * bool(accepted)
@@ -105,7 +105,7 @@ class ProblemsScreen(MenuScreen):
         x, y, w, h = area
         theme.row(surface, (x, y + 1, w, h - 2), chosen=index == self.list.index, focused=focused)
         problem = self.problems[index]
-        text, palette = shown_text(problem.text, LONGEST), theme.palette
+        text, palette = shown_text(problem.text, MAX_TEXT), theme.palette
         top = y + (h - 13 * min(2, len(wrapped(theme, text, w - 20, 10)))) / 2
         colour = palette.faint if problem.accepted or problem.to_do else palette.text
         theme.paragraph(surface, [text], (x + 10, top, w - 20, y + h - top), 10, 13, colour=colour)

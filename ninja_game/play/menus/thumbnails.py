@@ -23,7 +23,7 @@ from ninja_game.view.sprites.thumbnail import thumbnail
 BUDGET = 0.006
 """Seconds per picture that may go to thumbnails after the first."""
 
-MOST_KEPT = 600
+MAX_KEPT = 600
 
 Key = tuple[str, int, str]
 
@@ -51,7 +51,7 @@ class Thumbnails:
         while self._wanted and (not made or perf_counter() - start < BUDGET):
             key, entry = self._wanted.popitem()
             picture = thumbnail(entry.named.level, self.app.palette_in(entry.mood), key[1])
-            if len(self._made) >= MOST_KEPT:
+            if len(self._made) >= MAX_KEPT:
                 self._made.clear()
             self._made[key] = picture
             made = True

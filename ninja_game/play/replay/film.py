@@ -36,13 +36,13 @@ if TYPE_CHECKING:
 _TAIL = TICKS_PER_SECOND
 """Ticks that a film shows after the end."""
 
-MOST_PICTURES = 20_000
+MAX_PICTURES = 20_000
 """Most pictures of a film without a given last tick: more than eight minutes."""
 
 
 SHOWN_SPLITS = 3  # the last ones of a run, at most
 LETTERS = 12.0  # least size of the letters above and below the level, px: films are small
-MOST_LETTERS = 18.0  # the greatest, for which the border has room, px of the level
+MAX_LETTER_SIZE = 18.0  # the greatest, for which the border has room, px of the level
 
 
 class _StoppedError(Exception):
@@ -59,7 +59,7 @@ class Film:
     gold too, and by how many ticks other runs are later. ``known``: its moments, if they are known already.
 
     Raises ArgumentError for a section that is empty or begins after the end, and for one without ``last`` in which the
-    runs have more than MOST_PICTURES together.
+    runs have more than MAX_PICTURES together.
     """
 
     run: Recording
@@ -87,14 +87,14 @@ class Film:
         if self.known is not None:
             return self.known
         runs = self.run, *self.beside
-        end_tick = self.first + MOST_PICTURES // len(runs) if self.last is None else self.last
+        end_tick = self.first + MAX_PICTURES // len(runs) if self.last is None else self.last
         # Ticks after the last picture are not simulated.
         ends = [
             Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0).find_end(end_tick + 1) for run in runs
         ]
         end = max(end_tick + 1 if tick is None else tick + _TAIL for tick in ends)
         if self.last is None and end > end_tick:
-            raise ArgumentError(f"the film has more than {MOST_PICTURES:,} pictures; name its last tick: --to")
+            raise ArgumentError(f"the film has more than {MAX_PICTURES:,} pictures; name its last tick: --to")
         last = min(end_tick, end)
         if self.first > last:
             raise ArgumentError(f"a film from tick {self.first} to {last} has no pictures; the run's last is {end}")
@@ -135,7 +135,7 @@ class _Panel:
         self.playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
         self.view = LevelView(context, self.playback.simulation)
         self.hud = Hud(context.theme)
-        self.letters = min(MOST_LETTERS, LETTERS / context.canvas.scale)
+        self.letters = min(MAX_LETTER_SIZE, LETTERS / context.canvas.scale)
         self.ghosts: list[Ghost] = []
 
     def step(self) -> None:
@@ -237,11 +237,11 @@ def write_film(
     return True
 
 
-_SHORTEST_MS = 20
+_MIN_MS = 20
 """Shortest time of a picture that players of GIFs respect."""
 _LONG_FILM = 600
 """A GIF of more ticks has a picture only every second tick."""
-_MOST_A_SECOND = 60
+_MAX_PER_SECOND = 60
 """Most pictures per second of a video; a faster one skips some."""
 _VIDEO: dict[str, tuple[str, dict[str, object]]] = {
     ".webm": ("libvpx-vp9", {"crf": "24", "b:v": "0", "deadline": "good", "cpu-used": "5"}),
@@ -267,7 +267,7 @@ def write_gif(
     from PIL import Image
 
     tick_ms = 1000 / TICKS_PER_SECOND / speed
-    every = max(2 if length > _LONG_FILM else 1, round(_SHORTEST_MS / tick_ms + 0.49))
+    every = max(2 if length > _LONG_FILM else 1, round(_MIN_MS / tick_ms + 0.49))
     # A GIF counts hundredths of a second: the rounding error of a picture is added to the next one.
     ends = [round(number * every * tick_ms / 10) for number in range(-(-length // every) + 1)]
     durations = [10 * (end - start) for start, end in pairwise(ends)]
@@ -303,7 +303,7 @@ def write_video(pictures: Iterator[pygame.Surface], path: Path, size: tuple[int,
     if size[0] % 2 or size[1] % 2:
         raise ArgumentError(f"a {path.suffix} has a size in even px; found {size[0]}x{size[1]}")
     rate = Fraction(TICKS_PER_SECOND) * Fraction(speed).limit_denominator(1000)
-    every = -(-rate // _MOST_A_SECOND)
+    every = -(-rate // _MAX_PER_SECOND)
     film = io.BytesIO()
     with av.open(film, "w", format=path.suffix[1:]) as container:
         stream: av.VideoStream = container.add_stream(codec, rate=rate / every)  # type: ignore[assignment]

@@ -178,14 +178,14 @@ class Ghost:
         return self.shade or palette.ghost
 
 
-LONGEST_NAME = 28  # most letters of a run's name among others
+MAX_NAME = 28  # most letters of a run's name among others
 
 
 def names_of(runs: Sequence[Recording]) -> list[str]:
     """The label of each run: its player, or its file for several runs of one player."""
     names = [run.whose for run in runs]
     labels = [run.place or name if names.count(name) > 1 else name for run, name in zip(runs, names, strict=True)]
-    return [name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 3]}..." for name in labels]
+    return [name if len(name) <= MAX_NAME else f"{name[: MAX_NAME - 3]}..." for name in labels]
 
 
 def ghosts_of(runs: Sequence[Recording], numbers: Sequence[int] = (), *, alone: bool = True) -> list[Ghost]:
@@ -220,7 +220,7 @@ def draw_names(
     return covered
 
 
-LONGEST_MS = 2000
+MAX_MS = 2000
 """A longer picture is a stall: it counts as one tick and is not caught up."""
 
 
@@ -244,7 +244,7 @@ class RunClock:
         """The number of ticks due after ``real_ms`` more; ``tick_ms``: real ms per tick."""
         self.tick_ms = tick_ms
         time = real_ms + self.remainder
-        if time > LONGEST_MS:
+        if time > MAX_MS:
             time = tick_ms
         due, self.remainder = divmod(time, tick_ms)
         return due

@@ -33,7 +33,7 @@ SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 NORMAL_SPEED = SPEEDS.index(1.0)
 SHOWN_AFTER_END = 130
 """Ticks shown after the end (game.md §2)."""
-MOST_GHOSTS = 8
+MAX_GHOSTS = 8
 _WARM = 12
 """Ticks played with animations before the sought one, so that it looks as if played."""
 _STILL_MS = 500
@@ -89,7 +89,7 @@ class ReplayScreen(Screen):
         self.view = LevelView(self.app, self.playback.simulation)
         self.view.overlays = self.overlays
         both = zip(self.runs, self._colours, strict=True)
-        others = [each for each in both if each[0] is not run and each[0].level == run.level][:MOST_GHOSTS]
+        others = [each for each in both if each[0] is not run and each[0].level == run.level][:MAX_GHOSTS]
         self._beside, self._shades = tuple(other for other, _ in others), tuple(colour for _, colour in others)
         self.view.ghosts = self.ghosts = ghosts_of(self._beside, self._shades, alone=False)
         self.paused = False

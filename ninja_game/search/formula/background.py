@@ -128,9 +128,9 @@ class SpanSearch:
 
 TIDYING_SECONDS = 0.1
 """Seconds of each report in which results are tidied."""
-LONGEST_SECONDS = 1e6
+MAX_SECONDS = 1e6
 """The time limit, s, of a search that ends only when it is cancelled."""
-MOST_JOBS = 4
+MAX_JOBS = 4
 """Jobs of a search of a whole run, each of which may take a gigabyte."""
 WAY_SECONDS = 120.0
 """How long a way to the exit is looked for at most, from a run that ends before it."""
@@ -155,8 +155,8 @@ class RunSearch(SpanSearch):
             task.level,
             task.body,
             gold,
-            LONGEST_SECONDS,
-            jobs=min(jobs or cores(), MOST_JOBS),
+            MAX_SECONDS,
+            jobs=min(jobs or cores(), MAX_JOBS),
             first=fit_inputs(task.inputs, task.length),
             others=others,
         )

@@ -31,7 +31,7 @@ UNTRUE = -1000.0
 FAR = " far"
 """Behind the name of a fact: what a view may have as its margin where it is not so, less than 0."""
 
-LONGEST = 1000  # characters of a formula
+MAX_LENGTH = 1000  # characters of a formula
 DEEPEST = 40  # levels of brackets and operators in it
 
 _FOREIGN = re.compile(r"[^\w\s.+\-*/<>=!(),]", re.ASCII)
@@ -88,8 +88,8 @@ def parse_number(text: str, names: Mapping[str, int], facts: Sequence[str]) -> F
 
 
 def _parse(text: str, names: Mapping[str, int], facts: Sequence[str], *, truth: bool) -> Formula:
-    if len(text) > LONGEST:
-        raise FormulaError("a formula that is too long", found=f"{len(text)} characters", expected=str(LONGEST))
+    if len(text) > MAX_LENGTH:
+        raise FormulaError("a formula that is too long", found=f"{len(text)} characters", expected=str(MAX_LENGTH))
     if foreign := _FOREIGN.search(text):
         expected = "names, numbers, + - * / ( ) < <= > >= == !="
         raise FormulaError("a character that no formula has", "", 0, foreign.start() + 1, repr(foreign[0]), expected)
@@ -98,7 +98,7 @@ def _parse(text: str, names: Mapping[str, int], facts: Sequence[str], *, truth: 
         with warnings.catch_warnings(action="ignore"):  # of "1and", which Python will not read one day
             tree = ast.parse(re.sub(r"\s", " ", text.strip()), mode="eval").body
     except SyntaxError as error:
-        column = min(start + (error.offset or LONGEST), len(text) + 1)
+        column = min(start + (error.offset or MAX_LENGTH), len(text) + 1)
         found = repr(text[column - 1 :][:30]) if column <= len(text) else "the end"
         raise FormulaError("not a formula", "", 0, column, found, "one such as x > 400 and vy < 0") from None
     except (RecursionError, MemoryError):

@@ -18,7 +18,7 @@ from ninja_game.search.searching import Search
 from ninja_game.sim.inputs import KEYS_DOWN
 from ninja_game.sim.kinds import EXIT
 
-MOST_TICKS = 2_000_000
+MAX_TICKS = 2_000_000
 """Ticks of one search, later twice as many. Most end before: of a hundred ticks there is no more to be seen."""
 
 
@@ -42,7 +42,7 @@ class LegSearch:
             field = partial(heuristics.field_to, (float(place["x"]), float(place["y"])))
         until = UNBOUNDED if target else 0
         self._leg = Leg([root], until, root.mask, until, ROUTE_ENDS, 0, field, target=target)
-        self._seed, self._begun, self._most = seed * 10_000, 0, MOST_TICKS
+        self._seed, self._begun, self._most = seed * 10_000, 0, MAX_TICKS
         self._search.begin_leg(self._leg, ROUTE_LEGS[0][0], seed=0, bound=1)
         self._search.run(1)
 

@@ -40,7 +40,7 @@ ROUNDS, ROUNDS_BESIDE_LEGS = 40, 4
 """Rounds of small changes in a turn; while nothing is found and the solver looks for a way, which finds more."""
 STEPS = (4, 6, 3, 8, 2, 12, 1)
 """Ticks between two choices of a beam, in turn."""
-MOST_ENDS = 2_000_000
+MAX_ENDS = 2_000_000
 """Ends of a span up to which all are tried."""
 
 
@@ -180,9 +180,9 @@ def to_exit(
 def count_ways(task: SpanTask, every: int) -> int:
     """How many ways there are through a span. Raises ArgumentError for too many, with how many there may be."""
     choices = -(-task.length // every)
-    if len(ACTIONS) ** choices > MOST_ENDS:
+    if len(ACTIONS) ** choices > MAX_ENDS:
         few = fewest_ticks(task.length)
-        what = f"{task.length} ticks with a choice every {every} have over {MOST_ENDS:,} ways through"
+        what = f"{task.length} ticks with a choice every {every} have over {MAX_ENDS:,} ways through"
         raise ArgumentError(f"{what}; a choice every {few} ticks has few enough")
     return int(len(ACTIONS) ** choices)
 
@@ -281,4 +281,4 @@ def fewest_ticks(length: int) -> int:
     >>> fewest_ticks(8), fewest_ticks(40)
     (1, 5)
     """
-    return next(every for every in range(1, length + 1) if len(ACTIONS) ** -(-length // every) <= MOST_ENDS)
+    return next(every for every in range(1, length + 1) if len(ACTIONS) ** -(-length // every) <= MAX_ENDS)

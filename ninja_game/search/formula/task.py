@@ -18,7 +18,7 @@ from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Body, Level
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 
-LONGEST_SPAN = 4000
+MAX_SPAN = 4000
 """Ticks of a span."""
 
 
@@ -47,8 +47,8 @@ class SpanTask:
     behind: int = 0
 
     def __post_init__(self) -> None:
-        if not 0 <= self.first < self.last <= self.first + LONGEST_SPAN:
-            expected = f"expected a later tick, at most {LONGEST_SPAN} later"
+        if not 0 <= self.first < self.last <= self.first + MAX_SPAN:
+            expected = f"expected a later tick, at most {MAX_SPAN} later"
             raise ArgumentError(f"a span from tick {self.first} to {self.last}; {expected}")
         if self.first > len(self.inputs):
             raise ArgumentError(f"the span begins in tick {self.first}, the run ends in tick {len(self.inputs) - 1}")

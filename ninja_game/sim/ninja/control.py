@@ -15,7 +15,7 @@ from ninja_game.sim.rules import (
     GROUND_ACCELERATION,
     JUMP_GRAVITY,
     JUMP_VERTICAL,
-    LONGEST_JUMP,
+    MAX_JUMP_TICKS,
     SKID_FRICTION,
     STAND_FRICTION,
     STAND_SPEED,
@@ -73,7 +73,7 @@ def think_in_air(w: World, n: Ninja) -> None:
         enter_state(w, FALLING)
     elif state == JUMPING:
         n.jump_timer += 1
-        if not n.jump_held or n.jump_timer > LONGEST_JUMP:
+        if not n.jump_held or n.jump_timer > MAX_JUMP_TICKS:
             enter_state(w, FALLING)
     elif n.near_wall:
         towards = n.direction * n.wall_x

@@ -27,7 +27,7 @@ _CLOSE = 0.5  # px of the level per px of the window, below which each tick has 
 FAINT, CLEAR = 110, 190  # opacity of paths, of 255
 _BLOCK = 1000  # ticks by which the visible part of a long run moves
 LETTERS = 9  # size of texts over the level, in logical px of the TAS editor, as all sizes here
-_LONGEST_NAME = 100
+_MAX_NAME = 100
 _THIN = 0.8  # width of paths
 _THICK = 2.7  # of their selected part
 
@@ -138,7 +138,7 @@ class LevelPaths:
                 canvas.line(surface, palette.outline, at, (x, y - px(14)), px(_THIN))
                 tips = [(x, y - px(14)), (x + px(7), y - px(11)), (x, y - px(8.5))]
                 self._labels.append(canvas.polygon(surface, palette.good, tips))
-                self._label(surface, self.theme.fit(name, _LONGEST_NAME, LETTERS), at, (8.5, -16), palette.text)
+                self._label(surface, self.theme.fit(name, _MAX_NAME, LETTERS), at, (8.5, -16), palette.text)
 
     def draw_hover(self, surface: pygame.Surface, positions: Positions, tick: int) -> None:
         at = _point(positions, tick)
@@ -156,7 +156,7 @@ class LevelPaths:
         above = -RADIUS * self.canvas.scale / self.theme.canvas.scale - LETTERS - 4
         for name, place, colour in ghosts:
             if name:
-                self._label(surface, self.theme.fit(name, _LONGEST_NAME, LETTERS), place, (-4, above), colour)
+                self._label(surface, self.theme.fit(name, _MAX_NAME, LETTERS), place, (-4, above), colour)
         del self._labels[: len(ninjas)]
 
     def _label(self, surface: pygame.Surface, text: str, at: Point, beside: Point, colour: pygame.Color) -> None:

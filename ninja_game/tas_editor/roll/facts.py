@@ -170,7 +170,7 @@ def _values(editor: TasEditor, first: int, last: int) -> list[Values]:
     return [Values(*row) for row in zip(*(values.tolist() for values in rows), strict=True)]
 
 
-MOST_ROWS = 400
+MAX_ROWS = 400
 """Most spans of equal keys whose changes are found one by one."""
 
 
@@ -183,7 +183,7 @@ def changed_ticks(track: InputTrack, saved: InputTrack) -> bytes:
     old_rows, rows = ([(keys, len(list(ticks))) for keys, ticks in groupby(inputs)] for inputs in (theirs, ours))
     starts = [list(accumulate((ticks for _, ticks in rows), initial=0)) for rows in (old_rows, rows)]
     spans: list[tuple[str, int, int, int, int]] = [("replace", 0, len(old_rows), 0, len(rows))]
-    if max(len(old_rows), len(rows)) <= MOST_ROWS:
+    if max(len(old_rows), len(rows)) <= MAX_ROWS:
         spans = list(SequenceMatcher(None, old_rows, rows, autojunk=False).get_opcodes())
     changed = bytearray(len(ours))
     for what, *bounds in spans:

@@ -174,8 +174,8 @@ class Digits:
 
 
 SIZE = 8.0  # size of the letters, logical px
-SHORTEST = 20.0  # least room for a name, logical px
-LONGEST = 6
+MIN_NAME_ROOM = 20.0  # least room for a name, logical px
+MAX_LETTERS = 6
 _KEY_LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
 
 
@@ -337,7 +337,7 @@ class RowSheet:
             self._blits.append((word, (x, y + self._lift)))
             x += word.get_width() + 2 * gap
         room = (right - x - 2 * gap) / self.theme.canvas.scale
-        if row.name and room >= SHORTEST:
+        if row.name and room >= MIN_NAME_ROOM:
             text = self.theme.fit(row.name, room, SIZE, bold=True)
             name = self.theme.lettering.rendered(text, SIZE, palette.panel, bold=True)
             right -= name.get_width() + 2 * gap
@@ -348,9 +348,9 @@ class RowSheet:
 def shortened(value: float, decimals: int) -> str:
     """A number in at most six characters: with fewer decimals if it is long, "-" if that is not enough."""
     text = f"{value:.{decimals}f}"
-    if len(text) > LONGEST:
-        text = f"{value:.{max(0, decimals + LONGEST - len(text))}f}"
-    return text if len(text) <= LONGEST and isfinite(value) else "-"
+    if len(text) > MAX_LETTERS:
+        text = f"{value:.{max(0, decimals + MAX_LETTERS - len(text))}f}"
+    return text if len(text) <= MAX_LETTERS and isfinite(value) else "-"
 
 
 def _inks(palette: Palette, row: RowFacts) -> tuple[pygame.Color, pygame.Color]:

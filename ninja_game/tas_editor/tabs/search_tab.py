@@ -58,8 +58,8 @@ WITHOUT_REST = "End at the goal, not then the rest"
 PIECES = "Nothing better so far. A click searches one of these:"
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
 
-LONGEST = 300  # characters of a formula
-LONGEST_TITLE = 30  # characters of it in the name of a branch
+MAX_FORMULA = 300  # characters of a formula
+MAX_TITLE = 30  # characters of it in the name of a branch
 
 EARLIEST, GREATEST, SMALLEST = "earliest", "greatest", "smallest"
 _METHODS = (
@@ -328,7 +328,7 @@ class SearchTab(Tab):
         self._splits = NewestJob[Cut, Splits](lambda cut: (cut[0], run_splits(cut[1], tuple(GOALS)).splits))
         fields = ("x > 400, taken(12), distance(300, 200) < 6 ...", "speed; vx, y, gold ...")
         self.goal, self.measure = (
-            EntryField(prompt, self.start, longest=LONGEST, hint=_NAMES, put=self._typed) for prompt in fields
+            EntryField(prompt, self.start, longest=MAX_FORMULA, hint=_NAMES, put=self._typed) for prompt in fields
         )
         self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
         self._forget = Button(UNPLACED, "", self.earlier.clear, size=8, hint="The results of earlier searches")
@@ -487,7 +487,7 @@ class SearchTab(Tab):
         if self.method in IMPROVES:
             return "Whole run"
         wanted = self._preset[2] if self._preset and self._is_from_menu else task.measure or task.goal
-        return f"{task.first}-{task.last - 1} {wanted[:LONGEST_TITLE]}"
+        return f"{task.first}-{task.last - 1} {wanted[:MAX_TITLE]}"
 
     def _start_or_stop(self) -> None:
         if not self.stop():

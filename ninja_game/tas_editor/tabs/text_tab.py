@@ -22,7 +22,7 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Ta
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
 
-LONGEST = 300  # characters of a line
+MAX_LINE = 300  # characters of a line
 _NAMED_END = re.compile(r'(?<=\s)#\s*([^"#]+)$')
 _NAME_AND_COMMENT = re.compile(r'(?<=\s)#([^\s"#]+\s+#\s+[^"]+)$')
 _WORD = re.compile(r'#"[^"]*"|\S+')
@@ -100,7 +100,7 @@ class TextTab(Tab):
         self._seen: tuple[object, ...] = ()
         self.list = Rows(self._draw_row, self._choose, hint="A click selects the ticks of a line")
         hint = "R*30 RJ*10 or 30,R,J, several; #name: a marker; # any text: a comment; nothing: no such ticks. Enter"
-        self.field = EntryField("the line of the cursor's tick", self.put, longest=LONGEST, hint=hint, step=self._step)
+        self.field = EntryField("the line of the cursor's tick", self.put, longest=MAX_LINE, hint=hint, step=self._step)
         self.notation = Button(UNPLACED, "R*30", self._turn, hint="A click: the other notation", size=SMALL)
         hint = "Only the lines from the marker before the cursor to the next one"
         self.fold = Button(UNPLACED, "Fold", self._fold, hint=hint, size=SMALL)

@@ -23,7 +23,7 @@ from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Palette, Theme, inside, run_colour
 from ninja_game.ui.widgets import Button, Widget
 
-SHORTEST = 10.0  # least ticks shown
+MIN_SHOWN_TICKS = 10.0  # least ticks shown
 _STEPS = (1, 2, 5, 10, 20, 40, 100, 200, 400, 1000, 2000, 4000, 10_000, 40_000)
 """Ticks between two numbers of the axis."""
 
@@ -34,9 +34,9 @@ class TickRange:
 
     left: float = 0.0
     width: float = 1.0
-    length: float = SHORTEST
+    length: float = MIN_SHOWN_TICKS
     first: float = 0.0
-    last: float = SHORTEST
+    last: float = MIN_SHOWN_TICKS
 
     @property
     def is_whole(self) -> bool:
@@ -49,7 +49,7 @@ class TickRange:
         return self.first + (self.last - self.first) * (x - self.left) / self.width
 
     def fit(self, length: float) -> None:
-        whole, self.length = self.is_whole, max(length, SHORTEST)
+        whole, self.length = self.is_whole, max(length, MIN_SHOWN_TICKS)
         if whole:
             self.show_all()
         self.move(0.0)
@@ -59,7 +59,7 @@ class TickRange:
 
     def zoom(self, x: float, steps: int) -> None:
         """Show fewer ticks (steps > 0) or more, around the one at a place."""
-        shown = min(max((self.last - self.first) * 0.8**steps, SHORTEST), self.length)
+        shown = min(max((self.last - self.first) * 0.8**steps, MIN_SHOWN_TICKS), self.length)
         share = (x - self.left) / self.width
         self.first = self.tick(x) - share * shown
         self.last = self.first + shown
@@ -216,7 +216,7 @@ def shown_value(watched: Watched, tick: int) -> str:
     return f"{value:.6g}"
 
 
-LONGEST = 200  # characters of a formula
+MAX_FORMULA = 200  # characters of a formula
 
 _STILL = 3.0  # less movement of the mouse than this, px, is a click
 
@@ -272,7 +272,7 @@ class ValuesTab(Tab):
     def ask(self, text: str = "") -> None:
         self.editor.tab = self.name
         prompt = "speed, x > 400, object_x(12) ..."
-        ask_text(self.editor.app, "Watch a value", prompt, text, "Watch", self.add, LONGEST)
+        ask_text(self.editor.app, "Watch a value", prompt, text, "Watch", self.add, MAX_FORMULA)
 
     def add(self, text: str) -> None:
         """Watch a formula; an invalid one is reported and can be corrected."""

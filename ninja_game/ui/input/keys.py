@@ -100,7 +100,7 @@ def key_label_of(name: str) -> str:
 
 T = TypeVar("T")
 
-LONGEST_STEP_MS = 50
+MAX_STEP_MS = 50
 """A longer picture is a stall and no long press: the release may wait in the queue."""
 
 
@@ -125,7 +125,7 @@ class HeldKey(Generic[T]):
 
     def due(self, real_ms: int) -> list[T]:
         """The repeated action, once for each time that it is due after that many ms more."""
-        self._again_in -= min(real_ms, LONGEST_STEP_MS)
+        self._again_in -= min(real_ms, MAX_STEP_MS)
         actions = []
         while self.what is not None and self._again_in <= 0:
             self._again_in += self._every

@@ -12,7 +12,7 @@ from ninja_game.view.sprites.drawing import DrawTarget, drawing
 from ninja_game.view.sprites.sketch import Sketch, star
 from ninja_game.view.sprites.static_sprites import gold_streak, lightning
 
-MOST = 100  # most in front of the ninja, and behind it; the oldest is removed first
+MAX_PARTICLES = 100  # most in front of the ninja, and behind it; the oldest is removed first
 
 
 @dataclass(slots=True)
@@ -38,8 +38,8 @@ class Particles:
     """The particles of a view. ``share_shown``: 0…1, share of them that are shown (reduced motion)."""
 
     def __init__(self) -> None:
-        self.front: deque[Particle] = deque(maxlen=MOST)
-        self.rear: deque[Particle] = deque(maxlen=MOST)
+        self.front: deque[Particle] = deque(maxlen=MAX_PARTICLES)
+        self.rear: deque[Particle] = deque(maxlen=MAX_PARTICLES)
         self.share_shown = 1.0
         self._count = 0.0
 

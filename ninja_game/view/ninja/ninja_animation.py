@@ -20,7 +20,7 @@ from ninja_game.view.sprites.sketch import Sketch
 
 _BLEND_TICKS = 3.0  # ticks of the transition to a new state's pose
 SQUASH = 0.045  # compression by a landing, for each px/tick
-MOST_SQUASH = 0.32
+MAX_SQUASH = 0.32
 SQUASH_KEPT = 0.72  # share of it that is left a tick later
 _BALANCE = 0.65  # share of a slope's angle by which a body on it stays upright
 _UPRIGHT = 0.9  # share of its rotation that a body in the air keeps each tick
@@ -80,7 +80,7 @@ class NinjaAnimation:
         self.squash *= SQUASH_KEPT
         for event in world.events[: world.event_count] if self.squashes else ():
             if event.kind == LANDED:
-                self.squash = min(MOST_SQUASH, SQUASH * hypot(event.dx, event.dy))
+                self.squash = min(MAX_SQUASH, SQUASH * hypot(event.dx, event.dy))
         self.velocity = n.x - n.prev_x, n.y - n.prev_y
         self.phase_before = self.phase
         if n.state == RUNNING:

@@ -27,11 +27,11 @@ from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
 from ninja_game.sim.level import Level
 
-MOST_BYTES = 2**20  # of a file: a hundred times a long run
+MAX_BYTES = 2**20  # of a file: a hundred times a long run
 
 SETTLED = 2 * 10**9  # nanoseconds until a file's time is certain to show a change
 
-MOST_RECORDS = 200  # recordings in one file with records of N
+MAX_RECORDS = 200  # recordings in one file with records of N
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class RunFolder:
         """Read a file by its path in the folder."""
         path = self.folder / name
         try:
-            return SentFile(name, read_bytes(path, MOST_BYTES))
+            return SentFile(name, read_bytes(path, MAX_BYTES))
         except NinjaGameError as error:
             return SentFile(name, problem=str(error).removeprefix(f"{path}: "))
         except OSError as error:
@@ -133,8 +133,8 @@ class RunFolder:
                 raise ReplayError("inputs without a level", hint="send a replay, or a record of N")
         except NinjaGameError as error:
             return [Sent(Chunk(name, problem=str(error)))]
-        if len(records) > MOST_RECORDS:
-            return [Sent(Chunk(name, problem=f"{len(records)} recordings in one file; at most {MOST_RECORDS}"))]
+        if len(records) > MAX_RECORDS:
+            return [Sent(Chunk(name, problem=f"{len(records)} recordings in one file; at most {MAX_RECORDS}"))]
         chunks = [Chunk(name, index, records=(record,)) for index, record in enumerate(records)]
         return [Sent(chunk) for chunk in chunks or [Chunk(name, text=text)]]
 

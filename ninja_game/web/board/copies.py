@@ -19,7 +19,7 @@ from ninja_game.web.board.runs import OWN, Key, Rejected, Rows, Run
 from ninja_game.web.pages.gallery import path_data
 from ninja_game.web.pages.memo import Memo, digest_of, program
 
-MOST_COMPARED = 1000
+MAX_COMPARED = 1000
 """Earlier runs of a level to compare a new one with: the fastest, the likeliest to be copied."""
 
 CHANGED = 0.65
@@ -29,13 +29,13 @@ same move differ in most strokes by several ticks (the table in docs/board.md).
 
 ON_PATH = 0.75  # least share of a run's places on another's path for the paths to count as the same
 
-FEWEST_STROKES = 8  # with fewer strokes all runs take the same path
+MIN_STROKES = 8  # with fewer strokes all runs take the same path
 
 SAME_PRESSES = 0.45
 """Least share of an earlier run's presses and releases at the same ticks for a copy. None of 865 honest pairs has it.
 """
 
-FEWEST_PRESSES = 16  # least presses for a decision
+MIN_PRESSES = 16  # least presses for a decision
 SHIFTED = 10  # ticks by which all of them may be earlier or later
 
 DOUBTFUL = ": doubtful, as its inputs are others, so it keeps its place"
@@ -152,8 +152,8 @@ class Courses:
         for shift in range(-SHIFTED, SHIFTED + 1):
             moved = (press + 8 * shift for press in course.presses)
             presses = np.maximum(presses, self._presses.counts(moved, columns))
-        on_path = (places >= ON_PATH * len(course.places)) & (len(course.strokes) >= FEWEST_STROKES)
-        pressed = (presses >= SAME_PRESSES * of) & (presses >= FEWEST_PRESSES)
+        on_path = (places >= ON_PATH * len(course.places)) & (len(course.strokes) >= MIN_STROKES)
+        pressed = (presses >= SAME_PRESSES * of) & (presses >= MIN_PRESSES)
 
         of_path = places / max(1, len(course.places)) * on_path
         of_presses = presses / np.maximum(1, of) * pressed
@@ -274,7 +274,7 @@ class _Compared:
         self._memo = memo
         self._key = digest_of([program(), level])
         self._runs: list[Run] = []
-        self._courses, self._known, self._earlier = Courses(MOST_COMPARED), 0, 0
+        self._courses, self._known, self._earlier = Courses(MAX_COMPARED), 0, 0
         self._last: tuple[Key, Course] | None = None
 
     def _key_of(self, run: Run) -> str:
@@ -297,7 +297,7 @@ class _Compared:
         noted = self._memo.recall(key := self._key_of(run))
         if not (isinstance(noted, list) and [*map(type, noted)] == [str, bool, bool]):
             before = range(self._known, len(self._runs))
-            for number in sorted(nsmallest(MOST_COMPARED, before, key=lambda number: self._runs[number].tick)):
+            for number in sorted(nsmallest(MAX_COMPARED, before, key=lambda number: self._runs[number].tick)):
                 self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
             self._known = len(self._runs)
             course = self._course(run, new=True)

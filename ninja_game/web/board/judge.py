@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, get_type_hints
 
 from ninja_game.budget import RUN_BUDGET, tick_cost
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.lines import MOST_NAME
+from ninja_game.formats.lines import MAX_NAME
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.replay.provenance import parse_provenance
 from ninja_game.formats.replay.text import INPUTS_AFTER
@@ -227,7 +227,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     if not isinstance(result, Unreadable) and (nameless or (not sent.replay and not result.made)):
         # A record of N names the level's author, not the player; a replay of ours also says how it was made.
         place = result.file + f", record {result.record}" * (result.record > 0 and not result.episode)
-        result = replace(result, author=f"unknown ({place[-MOST_NAME // 2 :]})")
+        result = replace(result, author=f"unknown ({place[-MAX_NAME // 2 :]})")
     if isinstance(result, Unreadable):
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # a board has no such option
         return Judged(sent.chunk.first, "unreadable", why)

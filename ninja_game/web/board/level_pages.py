@@ -61,8 +61,8 @@ from ninja_game.web.pages.memo import Memo, digest_of
 
 PER_PAGE = 100  # rows of a table on one page: a page has at most 100 KB
 
-LONGEST_NAME = 40  # characters of a name in a table
-LONGEST_AGAIN = 60  # characters of a remark that stands in a table above
+MAX_NAME = 40  # characters of a name in a table
+MAX_REPEATED = 60  # characters of a remark that stands in a table above
 
 RUN_HEADS = ("Watch", "Made", "Gold", "Date", "Medal", "File")
 LESSER = {"No.", "Behind", "Better by", "Score", "With", "On", *RUN_HEADS[2:], *map(str.capitalize, MEDALS)}
@@ -77,9 +77,9 @@ FIRST = 10  # rows of a table
 TOGETHER = 5  # runs side by side
 ENOUGH_SPLITS = 5  # with fewer, splits do not show where time is lost
 COARSE = 4  # one of so many ticks is compared place by place: all would take a third of the time of a board
-LONGEST_ALIGNED = 8000  # ticks of a run; longer ones would take too much memory
-MOST_SECONDS = 30 * TICKS_PER_SECOND  # a longer run has fewer rows, some seconds apart
-MOST_SPLITS = 60  # rows of splits; beyond it gold is left out
+MAX_ALIGNED_TICKS = 8000  # ticks of a run; longer ones would take too much memory
+MAX_SECONDS = 30 * TICKS_PER_SECOND  # a longer run has fewer rows, some seconds apart
+MAX_SPLITS = 60  # rows of splits; beyond it gold is left out
 
 RECORDS = "records"
 SPLITS = "splits"
@@ -214,7 +214,7 @@ class LevelPages:
     def shown_name(self, player: str) -> str:
         """A player's name in a table, with the earlier player whose name looks like it."""
         first = self.ranking.judged.alike.get(player)
-        return shown_text(player, LONGEST_NAME) + (f" (not {shown_text(first, LONGEST_NAME)})" if first else "")
+        return shown_text(player, MAX_NAME) + (f" (not {shown_text(first, MAX_NAME)})" if first else "")
 
     def player_link(self, player: str, up: str = "") -> Content:
         return tag("a", self.shown_name(player), href=f"{up}{player_page(player)}.html") if player else ""
@@ -227,7 +227,7 @@ class LevelPages:
         gold, linked = f"{run.gold} of {run.entry.all_gold}", self.run_link(run, UP, str(results[0]))
         medal = medal_mark(run.medal if timed else "")
         about = made_text(run), gold, run.day, medal, self.run_link(run, UP)
-        others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
+        others = f" with {shown_text(run.co_authors, MAX_NAME)}" if run.co_authors else None
         note = tag("div", run.remark, class_="note") if run.remark else None
         return (
             joined(mark, self.player_link(run.player, UP), others, note),
@@ -337,7 +337,7 @@ class LevelPages:
         names = [*dict.fromkeys(heads)]  # a time is the same in all categories
         for ranked in zip(*(each.rows for each in same), strict=True):
             place, run = ranked[0].place, ranked[0].run
-            shown = replace(run, remark=shown_text(run.remark, LONGEST_AGAIN)) if run.remark in above else run
+            shown = replace(run, remark=shown_text(run.remark, MAX_REPEATED)) if run.remark in above else run
             results = [categories[at].text(ranked[at].values[0]) for at in map(heads.index, names)]
             late = self.behind(categories[0], ranked[0], same[0].rows[0])
             cells = self.run_cells(shown, *results, late, timed=FASTEST.unit in heads, mark=marks.get(run.key))
@@ -415,9 +415,9 @@ class LevelPages:
 def _where_time_goes(runs: Sequence[tuple[str, RunSplits]]) -> list[Markup]:
     """Where each named run loses most on the first, the fastest, and how much later it is at each of its seconds."""
     (fastest, first), *others = runs
-    if max(run.ticks for _, run in runs) > LONGEST_ALIGNED:
+    if max(run.ticks for _, run in runs) > MAX_ALIGNED_TICKS:
         return []
-    ticks = range(step := TICKS_PER_SECOND * (1 + first.ticks // MOST_SECONDS), first.ticks, step)
+    ticks = range(step := TICKS_PER_SECOND * (1 + first.ticks // MAX_SECONDS), first.ticks, step)
     late = [_leads(first.positions, other.positions, ticks) for _, other in others]
     sentences = []
     for (name, _), leads in zip(others, late, strict=True):
@@ -448,10 +448,10 @@ def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequen
 def _split_rows(runs: Sequence[RunSplits]) -> list[SplitRow]:
     """Rows of splits of the first, the fastest; gold that only others take is left out, all of it where too much."""
     gold, rows = SPLIT_EVENTS[0], split_table(runs, runs[0])
-    if len(rows) > MOST_SPLITS:
+    if len(rows) > MAX_SPLITS:
         runs = [replace(run, splits=tuple(split for split in run.splits if split.event != gold)) for run in runs]
         rows = split_table(runs, runs[0])
-    return [row for row in rows if row.ticks[0] is not None or row.split.event != gold][:MOST_SPLITS]
+    return [row for row in rows if row.ticks[0] is not None or row.split.event != gold][:MAX_SPLITS]
 
 
 def _cells(row: SplitRow) -> Iterator[str]:
@@ -468,7 +468,7 @@ def player_page(player: str) -> str:
 
 
 def level_link(entry: Entry, up: str = "") -> Markup:
-    return tag("a", shown_text(entry.title, LONGEST_NAME), href=up + page_name(entry.digest))
+    return tag("a", shown_text(entry.title, MAX_NAME), href=up + page_name(entry.digest))
 
 
 def card(entry: Entry, *facts: Content) -> Markup:

@@ -53,7 +53,7 @@ NEWEST = 30
 LEADING = 20
 CONTESTED = 8
 CARDS = 8  # of the newest records; older ones are rows
-MOST_OF_A_MOMENT = 5  # records of one moment that have a row each
+MAX_OF_A_MOMENT = 5  # records of one moment that have a row each
 
 Piece = tuple[str, str, Content]  # of a page: anchor, title, content
 
@@ -117,7 +117,7 @@ class BoardPages(LevelPages):
         for records in self._moments():
             if len(rows) >= NEWEST:
                 break
-            if len(records) <= MOST_OF_A_MOMENT and not rows and len(newest) < CARDS:
+            if len(records) <= MAX_OF_A_MOMENT and not rows and len(newest) < CARDS:
                 newest += map(self._newest, records)
             else:
                 rows += self._of_a_moment(records)
@@ -160,7 +160,7 @@ class BoardPages(LevelPages):
     def _of_a_moment(self, records: Sequence[Record]) -> list[tuple[Content, ...]]:
         """A row for each record of one moment; a single row for many of them."""
         moment = records[0].run.moment
-        if len(records) <= MOST_OF_A_MOMENT:
+        if len(records) <= MAX_OF_A_MOMENT:
             return [
                 (
                     level_link(run.entry),
@@ -246,7 +246,7 @@ class BoardPages(LevelPages):
         """Entries of the feed: title, id, date, author, page."""
         for records in self._moments():
             date = records[0].run.added
-            if date and len(records) > MOST_OF_A_MOMENT:
+            if date and len(records) > MAX_OF_A_MOMENT:
                 yield _together(records), date, date, self.ranking.shown.name, "index.html"
             elif date:
                 for record in records:

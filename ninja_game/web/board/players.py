@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 from ninja_game.files.shown_text import INVISIBLE
-from ninja_game.formats.lines import MOST_NAME
+from ninja_game.formats.lines import MAX_NAME
 
 UNNAMED = "unnamed"
 
@@ -34,7 +34,7 @@ def player_named(author: str) -> str:
     >>> player_named("  Ann "), player_named("")
     ('Ann', 'unnamed')
     """
-    return " ".join(unicodedata.normalize("NFKC", author).split())[:MOST_NAME].rstrip() or UNNAMED
+    return " ".join(unicodedata.normalize("NFKC", author).split())[:MAX_NAME].rstrip() or UNNAMED
 
 
 @lru_cache(4096)

@@ -33,7 +33,7 @@ from ninja_game.web.board.runs import (
 
 VERSION = 2
 DATE = "%Y-%m-%dT%H:%M:%SZ"
-LONGEST_REASON = 300  # characters
+MAX_REASON = 300  # characters
 
 _FIELDS: dict[str, dict[str, type]] = {
     "runs": {
@@ -45,7 +45,7 @@ _FIELDS: dict[str, dict[str, type]] = {
     "decisions": {"level": str, "way": str, "file": str, "player": str, "what": str, "reason": str, "added": str},
 }  # fmt: skip
 
-MOST_NAMED = 3  # files that wait, in the last line
+MAX_NAMED = 3  # files that wait, in the last line
 _KEPT = {"near": str, "confirmed": bool, "taken": str}  # what a row may have, and keeps after the run is withdrawn
 
 
@@ -153,8 +153,8 @@ def moderate(
     ``confirm``: files of near copies that are in fact none; ``decisions``: files, and one of DECISIONS. Raises
     ArgumentError for a file without such runs, and for a reason that is too long, or missing where a run is rejected.
     """
-    if len(reason) > LONGEST_REASON or (not reason and any(what == REJECTED for _, what in decisions)):
-        raise ArgumentError(f"--reject: say why with --reason, in at most {LONGEST_REASON} characters")
+    if len(reason) > MAX_REASON or (not reason and any(what == REJECTED for _, what in decisions)):
+        raise ArgumentError(f"--reject: say why with --reason, in at most {MAX_REASON} characters")
     near = [row for row in ledger.runs.values() if row.get("near") and not row.get("confirmed")]
     for name in confirm:
         for row in _rows_of(name, near, "--confirm", "that waits"):
@@ -298,6 +298,6 @@ def summary(judged: ValidatedRuns) -> str:
     rejected = ", ".join(f"{kinds[kind]} {KINDS[kind][0]}" for kind in sorted(kinds))
     near = [run.file for run in judged.runs if run.near]
     files = [f"--confirm {plain(file)}" for file in dict.fromkeys(near)]
-    some = " ".join(files[:MOST_NAMED]) + " ..." * (len(files) > MOST_NAMED)
+    some = " ".join(files[:MAX_NAMED]) + " ..." * (len(files) > MAX_NAMED)
     waits = f"; {len(near):,} wait{'s' * (len(near) == 1)} for confirmation: {some}" if near else ""
     return f"{runs} by {by} on {on}; rejected: {rejected or 'none'}{waits}"

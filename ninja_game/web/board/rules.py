@@ -25,10 +25,10 @@ NAMES: dict[str, Callable[[Run], float]] = {
 }  # fmt: skip
 """The values of a run for formulas: ticks to the exit, gold, score (ticks), gold of the level, jumps, keys pressed."""
 
-MOST_BYTES = 2**20  # of a ``board.toml``
-MOST_CATEGORIES = 12
-MOST_RANKS = 4  # most formulas that rank a category
-LONGEST_NAME = 40
+MAX_BYTES = 2**20  # of a ``board.toml``
+MAX_CATEGORIES = 12
+MAX_RANKS = 4  # most formulas that rank a category
+MAX_NAME = 40
 FAR = 5 * TICKS_PER_SECOND
 
 _KEYS: Mapping[str, type] = {"name": str, "rank": list, "when": str, "episodes": bool}
@@ -142,16 +142,14 @@ USUAL = (FASTEST, HIGHEST)
 def read_categories(path: Path) -> tuple[Category, ...]:
     """The categories of a text. Raises FormatError with the place and the problem, FileError, OSError."""
     file = str(path)
-    text = read_utf8(path, MOST_BYTES)
+    text = read_utf8(path, MAX_BYTES)
     try:
         table = parse_toml(text)
     except ValueError as error:
         raise FormatError(f"no TOML: {error}", file) from None
     found = table.get("category")
-    if set(table) != {"category"} or not isinstance(found, list) or not 1 <= len(found) <= MOST_CATEGORIES:
-        raise FormatError(
-            "not the rules of a board", file, expected=f"1 to {MOST_CATEGORIES} tables [[category]] alone"
-        )
+    if set(table) != {"category"} or not isinstance(found, list) or not 1 <= len(found) <= MAX_CATEGORIES:
+        raise FormatError("not the rules of a board", file, expected=f"1 to {MAX_CATEGORIES} tables [[category]] alone")
     categories = tuple(_category(category, f"{file}: category {number}") for number, category in enumerate(found, 1))
     names = [category.name.casefold() for category in categories]
     if len(set(names)) < len(names):
@@ -168,11 +166,11 @@ def _category(table: Any, place: str) -> Category:
         if not isinstance(value, _KEYS[key]):
             raise FormatError(f"{key!r} is of the wrong type", place, expected=_KEYS[key].__name__)
     name, rank = table["name"], table["rank"]
-    if not name.strip() or len(name) > LONGEST_NAME:
-        raise FormatError("a name that is empty or too long", place, expected=f"1 to {LONGEST_NAME} characters")
-    if not 1 <= len(rank) <= MOST_RANKS or not all(isinstance(part, str) for part in rank):
+    if not name.strip() or len(name) > MAX_NAME:
+        raise FormatError("a name that is empty or too long", place, expected=f"1 to {MAX_NAME} characters")
+    if not 1 <= len(rank) <= MAX_RANKS or not all(isinstance(part, str) for part in rank):
         raise FormatError(
-            "'rank' is no list of formulas", place, expected=f'1 to {MOST_RANKS}, such as ["gold", "ticks"]'
+            "'rank' is no list of formulas", place, expected=f'1 to {MAX_RANKS}, such as ["gold", "ticks"]'
         )
     try:
         return Category(name.strip(), tuple(rank), table.get("when", ""), table.get("episodes", False))

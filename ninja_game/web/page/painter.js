@@ -19,7 +19,7 @@ const LIMB = 17; // colour, count of points, x, y, radius, ...: the same, of a w
 
 const SCREEN = 1;
 const GRAIN = 32; // sizes of canvases are multiples of it, so that freed ones fit again
-const MOST_KEPT = 400; // freed canvases
+const MAX_KEPT = 400; // freed canvases
 
 const css = new Map();
 
@@ -86,7 +86,7 @@ export class Painter {
   release(number) {
     const sheet = this.sheets[number];
     this.sheets[number] = undefined;
-    if (!sheet || this.kept >= MOST_KEPT) return;
+    if (!sheet || this.kept >= MAX_KEPT) return;
     sheet.context.restore();
     sheet.context.save();
     if (!this.free.has(sheet.key)) this.free.set(sheet.key, []);

@@ -161,14 +161,14 @@ class Page {
   }
 }
 
-const LONGEST_TEXT = 4_000_000;
+const MAX_TEXT_BYTES = 4_000_000;
 
 // A replay that lies beside the page.
 async function textOf(name) {
   const response = await fetch(name);
   if (!response.ok) throw new Error(`${name}: the host answers ${response.status}`);
   const bytes = await response.arrayBuffer();
-  if (bytes.byteLength > LONGEST_TEXT) throw new Error(`${name}: too large for a replay`);
+  if (bytes.byteLength > MAX_TEXT_BYTES) throw new Error(`${name}: too large for a replay`);
   return new TextDecoder().decode(bytes);
 }
 

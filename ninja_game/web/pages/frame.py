@@ -20,7 +20,7 @@ from ninja_game.ui.lettering import CAP, SPACING, WEIGHTS, glyph
 from ninja_game.ui.theme import PALETTES, Palette, mixed
 from ninja_game.web.pages.memo import Memo, digest_of, program
 
-LONGEST = 400  # characters of a text that are shown
+MAX_TEXT = 400  # characters of a text that are shown
 
 _EMPTY = frozenset({"img", "input", "link", "meta", "source"})  # elements without an end tag
 
@@ -44,7 +44,7 @@ def joined(*contents: Content) -> Markup:
     'a &lt; b7'
     """
     present = filter(lambda content: content is not None, contents)
-    return Markup("".join(c if isinstance(c, Markup) else escape(shown_text(str(c), LONGEST)) for c in present))
+    return Markup("".join(c if isinstance(c, Markup) else escape(shown_text(str(c), MAX_TEXT)) for c in present))
 
 
 def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None) -> Markup:
@@ -64,7 +64,7 @@ def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None)
             parts.append(attribute)
         elif value is not None and value is not False:
             text = str(value)
-            shown = text if attribute in {"href", "src", "d", "content"} else shown_text(text, LONGEST)
+            shown = text if attribute in {"href", "src", "d", "content"} else shown_text(text, MAX_TEXT)
             parts.append(f'{attribute}="{escape(shown)}"')
     start = f"<{' '.join(parts)}>"
     return Markup(start if name in _EMPTY else f"{start}{joined(*contents)}</{name}>")
@@ -98,9 +98,9 @@ _INK_ROLES = (
 _FAINT = 0.35  # share between the palette's ink and its faint one for small text: enough contrast
 _FRAME = 0.4  # how much darker than a tile the frame of a page is, on which letters stand
 _ICON_SIZE = 64
-_LONGEST_HEADING = 30
-_LONGEST_LINE = 24  # characters of a cell that stay in one line
-_LONGEST_HEAD = 20  # letters in the first row
+_MAX_HEADING = 30
+_MAX_LINE = 24  # characters of a cell that stay in one line
+_MAX_HEAD = 20  # letters in the first row
 _NUMBER = re.compile(r"(?:<[^>]*>)*[-+]?\d[\d.,]*(?: of \d+| s)?(?:<[^>]*>)*")
 """A cell with a number, which is aligned to the right for comparison."""
 
@@ -178,7 +178,7 @@ def page(
     ``current``: the address of the page's own link; ``figures``: of the script for figures; ``picture``: of the preview
     where somebody shares a link, complete if the site's own is known; ``about``: the text beside it.
     """
-    description = shown_text(about, LONGEST) or DESCRIPTION
+    description = shown_text(about, MAX_TEXT) or DESCRIPTION
     shown = {"og:title": shown_text(title), "og:description": description, "og:type": "website", "og:image": picture}
     head = tag(
         "head",
@@ -211,7 +211,7 @@ def heading(text: str) -> Markup:
     """The heading of a page in the game's own letters, or plain if letters are missing."""
     shown = shown_text(text)
     glyphs = [glyph(character) for character in shown]
-    if not 0 < len(shown) <= _LONGEST_HEADING or None in glyphs:
+    if not 0 < len(shown) <= _MAX_HEADING or None in glyphs:
         return tag("h1", text)
     x, moves = 1.0, []
     for letter in glyphs:
@@ -275,13 +275,13 @@ def table(
     numbers = [all(_NUMBER.fullmatch(str(cell)) for cell in column if cell) for column in zip(*lines, strict=True)]
     kinds = [f"n{at}" for at, number in enumerate(numbers, 1) if number]
     kinds += [f"l{at}" for at, name in enumerate(shown, 1) if name in lesser]
-    head = tag("tr", *(tag("th", _wrapping(name, _LONGEST_HEAD), scope="col") for name in shown))
+    head = tag("tr", *(tag("th", _wrapping(name, _MAX_HEAD), scope="col") for name in shown))
     body = tag("tbody", *(tag("tr", *(tag("td", _wrapping(cell)) for cell in line)) for line in lines))
     whole = tag("table", tag("caption", caption), tag("thead", head), body, class_=" ".join(kinds) or None)
     return tag("div", whole, class_="wide", tabindex="0", role="region", aria_label=caption)
 
 
-def _wrapping(cell: Content, longest: int = _LONGEST_LINE) -> Content:
+def _wrapping(cell: Content, longest: int = _MAX_LINE) -> Content:
     """A cell that breaks its lines if it is long."""
     long = isinstance(cell, str) and not isinstance(cell, Markup) and len(cell) > longest
     return tag("span", cell, class_="text") if long else cell

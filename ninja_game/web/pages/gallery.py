@@ -201,7 +201,7 @@ def run_page(
     return frame.page(title, shown, up=place, links=links, picture=picture, about=about)
 
 
-MOST_POINTS = 400  # of a drawn path
+MAX_POINTS = 400  # of a drawn path
 NEAREST = 4.0  # least px between two of them
 
 
@@ -213,7 +213,7 @@ def path_data(positions: NDArray[np.float64]) -> str:
     """
     whole = positions.round().astype(int)
     length = float(np.hypot(*np.diff(positions, axis=0).T).sum())
-    apart = max(NEAREST, length / MOST_POINTS)
+    apart = max(NEAREST, length / MAX_POINTS)
     first, *others = whole.tolist()
     kept = [first]
     for place in others:
@@ -270,7 +270,7 @@ def medal_mark(medal: str) -> Content:
 
 SORT_ORDERS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
 
-LONGEST_NAME = 60  # characters of a name in the list
+MAX_NAME = 60  # characters of a name in the list
 
 
 def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Path:
@@ -338,7 +338,7 @@ def _card(entry: Entry, place: int) -> Markup:
     difficulty = f"{pars.difficulty:.1f}" if pars and pars.difficulty is not None else ""
     if pars and difficulty:
         facts.append(tag("span", f"difficulty {difficulty}, {pars.grade}"))
-    name = tag("a", shown_text(entry.title, LONGEST_NAME), href=page_name(entry.digest))
+    name = tag("a", shown_text(entry.title, MAX_NAME), href=page_name(entry.digest))
     number = tag("span", entry.episode, class_="number") if entry.episode else None
     words = f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode}".casefold()
     return tag(

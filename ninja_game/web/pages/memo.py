@@ -12,8 +12,8 @@ from ninja_game.errors import DAMAGED
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
 
-MOST_BYTES = 2**30  # the memo of a million runs has half as many
-MOST_MEMOS = 100  # the newest stay
+MAX_BYTES = 2**30  # the memo of a million runs has half as many
+MAX_MEMOS = 100  # the newest stay
 
 
 def digest_of(data: object) -> str:
@@ -40,7 +40,7 @@ class Memo:
         self._before: dict[str, Any] = {}
         self._now: dict[str, Any] = {}
         try:
-            pages = json.loads(read_bytes(path, MOST_BYTES)) if path else {}
+            pages = json.loads(read_bytes(path, MAX_BYTES)) if path else {}
             self._before = pages if isinstance(pages, dict) else {}
         except (*DAMAGED, OSError):
             pass
@@ -65,5 +65,5 @@ class Memo:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(self.path, json.dumps(self._now))
             kept = sorted(self.path.parent.glob("*.json"), key=lambda path: path.stat().st_mtime, reverse=True)
-            for old in kept[MOST_MEMOS:]:
+            for old in kept[MAX_MEMOS:]:
                 old.unlink(missing_ok=True)

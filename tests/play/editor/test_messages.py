@@ -12,7 +12,7 @@ import pytest
 from ninja_game.editor import packs
 from ninja_game.editor.certify import place_before, search_of
 from ninja_game.editor.stamp import Stamp, put
-from ninja_game.formats.messages import MAX_MESSAGES, MOST_LETTERS, parse_messages
+from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_messages
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
 from ninja_game.play.editor.commands import TryScreen
@@ -303,7 +303,7 @@ def test_the_selected_message_is_shown_as_the_level_says_it_with_its_letters_cou
     assert "'12 of 120'" in drawn(room.app)
     room.mouse(*screen._row_widgets[1][-1].centre)
     assert f"text '{key} jumps'" not in drawn(room.app)
-    screen.messages[1].text = "x" * MOST_LETTERS
+    screen.messages[1].text = "x" * MAX_LETTERS
     screen.enter()
     room.mouse(*screen._row_widgets[1][-1].centre)
     room.type("y")

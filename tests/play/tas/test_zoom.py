@@ -7,7 +7,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.ascii.places import Point
-from ninja_game.ui.canvas import LARGEST_SCALE
+from ninja_game.ui.canvas import MAX_SCALE
 from tests.support.tas_driver import TasDriver
 
 
@@ -36,7 +36,7 @@ def test_the_wheel_zooms_at_the_pointer_and_all_can_be_shown_again(at: TasDriver
     assert level.picture.canvas.scale == pytest.approx(whole * 1.25**4)
     assert at.editor.cursor == cursor
     at.wheel(40, *pointer)
-    assert level.picture.canvas.scale == pytest.approx(LARGEST_SCALE)
+    assert level.picture.canvas.scale == pytest.approx(MAX_SCALE)
     at.press("0")
     assert level.picture.canvas.scale == whole
     at.wheel(3, *pointer)

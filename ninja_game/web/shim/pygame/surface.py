@@ -17,8 +17,8 @@ SRCALPHA = 0x10000
 BLEND_RGBA_SUB, BLEND_RGBA_MULT, BLEND_PREMULTIPLIED = 7, 8, 17
 
 # Up to these sizes a blit copies a fresh surface, instead of making it a canvas:
-LONGEST_COPY = 3000  # numbers
-LARGEST_COPY = 65536  # px
+MAX_COPY_NUMBERS = 3000  # numbers
+MAX_COPY_PX = 65536  # px
 ONE_SHAPE = 8  # numbers of a simple shape, whatever its px
 A_PART = 160  # numbers of a part of another fresh surface, such as a letter of a text, however often it is blitted
 
@@ -210,7 +210,7 @@ class Surface:
         own = source._own
         assert own is not None  # noqa: S101 - it is fresh
         source._blits += 1
-        small = len(own) <= ONE_SHAPE or (len(own) <= LONGEST_COPY and source.w * source.h <= LARGEST_COPY)
+        small = len(own) <= ONE_SHAPE or (len(own) <= MAX_COPY_NUMBERS and source.w * source.h <= MAX_COPY_PX)
         once = source._blits == 1 or (self._own is not None and len(own) <= A_PART)
         if not (whole and small and once and source.opacity == 1.0) or source.overdrawn:
             source.settle()
