@@ -189,7 +189,7 @@ def _facts(level: NamedLevel, by_goal: Mapping[str, Certified], files: Mapping[s
 
 def _warnings(level: NamedLevel, run: Replay | None) -> list[str]:
     """The findings of a level, and the locked doors that its run does not open."""
-    from ninja_game.levels.warnings import level_warnings, object_name
+    from ninja_game.levels.lint import level_warnings, object_name
     from ninja_game.sim.arithmetic import is_set
     from ninja_game.sim.level import makes_object, well_formed
     from ninja_game.simulation import Simulation

@@ -101,7 +101,7 @@ def _object_counts(level: NamedLevel) -> Counter[str]:
 
 def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
     from ninja_game.formats.n14.level_string import level_digest
-    from ninja_game.levels.warnings import level_warnings
+    from ninja_game.levels.lint import level_warnings
 
     facts: dict[str, Any] = {
         "file": level.file, "record": level.record, "line": level.line, "form": level.form, "name": level.name,
@@ -121,8 +121,8 @@ def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
 def _show(console: Console, level: NamedLevel, run: Recording | None, picture: bool) -> None:
     from rich.text import Text
 
+    from ninja_game.levels.lint import level_warnings
     from ninja_game.levels.picture import level_picture
-    from ninja_game.levels.warnings import level_warnings
 
     name, author, comment, file = map(shown_text, (level.name, level.author, level.comment, level.file))
     by = f" by {author}" if author else ""
@@ -155,7 +155,7 @@ def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict
     from rich.markup import escape
     from rich.table import Table
 
-    from ninja_game.levels.warnings import level_warnings
+    from ninja_game.levels.lint import level_warnings
 
     table = Table(box=None, pad_edge=False, header_style="bold")
     sizes = Counter(level.file for level in levels)

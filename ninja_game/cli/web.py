@@ -26,8 +26,8 @@ from ninja_game.files.user_folder import cache_folder, data_folder
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
     from ninja_game.levels.episodes import Entry
+    from ninja_game.web.board.categories import Category
     from ninja_game.web.board.ranking import Ranked, Ranking
-    from ninja_game.web.board.rules import Category
     from ninja_game.web.board.runs import Ledger, ValidatedRuns
     from ninja_game.web.pages.memo import Memo
 
@@ -60,9 +60,9 @@ def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
 
 
 def _address(_ctx: click.Context, _param: click.Parameter, value: str) -> str:
-    from ninja_game.player.settings import RULES
+    from ninja_game.player.settings import SPECS
 
-    if not RULES["site"].fits(value):
+    if not SPECS["site"].fits(value):
         raise click.BadParameter("not an address such as https://example.org/game/")
     return value and value.rstrip("/") + "/"
 
@@ -266,15 +266,15 @@ def _ranking(
     dates: Path | None = None,
     same: bool = True,
 ) -> tuple[Ranking, Ledger]:
-    """The ranking of a folder's runs by the board's rules, and the earlier ledger with the present decisions.
+    """The ranking of a folder's runs by the board's categories, and the earlier ledger with the present decisions.
 
     ``same``: ``levels`` and ``rules`` that are not given are those of the folder's last board; so is ``ledger`` where
     nothing is decided.
     """
+    from ninja_game.web.board.categories import USUAL, read_categories
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
     from ninja_game.web.board.report import dates_of, read_board, read_dates
-    from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import NO_LEDGER
     from ninja_game.web.pages.gallery import published_levels
 

@@ -24,7 +24,7 @@ from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
 from ninja_game.formats.messages import NEAR
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.findings import Finding, level_finding
-from ninja_game.levels.warnings import object_name
+from ninja_game.levels.lint import object_name
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.events import LOCK_OPENED

@@ -14,7 +14,7 @@ from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.obstacles import MAX_OBJECTS, fill_voids, place_enemies, place_fixtures, place_mines
 from ninja_game.generator.scene import RockBoard, Scene, flood, mirrored, object_of, steps_from
 from ninja_game.generator.shaping import shaped
-from ninja_game.levels.warnings import level_findings
+from ninja_game.levels.lint import level_findings
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import Input
 from ninja_game.sim.level import TILES, Level

@@ -10,7 +10,7 @@ from ninja_game.files.user_folder import asset_text
 from ninja_game.formats.ascii.places import Cell
 
 
-class Rule(NamedTuple):
+class Wording(NamedTuple):
     """``text``: what is odd, with {values}; ``hint``: how to fix it. ``about_switch``: whether it is about a switch.
 
     ``expected``: what a file would have instead, for who edits it as text.
@@ -22,19 +22,19 @@ class Rule(NamedTuple):
     expected: str = ""
 
 
-def _read_rules() -> dict[str, dict[str, Rule]]:
-    """All rules of the bundled file, by what is examined and by code."""
+def _read_wordings() -> dict[str, dict[str, Wording]]:
+    """All wordings of the bundled file, by what is examined and by code."""
     tables = tomllib.loads(asset_text("findings.toml"))
-    return {part: {code: Rule(**table) for code, table in rules.items()} for part, rules in tables.items()}
+    return {part: {code: Wording(**table) for code, table in wordings.items()} for part, wordings in tables.items()}
 
 
-_RULES = _read_rules()
-LEVEL_RULES, RUN_RULES = _RULES["level"], _RULES["run"]
+_WORDINGS = _read_wordings()
+LEVEL_WORDINGS, RUN_WORDINGS = _WORDINGS["level"], _WORDINGS["run"]
 
-PACK_RULES = _RULES["pack"]
+PACK_WORDINGS = _WORDINGS["pack"]
 """What may be odd about a pack; what is odd about its levels has the codes of levels."""
 
-DESIGN_RULES = _RULES["design"]
+DESIGN_WORDINGS = _WORDINGS["design"]
 """What good levels have and a level lacks (docs/good-levels.md): reported only where it is asked for."""
 
 
@@ -63,12 +63,12 @@ class Finding(NamedTuple):
     @property
     def hint(self) -> str:
         """How to fix it, a sentence."""
-        return LEVEL_RULES[self.code].hint
+        return LEVEL_WORDINGS[self.code].hint
 
     @property
     def about_switch(self) -> bool:
         """Whether it is about the objects' switches rather than about themselves."""
-        return LEVEL_RULES[self.code].about_switch
+        return LEVEL_WORDINGS[self.code].about_switch
 
 
 class PackFinding(NamedTuple):
@@ -94,23 +94,23 @@ class PackFinding(NamedTuple):
     @property
     def text(self) -> str:
         """What is odd, as its files have it."""
-        expected = "" if self.odd else self._rule.expected.format(**self.values)
+        expected = "" if self.odd else self._wording.expected.format(**self.values)
         return self.text_with(self.values) + (f"; expected {expected}" if expected else "")
 
     def text_with(self, values: Mapping[str, object]) -> str:
         """What is odd, with values in the words of its reader."""
         if self.odd:
             return f"the search found no {self.sought}: {self.odd.sentence}" if self.sought else self.odd.sentence
-        return self._rule.text.format(**values)
+        return self._wording.text.format(**values)
 
     @property
     def hint(self) -> str:
         """How to fix it, a sentence."""
-        return self.odd.hint if self.odd else self._rule.hint
+        return self.odd.hint if self.odd else self._wording.hint
 
     @property
-    def _rule(self) -> Rule:
-        return (PACK_RULES | DESIGN_RULES)[self.code]
+    def _wording(self) -> Wording:
+        return (PACK_WORDINGS | DESIGN_WORDINGS)[self.code]
 
 
 class RunProblem(NamedTuple):
@@ -125,12 +125,12 @@ class RunProblem(NamedTuple):
     @property
     def hint(self) -> str:
         """How to fix it, a sentence."""
-        return RUN_RULES[self.code].hint
+        return RUN_WORDINGS[self.code].hint
 
 
 def run_problem(code: str, **values: object) -> RunProblem:
     """A problem of this code about a run; ``values``: what its text names."""
-    return RunProblem(code, RUN_RULES[code].text.format(**values))
+    return RunProblem(code, RUN_WORDINGS[code].text.format(**values))
 
 
 def pack_finding(code: str, file: str = "", line: int = 0, **values: object) -> PackFinding:
@@ -140,4 +140,4 @@ def pack_finding(code: str, file: str = "", line: int = 0, **values: object) -> 
 
 def level_finding(code: str, records: tuple[int, ...] = (), cells: tuple[Cell, ...] = (), **values: object) -> Finding:
     """A finding of this code; ``values``: what its text names."""
-    return Finding(code, LEVEL_RULES[code].text.format(**values), records, cells)
+    return Finding(code, LEVEL_WORDINGS[code].text.format(**values), records, cells)

@@ -39,7 +39,7 @@ MAX_INPUTS = 16  # most keys or buttons of one action
 InputNames = Mapping[str, tuple[str, ...]]  # action to the names of its inputs (ui/input/bindings.py)
 
 
-class SettingRule(NamedTuple):
+class SettingSpec(NamedTuple):
     """The place of a setting in the file, its allowed values, and its meaning.
 
     ``span``: of a number, the lowest, the highest and a slider's step. ``convert``: converts a value from a file.
@@ -54,7 +54,7 @@ class SettingRule(NamedTuple):
 
 
 def _setting(default: Any, table: str, fits: Callable[[Any], bool], expected: str, meaning: str) -> Any:
-    return field(default=default, metadata={"rule": SettingRule(table, fits, expected, meaning)})
+    return field(default=default, metadata={"spec": SettingSpec(table, fits, expected, meaning)})
 
 
 def _flag(default: bool, table: str, meaning: str) -> Any:
@@ -68,8 +68,8 @@ def _number(default: float, table: str, low: float, high: float, meaning: str, s
     def fits(value: Any) -> bool:
         return isinstance(value, kind) and not isinstance(value, bool) and low <= value <= high
 
-    rule = SettingRule(table, fits, f"{sort} from {low} to {high}", meaning, (low, high, step), type(default))
-    return field(default=default, metadata={"rule": rule})
+    spec = SettingSpec(table, fits, f"{sort} from {low} to {high}", meaning, (low, high, step), type(default))
+    return field(default=default, metadata={"spec": spec})
 
 
 def _text(default: str, table: str, pattern: str, expected: str, meaning: str) -> Any:
@@ -95,10 +95,10 @@ def _bindings_of(bindings: Mapping[str, Sequence[str]]) -> InputNames:
     return {action: tuple(inputs) for action, inputs in bindings.items()}
 
 
-def _bindings(what: str, example: str) -> dict[str, SettingRule]:
+def _bindings(what: str, example: str) -> dict[str, SettingSpec]:
     expected = f"lists of names of {what}, such as jump = {example}"
     meaning = f"{what} of each action that has others than the default ones"
-    return {"rule": SettingRule("", _is_bindings, expected, meaning, convert=_bindings_of)}
+    return {"spec": SettingSpec("", _is_bindings, expected, meaning, convert=_bindings_of)}
 
 
 @dataclass(frozen=True)
@@ -175,12 +175,12 @@ class Settings:
     def changed(self, **values: Any) -> Settings:
         """These settings with some changes. Raises ValueError for a value that a setting cannot have."""
         for name, value in values.items():
-            if not RULES[name].fits(value):
-                raise ValueError(f"{name} is {value!r}; expected {RULES[name].expected}")
+            if not SPECS[name].fits(value):
+                raise ValueError(f"{name} is {value!r}; expected {SPECS[name].expected}")
         return replace(self, **values)
 
 
-RULES: dict[str, SettingRule] = {setting.name: setting.metadata["rule"] for setting in fields(Settings)}
+SPECS: dict[str, SettingSpec] = {setting.name: setting.metadata["spec"] for setting in fields(Settings)}
 """By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""
 
 
@@ -235,18 +235,18 @@ def _put_aside(path: Path, why: str) -> str:
 def _settings_of(data: Mapping[str, Any]) -> tuple[Settings, list[str]]:
     values: dict[str, Any] = {}
     wrong: dict[str, tuple[Any, str]] = {}  # by place: what was found, and what is expected
-    for name, rule in RULES.items():
-        place = BINDING_TABLES.get(name, rule.table)
+    for name, spec in SPECS.items():
+        place = BINDING_TABLES.get(name, spec.table)
         value = data.get(place)
         if value is not None and name not in BINDING_TABLES:
             if not isinstance(value, Mapping):
                 wrong[place] = value, f"the table [{place}]"
                 continue
             place, value = f"{place}.{key_of(name)}", value.get(key_of(name))
-        if value is not None and rule.fits(value):
-            values[name] = rule.convert(value)
+        if value is not None and spec.fits(value):
+            values[name] = spec.convert(value)
         elif value is not None:
-            wrong[place] = value, rule.expected
+            wrong[place] = value, spec.expected
     return Settings(**values), [
         f"settings.toml: {place} is {_shown(value)}; expected {expected}; the default is used."
         for place, (value, expected) in wrong.items()
@@ -286,7 +286,7 @@ def _changed_text(path: Path, before: Settings, after: Settings) -> str:
             parse_toml(text, any_number=True)
             document = tomlkit.parse(text)
             if document.get("version", VERSION) == VERSION:
-                for name in RULES:
+                for name in SPECS:
                     if getattr(before, name) != getattr(after, name):
                         _put(document, name, getattr(before, name), getattr(after, name))
                 text = document.as_string()
@@ -308,7 +308,7 @@ def _new_text(settings: Settings) -> str:
     document = tomlkit.document()
     document.add(tomlkit.comment(COMMENT))
     document.add("version", tomlkit.item(VERSION))
-    for name in RULES:
+    for name in SPECS:
         _put(document, name, {}, getattr(settings, name))
     return document.as_string()
 
@@ -317,7 +317,7 @@ def _put(document: TOMLDocument, name: str, before: Any, after: Any) -> None:
     """Write one setting's new value into the document; of bindings only the changed actions."""
     import tomlkit
 
-    table_name = BINDING_TABLES.get(name, RULES[name].table)
+    table_name = BINDING_TABLES.get(name, SPECS[name].table)
     table = document.get(table_name)
     if not isinstance(table, MutableMapping):
         document[table_name] = tomlkit.table()

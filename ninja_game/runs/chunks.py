@@ -29,7 +29,7 @@ from ninja_game.files.reading import IncludedFile, file_type, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, is_episode
-from ninja_game.levels.findings import RUN_RULES, RunProblem
+from ninja_game.levels.findings import RUN_WORDINGS, RunProblem
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
 from ninja_game.runs.verify import NOT_RUN, OutOfRangeError, Verdict, verify_recording
 from ninja_game.runs.workers import ClusterError
@@ -188,7 +188,7 @@ def result_from_data(data: object) -> Result:
 def _is_problem(data: object) -> bool:
     if not isinstance(data, (list, tuple)) or len(data) != 2 or not isinstance(data[1], str):
         return False
-    return isinstance(data[0], str) and data[0] in RUN_RULES
+    return isinstance(data[0], str) and data[0] in RUN_WORDINGS
 
 
 HEADER = {"checkpoint-log": "ninja-game verify", "version": __version__, "rules": RULES_VERSION}

@@ -16,7 +16,7 @@ from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, PARS, Pack, certif
 from ninja_game.formats.pack.pars import DIGITS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.findings import PackFinding, pack_finding
-from ninja_game.levels.warnings import level_findings
+from ninja_game.levels.lint import level_findings
 from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.verify import Verdict, verify_recording, with_demands
 from ninja_game.sim.kinds import GOLD

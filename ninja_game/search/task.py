@@ -13,7 +13,7 @@ from threading import Event, Lock
 
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import Finding, level_finding
-from ninja_game.levels.warnings import object_name
+from ninja_game.levels.lint import object_name
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.nodes import Resolution
 from ninja_game.sim.kinds import EXIT, GOLD

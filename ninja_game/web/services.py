@@ -20,7 +20,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen, watch_screen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.settings import RULES
+from ninja_game.player.settings import SPECS
 from ninja_game.ui.input.keys import scancode_named
 
 PHONE_TEXT = 150
@@ -32,7 +32,7 @@ class PageServices:
 
     def __init__(self, app: App, address: str, small: bool = False) -> None:
         self.app = app
-        if app.settings.site != address and RULES["site"].fits(address):
+        if app.settings.site != address and SPECS["site"].fits(address):
             # Texts are large on a first visit with a phone; the player's own choice stays.
             text_size = PHONE_TEXT if small and not app.settings.site else app.settings.text_size
             app.change_settings(site=address, text_size=text_size)

@@ -94,6 +94,6 @@ def test_searches_along_a_run() -> None:
 
 
 def test_doors_of_a_checked_level_are_doors() -> None:
-    from ninja_game.levels.warnings import level_findings
+    from ninja_game.levels.lint import level_findings
 
     assert isinstance(level_findings(LOCKED), list)

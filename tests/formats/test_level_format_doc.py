@@ -11,7 +11,7 @@ from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import SYMBOLS, TILE_CHARS
 from ninja_game.formats.ascii.object_lines import DOORS, FORMS, MOVEMENTS, SIDES, read_object_line
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.levels.warnings import level_warnings
+from ninja_game.levels.lint import level_warnings
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DOC = (ROOT / "docs" / "level-format.md").read_text(encoding="utf-8")

@@ -15,7 +15,7 @@ from ninja_game.generator.generate import plan_of
 from ninja_game.generator.layouts import LAYOUTS, PLACES
 from ninja_game.generator.scene import RockBoard, Scene, box, disc, flood, path, places, poly
 from ninja_game.generator.shaping import shaped
-from ninja_game.levels.warnings import level_warnings
+from ninja_game.levels.lint import level_warnings
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import Input
 from ninja_game.sim.kinds import LAUNCH_PAD, MINE, ONE_WAY

@@ -18,7 +18,7 @@ if not compiled_available():
 from ninja_game.batch.difficulty import difficulty
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.generator.generate import Effort, Generated, generate
-from ninja_game.levels.warnings import level_warnings
+from ninja_game.levels.lint import level_warnings
 from ninja_game.runs.run import run_level
 from tests.support.golden_generated import SEEDS, SMALL, generated_digest, read_generated
 from tests.support.slow import the_rest_is_slow

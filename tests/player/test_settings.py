@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings as hypothesis_settings, strategies as st
 
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.settings import GHOSTS, MAX_INPUTS, RULES, Settings, read_settings, write_changes
+from ninja_game.player.settings import GHOSTS, MAX_INPUTS, SPECS, Settings, read_settings, write_changes
 from tools.draw import how_it_works
 
 PRINTABLE = st.text(st.characters(exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp", "Zs", "Co", "Cn"]), max_size=30)
@@ -27,8 +27,8 @@ VALUES: dict[str, st.SearchStrategy[object]] = {
 
 
 def values_of(name: str) -> st.SearchStrategy[object]:
-    """What a setting may be: what its rule says of a number or a flag, else an entry of the table."""
-    low, high, _ = RULES[name].span
+    """What a setting may be: what its spec says of a number or a flag, else an entry of the table."""
+    low, high, _ = SPECS[name].span
     default = getattr(Settings(), name)
     if isinstance(default, bool):
         return st.booleans()
@@ -37,11 +37,11 @@ def values_of(name: str) -> st.SearchStrategy[object]:
     return VALUES[name]
 
 
-SETTINGS = st.builds(Settings, **{name: values_of(name) for name in RULES})
+SETTINGS = st.builds(Settings, **{name: values_of(name) for name in SPECS})
 
 
-def test_every_default_fits_its_rule() -> None:
-    assert all(rule.fits(getattr(Settings(), name)) for name, rule in RULES.items())
+def test_every_default_fits_its_spec() -> None:
+    assert all(spec.fits(getattr(Settings(), name)) for name, spec in SPECS.items())
 
 
 @hypothesis_settings(max_examples=40)

@@ -25,13 +25,13 @@ from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.run import record_replay
 from ninja_game.web.board import collect
+from ninja_game.web.board.categories import FASTEST, HIGHEST, Category
 from ninja_game.web.board.collect import MAX_RECORDS
 from ninja_game.web.board.judge import judge
 from ninja_game.web.board.level_pages import paths
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.report import DATE, read_board
-from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
 from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns
 from ninja_game.web.pages.frame import POLICY, tag
 from ninja_game.web.pages.gallery import page_name, published_levels

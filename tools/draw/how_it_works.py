@@ -8,7 +8,7 @@ from xml.sax.saxutils import escape
 from ninja_game.cli import windows
 from ninja_game.formats.ascii.legend import TILE_FAMILIES, TILE_OF_CHAR
 from ninja_game.play.lab.screen import export_figure
-from ninja_game.player.settings import BINDING_TABLES, RULES, Settings, key_of
+from ninja_game.player.settings import BINDING_TABLES, SPECS, Settings, key_of
 from ninja_game.view.sprites.tile_sheet import outline
 from tools import ROOT
 
@@ -136,14 +136,14 @@ VECTORS = {"shapes.svg": draw_shapes, "tick.svg": draw_tick, "tiles.svg": draw_l
 def settings_page() -> str:
     """docs/settings.md, a row for each setting."""
     rows = []
-    for name, rule in RULES.items():
+    for name, spec in SPECS.items():
         key = "*action*" if name in BINDING_TABLES else f"`{key_of(name)}`"
-        table = BINDING_TABLES.get(name, rule.table)
+        table = BINDING_TABLES.get(name, spec.table)
         default = getattr(Settings(), name)
         shown = (
             str(default).lower() if isinstance(default, bool) else repr(default) if default != {} else "see the game"
         )
-        rows.append(f"| `[{table}]` | {key} | {rule.meaning} | {rule.expected} | {shown} |\n")
+        rows.append(f"| `[{table}]` | {key} | {spec.meaning} | {spec.expected} | {shown} |\n")
     return SETTINGS_HEAD + "".join(rows)
 
 

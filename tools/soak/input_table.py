@@ -39,7 +39,7 @@ from ninja_game.formats.pack.pars import parse_pars
 from ninja_game.formats.recording import Recording, parse_replays, record_of
 from ninja_game.formats.replay.notations import write_celeste, write_libtas
 from ninja_game.formats.replay.text import parse_replay, write_replay
-from ninja_game.levels.warnings import level_warnings
+from ninja_game.levels.lint import level_warnings
 from ninja_game.player.backup import read_backup
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import read_settings, write_changes

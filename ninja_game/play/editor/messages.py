@@ -26,7 +26,7 @@ from ninja_game.formats.messages import (
     unknown_words,
 )
 from ninja_game.levels.episodes import Mood
-from ninja_game.levels.warnings import Ground, unseen_messages
+from ninja_game.levels.lint import Ground, unseen_messages
 from ninja_game.play.app import App
 from ninja_game.play.level.hud import Hud, HudView, PlacedMessage
 from ninja_game.play.level.hud_view import named_in

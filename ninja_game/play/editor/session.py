@@ -38,7 +38,7 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import GAME, YOURS, Entry
 from ninja_game.levels.findings import Finding
-from ninja_game.levels.warnings import level_findings
+from ninja_game.levels.lint import level_findings
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text
 from ninja_game.play.window import save_picture

@@ -14,7 +14,7 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
-from ninja_game.player.settings import BY_COLUMN, GHOSTS, RULES
+from ninja_game.player.settings import BY_COLUMN, GHOSTS, SPECS
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, InputEvent, bindable
 from ninja_game.ui.input.gamepad import pad_label
@@ -93,7 +93,7 @@ def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
         zone = Slider(
             (216, 514, 540, 30),
             "Dead zone of sticks",
-            RULES["dead_zone"].span,
+            SPECS["dead_zone"].span,
             lambda: screen.player.settings.dead_zone,
             lambda value: screen.change(dead_zone=round(value, 2)),
             show="{:.0%}".format,
@@ -281,7 +281,7 @@ class SettingsScreen(ThumbnailScreen):
             if volume:
                 self.chime("gold-1" if name == "volume" else "menu-move")
 
-        span = RULES[name].span
+        span = SPECS[name].span
         share = 100 / span[1]
         return Slider(
             self._area(),

@@ -24,8 +24,8 @@ from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, aligned, run_splits, split_table, sum_of_best
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.theme import run_colour
+from ninja_game.web.board.categories import FASTEST, HIGHEST, Category
 from ninja_game.web.board.ranking import Leaderboard, Ranked, Ranking
-from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
 from ninja_game.web.board.runs import PLAYED, Key, Run
 from ninja_game.web.pages.frame import (
     GAME,
@@ -250,7 +250,7 @@ class LevelPages:
         rows: list[list[Any]] = [
             [self.stems[run.key], run.added, run.remark, run.near, run.medal, run.tick] for run in runs
         ]
-        rules = [[category.name, category.rank, category.when] for category in self.ranking.categories]
+        categories = [[category.name, category.rank, category.when] for category in self.ranking.categories]
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
 
         def content() -> str:
@@ -258,7 +258,7 @@ class LevelPages:
             return level_page(entry, {}, UP + self.game, self.deeper, more, site=self.site, top=top, drawn=drawn)
 
         self.pages.make(picture_name(digest), digest, lambda: picture(named.level))
-        self.pages.make(page_name(digest), [about, rows, rules, self.deeper, self.site], content)
+        self.pages.make(page_name(digest), [about, rows, categories, self.deeper, self.site], content)
         known = {self.stems[run.key]: run for run in runs}
 
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:

@@ -17,6 +17,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
+from ninja_game.web.board.categories import HIGHEST
 from ninja_game.web.board.level_pages import (
     EPISODES,
     FIRST,
@@ -32,7 +33,6 @@ from ninja_game.web.board.level_pages import (
 )
 from ninja_game.web.board.ranking import Ranked, Record, Standing
 from ninja_game.web.board.report import summary, unnamed
-from ninja_game.web.board.rules import HIGHEST
 from ninja_game.web.board.runs import KINDS, Key, Run
 from ninja_game.web.pages.frame import (
     REPLAYS,

@@ -13,7 +13,7 @@ from operator import itemgetter
 
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.levels.episodes import Episode
-from ninja_game.web.board.rules import USUAL, Category
+from ninja_game.web.board.categories import USUAL, Category
 from ninja_game.web.board.runs import PLAYED, Key, Run, ValidatedRuns
 from ninja_game.web.pages.gallery import PublishedLevels
 

@@ -12,9 +12,9 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.provenance import Provenance
+from ninja_game.web.board.categories import FASTEST, MAX_CATEGORIES, NAMES, USUAL, Category, read_categories
 from ninja_game.web.board.judge import judge
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.rules import FASTEST, MAX_CATEGORIES, NAMES, USUAL, Category, read_categories
 from ninja_game.web.board.runs import ASSISTED, PLAYED
 from ninja_game.web.pages.gallery import path_data, published_levels
 from tests.support.board import DIGEST, Tags, board, put, slow_walk
@@ -22,10 +22,10 @@ from tests.support.forgeries import GOLD_LATER, WALKING, replay
 from tests.support.samples import WALK_END
 
 SEARCHED = Provenance(edits=3, searches=("improve",), begun_by="Ann")
-RULES = Path("docs/board-template/board.toml")
+TEMPLATE = Path("docs/board-template/board.toml")
 
 
-def rules(folder: Path, text: str) -> Path:
+def filed(folder: Path, text: str) -> Path:
     return put(folder, "board.toml", text)
 
 
@@ -56,13 +56,13 @@ def test_an_assisted_run_is_on_a_ladder_of_its_own(runs: Path, levels: Path, tmp
     assert any("made: edited 3" in each.read_text("utf-8") for each in text.parent.iterdir())
 
 
-def test_the_rules_of_the_template_rank_as_they_say(runs: Path, levels: Path) -> None:
+def test_the_categories_of_the_template_rank_as_they_say(runs: Path, levels: Path) -> None:
     """Ann goes straight through the gold; Bea jumps over nothing and takes it later; the level's gold is one piece."""
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
     put(runs, "cid.txt", replay(level=GOLD_LATER, author="Cid"))
     shown = published_levels(levels)
-    categories = read_categories(RULES)
+    categories = read_categories(TEMPLATE)
     assert [each.name for each in categories] == ["Any %", "Highest score", "All gold", "Low gold", "Fewest keys"]
     ranking = Ranking(judge(runs, shown, jobs=1), shown, categories)
     for (ladder, each), table in ranking.tables[DIGEST].items():
@@ -82,7 +82,7 @@ def test_a_run_is_in_a_category_only_where_its_formula_holds(runs: Path, levels:
     put(runs, "ann.txt", slow_walk(author="Ann"))
     put(runs, "bea.txt", replay(author="Bea"))
     others = category("B", rank=["-ticks"]) + category("C", rank=["1 / (gold - 1)"])
-    given = read_categories(rules(tmp_path, category(when=f"ticks > {WALK_END}") + others))
+    given = read_categories(filed(tmp_path, category(when=f"ticks > {WALK_END}") + others))
     shown = published_levels(levels)
     tables = Ranking(judge(runs, shown, jobs=1), shown, given).tables[DIGEST]
     players = {each.name: [ranked.run.player for ranked in table] for (_, each), table in tables.items()}
@@ -99,8 +99,8 @@ def test_the_first_of_a_table_holds_the_record_by_the_second_number_too(runs: Pa
 
 
 BROKEN = {
-    "": "1 to 12 tables [[category]] alone", "category = 3": "not the rules", "x = 1\n" + category(): "not the rules",
-    "[[category": "no TOML", category() * (MAX_CATEGORIES + 1): "not the rules", category() * 2: "two categories",
+    "": "1 to 12 tables [[category]] alone", "category = 3": "no categories", "x = 1\n" + category(): "no categories",
+    "[[category": "no TOML", category() * (MAX_CATEGORIES + 1): "no categories", category() * 2: "two categories",
     category(rank=[]): "list of formulas", category(rank=[3]): "list of formulas", category(rank="ticks"): "wrong type",
     category(name=""): "empty or too long", category(name="x" * 41): "empty or too long",
     category(order=3): "not the keys",
@@ -108,20 +108,20 @@ BROKEN = {
     category(rank=["ticks > 3"]): "true or false", category(rank=["x"]): "an unknown name",
     category(rank=["__import__('os')"]): "a character that no formula has", category(rank=["(" * 999]): "formula",
     category(episodes=1): "wrong type", "[[category]]\nname = 'A'": "not the keys",
-    "[category]\nname = 'A'\nrank = ['ticks']": "not the rules",
+    "[category]\nname = 'A'\nrank = ['ticks']": "no categories",
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("text", BROKEN)
-def test_broken_rules_are_named(text: str, tmp_path: Path) -> None:
+def test_broken_categories_are_named(text: str, tmp_path: Path) -> None:
     with pytest.raises(NinjaGameError) as caught:
-        read_categories(rules(tmp_path, text))
+        read_categories(filed(tmp_path, text))
     assert BROKEN[text] in str(caught.value)
     assert "board.toml" in str(caught.value)
 
 
-def test_rules_of_a_mebibyte_are_too_many(tmp_path: Path, levels: Path, runs: Path) -> None:
-    path = rules(tmp_path, "#" * 2**20 + "#")
+def test_categories_of_a_mebibyte_are_too_many(tmp_path: Path, levels: Path, runs: Path) -> None:
+    path = filed(tmp_path, "#" * 2**20 + "#")
     result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), "--rules", str(path)])
     assert (result.exit_code, "too large" in result.output) == (2, True)
 

@@ -12,9 +12,9 @@ import pytest
 
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.levels import warnings as warnings_module
-from ninja_game.levels.findings import DESIGN_RULES, LEVEL_RULES, PACK_RULES, RUN_RULES, Rule
-from ninja_game.levels.warnings import Ground, level_findings, level_warnings, object_name
+from ninja_game.levels import lint
+from ninja_game.levels.findings import DESIGN_WORDINGS, LEVEL_WORDINGS, PACK_WORDINGS, RUN_WORDINGS, Wording
+from ninja_game.levels.lint import Ground, level_findings, level_warnings, object_name
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ROWS, TILES, Level, ObjectSpec
 from ninja_game.simulation import Simulation
@@ -195,17 +195,17 @@ def test_advice_belongs_to_the_code_not_to_words_that_two_texts_share() -> None:
 
 def test_every_code_is_explained_in_the_documents() -> None:
     page = (Path(__file__).parents[2] / "docs" / "findings.md").read_text("utf-8")
-    rules = {**LEVEL_RULES, **PACK_RULES, **DESIGN_RULES, **RUN_RULES}
-    assert [row for row in map(row_of, rules.items()) if row not in page] == []
-    assert page.count("\n| `") == len(rules)
+    wordings = {**LEVEL_WORDINGS, **PACK_WORDINGS, **DESIGN_WORDINGS, **RUN_WORDINGS}
+    assert [row for row in map(row_of, wordings.items()) if row not in page] == []
+    assert page.count("\n| `") == len(wordings)
 
 
-def row_of(entry: tuple[str, Rule]) -> str:
+def row_of(entry: tuple[str, Wording]) -> str:
     """A code's line of docs/findings.md."""
-    code, rule = entry
-    whole = f"{rule.text}; expected {rule.expected}" if rule.expected else rule.text
+    code, wording = entry
+    whole = f"{wording.text}; expected {wording.expected}" if wording.expected else wording.text
     text = re.sub(r"\{(\w+)[^}]*\}", lambda value: value[1].upper(), whole)
-    return f"| `{code}` | {text} | {rule.hint} |"
+    return f"| `{code}` | {text} | {wording.hint} |"
 
 
 WALL = dict.fromkeys(range(1, 23), "....#")
@@ -296,7 +296,7 @@ def test_in_a_level_of_many_exits_and_mines_few_distances_are_looked_at(monkeypa
         looked.append(a)
         return math.dist(a, b)
 
-    monkeypatch.setattr(warnings_module, "dist", measured)
+    monkeypatch.setattr(lint, "dist", measured)
     found = level_findings(Level((0,) * TILES, (*PROPER, *exits, *mines, over)))
     assert [(each.code, len(each.records)) for each in found if each.code == "covers"] == [("covers", 1)]
     assert len(looked) < 2000

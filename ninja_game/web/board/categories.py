@@ -1,4 +1,4 @@
-"""The ranking rules: the categories of a ``board.toml``."""
+"""The categories of a board (``board.toml``): what counts, and what ranks it."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def read_categories(path: Path) -> tuple[Category, ...]:
         raise FormatError(f"no TOML: {error}", file) from None
     found = table.get("category")
     if set(table) != {"category"} or not isinstance(found, list) or not 1 <= len(found) <= MAX_CATEGORIES:
-        raise FormatError("not the rules of a board", file, expected=f"1 to {MAX_CATEGORIES} tables [[category]] alone")
+        raise FormatError("no categories of a board", file, expected=f"1 to {MAX_CATEGORIES} tables [[category]] alone")
     categories = tuple(_category(category, f"{file}: category {number}") for number, category in enumerate(found, 1))
     names = [category.name.casefold() for category in categories]
     if len(set(names)) < len(names):
