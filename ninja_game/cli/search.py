@@ -338,8 +338,8 @@ def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
     from ninja_game.search.certificate import named_replay, save_replay
 
     check_output(path, keep=[Path(level.file)])
-    about = {"name": level.name, "author": "ninja-game solve", "level_author": level.author}
-    return lambda run: save_replay(path, named_replay(run, "solve", **about))
+    credit = {"name": level.name, "author": "ninja-game solve", "level_author": level.author}
+    return lambda run: save_replay(path, named_replay(run, "solve", **credit))
 
 
 def saver_of_better(path: Path, recording: Recording, command: str) -> Callable[[Replay], None]:

@@ -49,19 +49,19 @@ def files_below(folder: Path, *, follow_links: bool = True) -> Iterator[Path | S
     while waiting:
         path, is_folder = waiting.pop()
         try:
-            about = os.stat(path, follow_symlinks=follow_links or path == folder)  # noqa: PTH116 - of each run of a board
-            if stat.S_ISLNK(about.st_mode):
+            status = os.stat(path, follow_symlinks=follow_links or path == folder)  # noqa: PTH116 - of each run of a board
+            if stat.S_ISLNK(status.st_mode):
                 yield Skipped(path, "a link; put the file itself here")
                 continue
             if not is_folder:
                 yield (
-                    path if stat.S_ISREG(about.st_mode) else Skipped(path, f"{file_type(about.st_mode)}, not a file")
+                    path if stat.S_ISREG(status.st_mode) else Skipped(path, f"{file_type(status.st_mode)}, not a file")
                 )
                 continue
-            if (about.st_dev, about.st_ino) in visited:
+            if (status.st_dev, status.st_ino) in visited:
                 yield Skipped(path, "a link to a folder that is visited already")
                 continue
-            visited.add((about.st_dev, about.st_ino))
+            visited.add((status.st_dev, status.st_ino))
             with os.scandir(path) as entries:
                 names = sorted(((entry.name, _is_folder(entry)) for entry in entries), reverse=True)
         except (OSError, ValueError) as error:
@@ -114,9 +114,9 @@ def protect_inputs(on: bool) -> None:
     _inputs = set() if on else None
 
 
-def is_input(about: os.stat_result) -> bool:
+def is_input(status: os.stat_result) -> bool:
     """Whether a file was read while inputs are kept."""
-    return _inputs is not None and (about.st_dev, about.st_ino) in _inputs
+    return _inputs is not None and (status.st_dev, status.st_ino) in _inputs
 
 
 def open_regular(path: Path) -> IO[bytes]:
@@ -126,10 +126,10 @@ def open_regular(path: Path) -> IO[bytes]:
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     except ValueError as error:
         raise FileError("no file has this name", ascii(str(path)), found=str(error)) from None
-    about = os.fstat(handle)
-    mode = about.st_mode
+    status = os.fstat(handle)
+    mode = status.st_mode
     if _inputs is not None:
-        _inputs.add((about.st_dev, about.st_ino))
+        _inputs.add((status.st_dev, status.st_ino))
     if not stat.S_ISREG(mode):
         os.close(handle)
         raise FileError("only a regular file is read", str(path), found=file_type(mode))
@@ -142,10 +142,10 @@ NO_FILE: list[int] = []  # the stamp of a missing file
 def stamp_of(path: Path | str) -> list[int]:
     """Changes when a file or folder is written or replaced: its size, times and number; copies set no ctime."""
     try:
-        about = os.stat(path)  # noqa: PTH116 - a path of text is cheaper, and a board asks of each run
+        status = os.stat(path)  # noqa: PTH116 - a path of text is cheaper, and a board asks of each run
     except (OSError, ValueError):
         return NO_FILE
-    return [about.st_size, about.st_mtime_ns, about.st_ctime_ns, about.st_ino]
+    return [status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
 
 
 def read_bytes(path: Path, limit: int = MAX_BYTES) -> bytes:

@@ -118,13 +118,13 @@ def _entered(path: Path, at: int | None) -> int | None:
 def _replaceable(path: Path, at: int | None) -> os.stat_result | None:
     """What ``replacing`` needs to know of the file with this name. Raises FileError for anything but a regular file."""
     try:
-        about = os.stat(named(path, at), dir_fd=at, follow_symlinks=False)
+        status = os.stat(named(path, at), dir_fd=at, follow_symlinks=False)
     except FileNotFoundError:
         return None
-    if not stat.S_ISREG(about.st_mode):
-        found, hint = file_type(about.st_mode), "nothing is written through links here; remove it"
+    if not stat.S_ISREG(status.st_mode):
+        found, hint = file_type(status.st_mode), "nothing is written through links here; remove it"
         raise FileError("only a regular file is written", str(path), found=found, hint=hint)
-    return about
+    return status
 
 
 def _entries(path: Path, at: int | None) -> list[os.DirEntry[str]]:

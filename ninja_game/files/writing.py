@@ -54,19 +54,19 @@ def open_atomically(path: Path, *, keep: Iterable[Path] = ()) -> Iterator[IO[byt
 
     Raises FileError for a path that cannot be written on principle, OSError with the name ``path`` for the rest.
     """
-    target, about = _target(path, keep)
-    with replacing(target, about, shown=path) as file:
+    target, status = _target(path, keep)
+    with replacing(target, status, shown=path) as file:
         yield file
         _target(path, keep)  # the block may have read it
 
 
 @contextmanager
 def replacing(
-    target: Path, about: os.stat_result | None, at: int | None = None, *, shown: Path | None = None, kept: bool = True
+    target: Path, status: os.stat_result | None, at: int | None = None, *, shown: Path | None = None, kept: bool = True
 ) -> Iterator[IO[bytes]]:
     """A binary file that takes the place of ``target`` when the block ends, and never if it ends in an exception.
 
-    ``about``: the file that is there, None: none; ``at``: a handle of its folder, None: the folder is found by its
+    ``status``: of the file that is there, None: none; ``at``: a handle of its folder, None: the folder is found by its
     path; ``shown``: what OSErrors call the file, None: ``target``; ``kept``: it is on the disk then.
     """
     remove_leftovers(target.parent, at)
@@ -77,8 +77,8 @@ def replacing(
         with os.fdopen(handle, "wb") as file:
             yield file
             file.flush()
-            if about is not None:
-                _keep_rights(part, handle, about)
+            if status is not None:
+                _keep_rights(part, handle, status)
             if kept:
                 os.fsync(handle)
             if sys.platform != "win32":
@@ -144,28 +144,28 @@ def _target(path: Path, keep: Iterable[Path]) -> tuple[Path, os.stat_result | No
     except (ValueError, RuntimeError) as error:
         raise FileError("no file can have this name", ascii(str(path)), found=str(error)) from None
     try:
-        about = target.stat()
+        status = target.stat()
     except FileNotFoundError:
         return target, None
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(path)) from None
-    if not stat.S_ISREG(about.st_mode):
-        raise FileError("only a regular file is written", str(path), found=file_type(about.st_mode))
-    if is_input(about) or any(_reads(kept, target) for kept in keep):
+    if not stat.S_ISREG(status.st_mode):
+        raise FileError("only a regular file is written", str(path), found=file_type(status.st_mode))
+    if is_input(status) or any(_reads(kept, target) for kept in keep):
         raise FileError("this file is read by the same command", str(path), hint="choose another name for the output")
     if not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
-    return target, about
+    return target, status
 
 
-def _keep_rights(part: Path, handle: int, about: os.stat_result) -> None:
+def _keep_rights(part: Path, handle: int, status: os.stat_result) -> None:
     """Give the new file the mode and, where that is allowed, the owner of the one it replaces."""
     if sys.platform == "win32":
-        part.chmod(stat.S_IMODE(about.st_mode))
+        part.chmod(stat.S_IMODE(status.st_mode))
     else:
         with suppress(OSError):
-            os.fchown(handle, about.st_uid, about.st_gid)
-        os.fchmod(handle, stat.S_IMODE(about.st_mode))
+            os.fchown(handle, status.st_uid, status.st_gid)
+        os.fchmod(handle, stat.S_IMODE(status.st_mode))
 
 
 def _reads(source: Path, target: Path) -> bool:

@@ -67,10 +67,10 @@ def write_csv(traces: Iterable[FiledTrace], out: IO[str]) -> None:
     table = csv.DictWriter(out, COLUMNS, restval="", lineterminator="\n")
     table.writeheader()
     for record, name, run, file, inputs, _ in traces:
-        about = {"file": file, "record": record, "name": name}
+        place = {"file": file, "record": record, "name": name}
         for row in rows(run):
             keys = {"keys": keys_text(inputs[row["tick"]])} if inputs and row["kind"] == NINJA_NAME else {}
-            table.writerow({**about, **keys, **row})
+            table.writerow({**place, **keys, **row})
 
 
 def read_csv(text: Iterable[str], *, file: str = "") -> Iterator[FiledTrace]:

@@ -31,15 +31,15 @@ class Contributions:
         )
         return Contributions(self.edits + other.edits, commands, names)
 
-    def credited(self, about: Recording, player: str) -> Recording:
+    def credited(self, origin: Recording, player: str) -> Recording:
         """A recording as it was opened, with a player's later contributions."""
-        old, author = about.replay, about.author or player
+        old, author = origin.replay, origin.author or player
         names = names_of_text(", ".join((*old.co_authors, player, *self.names)))
         # An empty run of the editor's was nobody's before; else its origin stays known, also if nobody says who edits.
-        begun_by = "" if player == about.author != "" or not old.inputs else about.begun_by
+        begun_by = "" if player == origin.author != "" or not old.inputs else origin.begun_by
         made = old.made.edited(self.edits).searched(*self.commands, begun_by=begun_by)
         others = tuple(name for name in names if name != author)
-        return replace(about, replay=replace(old, author=author, made=made, co_authors=others))
+        return replace(origin, replay=replace(old, author=author, made=made, co_authors=others))
 
     def as_json(self) -> dict[str, Any]:
         return {"edits": self.edits, "commands": list(self.commands), "names": list(self.names)}

@@ -107,8 +107,8 @@ NO_TICKS = InputTrack(b"")
 def new_run(on: NamedLevel, track: InputTrack = NO_TICKS, body: Body = "circle") -> OpenedRun:
     """A new run on a level, without a file."""
     names = {"name": on.name, "level_name": on.name, "level_author": on.author}
-    about = Replay.of_inputs(track.inputs, on.level, body=body, **names)
-    return OpenedRun(Recording(on.level, about, file=on.file), track)
+    replay = Replay.of_inputs(track.inputs, on.level, body=body, **names)
+    return OpenedRun(Recording(on.level, replay, file=on.file), track)
 
 
 def run_file_of(path: Path, digest: str, branches_digest: str) -> RunFile:
@@ -130,16 +130,16 @@ def open_recording(recording: Recording) -> OpenedRun:
     return OpenedRun(recording, track_of(recording))
 
 
-def runs_of_level(path: Path, about: Recording) -> list[Recording]:
+def runs_of_level(path: Path, origin: Recording) -> list[Recording]:
     """The recordings of a file or link that can be shown beside a run: all others of its level, with its body.
 
     Those without a level get the run's. Raises ReplayError if there is none, and as ``load_replays`` does.
     """
-    recordings = load_replays(path, level=about.level)
-    fitting = [each for each in recordings if same_level(each, about)]
-    others = [each for each in fitting if not same_place(each, about)]
+    recordings = load_replays(path, level=origin.level)
+    fitting = [each for each in recordings if same_level(each, origin)]
+    others = [each for each in fitting if not same_place(each, origin)]
     if not others:
-        what = f"no {'other ' * bool(fitting)}run of {about.name or 'this level'} with its body"
+        what = f"no {'other ' * bool(fitting)}run of {origin.name or 'this level'} with its body"
         raise ReplayError(what, str(path), found=f"{len(recordings)} others" if not fitting else "")
     return others
 
@@ -190,21 +190,21 @@ def _facts(text: str) -> list[str]:
     return [word for line in text.splitlines()[1:] if line != "end" for word in line.split()]
 
 
-def recording_of(about: Recording, track: InputTrack, name: str = "") -> Recording:
+def recording_of(origin: Recording, track: InputTrack, name: str = "") -> Recording:
     """An input track as a recording without claims, with the level and the author of another one."""
-    replay = replace(unclaimed_replay(about, track), name=name or about.name)
-    return replace(about, file=name or about.file, replay=replay, form="replay")
+    replay = replace(unclaimed_replay(origin, track), name=name or origin.name)
+    return replace(origin, file=name or origin.file, replay=replay, form="replay")
 
 
-def unclaimed_replay(about: Recording, track: InputTrack) -> Replay:
+def unclaimed_replay(origin: Recording, track: InputTrack) -> Replay:
     """An input track as a replay without claims, with its level inside."""
-    old = about.replay
+    old = origin.replay
     return Replay.of_inputs(
         track.inputs,
-        about.level,
-        name=about.name,
-        author=about.author,
-        body=about.body,
+        origin.level,
+        name=origin.name,
+        author=origin.author,
+        body=origin.body,
         level_name=old.level_name,
         level_author=old.level_author,
         markers=track.markers,
@@ -213,14 +213,16 @@ def unclaimed_replay(about: Recording, track: InputTrack) -> Replay:
     )
 
 
-def replay_of_track(about: Recording, track: InputTrack) -> Replay:
+def replay_of_track(origin: Recording, track: InputTrack) -> Replay:
     """An input track as our replay: with claims, or without if keys or names behind its death must stay.
 
     An exit or a death soon behind the last input, which the TAS editor shows, is included. Behind the exit nothing is
     kept. Raises ArgumentError for a run without ticks.
     """
-    unclaimed = unclaimed_replay(about, track)
-    record = partial(record_replay, about.level, track.inputs, body=about.body, name=about.name, author=about.author)
+    unclaimed = unclaimed_replay(origin, track)
+    record = partial(
+        record_replay, origin.level, track.inputs, body=origin.body, name=origin.name, author=origin.author
+    )
     run = record(ticks=min(len(track) + AFTERMATH, MAX_TICKS))
     if run.outcome == "running":
         run = record()
@@ -243,7 +245,7 @@ def has_tail(track: InputTrack, ticks: int) -> bool:
 
 
 def save_run(
-    about: Recording, track: InputTrack, branches: Branches, path: Path, file: RunFile, *, replacing: bool = False
+    origin: Recording, track: InputTrack, branches: Branches, path: Path, file: RunFile, *, replacing: bool = False
 ) -> RunFile:
     """Write an input track, and its branches and watched formulas beside it; its file.
 
@@ -254,16 +256,16 @@ def save_run(
     for file_path, known in ((path, file.digest), (branches_file, file.branches_digest)):
         check_free(file_path, digest_of_file(file_path), known if own else None, replacing=replacing)
     if not own or track != file.track or digest_of_file(path) != file.digest:
-        replay = replay_of_track(about, track)
-        write_atomically(path, write_replay(_with_old_path(replay, about) if own else replay))
+        replay = replay_of_track(origin, track)
+        write_atomically(path, write_replay(_with_old_path(replay, origin) if own else replay))
     if len(branches) or branches.watched or branches_file.exists():
         Tree(path.parent).write(branches_file.name, json.dumps(branches.as_json(), indent=1))
     return RunFile(path, digest_of_file(path), digest_of_file(branches_file), track)
 
 
-def _with_old_path(replay: Replay, about: Recording) -> Replay:
+def _with_old_path(replay: Replay, origin: Recording) -> Replay:
     """A replay with the path of its level's file, as in the one that it replaces."""
-    old = about.replay
+    old = origin.replay
     if old.level is not None or not old.level_path:
         return replay
     return replace(
@@ -271,7 +273,7 @@ def _with_old_path(replay: Replay, about: Recording) -> Replay:
         level=None,
         level_name="",
         level_author="",
-        level_digest=level_digest(about.level),
+        level_digest=level_digest(origin.level),
         level_path=old.level_path,
         level_record=old.level_record,
     )

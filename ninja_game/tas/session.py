@@ -25,16 +25,16 @@ TICKS_PER_FRAME_PLAIN = 2000
 class Session:
     """A run under edit. ``folder``: the player's, for the journal; ``player``: the editor of the run.
 
-    ``about``: level, body, name and author of the run; ``moved``: it was recorded on another level. ``before_track``:
+    ``origin``: level, body, name and author of the run; ``moved``: it was recorded on another level. ``before_track``:
     the run before the last edit; ``before``: its trajectory. Raises LevelError for a level that cannot be played.
     """
 
     def __init__(self, opened: OpenedRun, folder: Path, *, player: str = "", memory: str = "auto") -> None:
-        about = opened.recording
-        if about.author and not about.player:
-            about = replace(about, replay=replace(about.replay, author="", level_author=about.level_author))
-            opened = replace(opened, recording=about)
-        self.about: Recording = about
+        origin = opened.recording
+        if origin.author and not origin.player:
+            origin = replace(origin, replay=replace(origin.replay, author="", level_author=origin.level_author))
+            opened = replace(opened, recording=origin)
+        self.origin: Recording = origin
         self._first, self._player = opened, player
         self.file: RunFile = opened.file
         self.branches: Branches = opened.branches
@@ -42,7 +42,7 @@ class Session:
         self.history: History[InputTrack] = History(opened.track)
         self.saved = opened.track
         self._saved_branches = self._kept()
-        self.timeline = Timeline(self.about.level, opened.track.inputs, body=self.about.body, memory=memory)
+        self.timeline = Timeline(self.origin.level, opened.track.inputs, body=self.origin.body, memory=memory)
         self.before: Trajectory = EMPTY_TRAJECTORY
         self.before_track = opened.track
         self._noted = opened.track
@@ -54,10 +54,10 @@ class Session:
         self.timeline.simulate(self.ticks_per_frame)
 
     def _opened(self) -> dict[str, object]:
-        about = self._first.recording
-        text = write_replay(unclaimed_replay(about, self.track))
+        origin = self._first.recording
+        text = write_replay(unclaimed_replay(origin, self.track))
         path = str(self.file.path.absolute()) if self.file.path else ""
-        source = about.file
+        source = origin.file
         with suppress(OSError):  # a name that no file system accepts
             source = str(Path(source).absolute()) if Path(source).is_file() else source
         return {
@@ -71,12 +71,12 @@ class Session:
 
     @property
     def at_home(self) -> Recording:
-        """``about`` in the file that the run has now; else where it was opened."""
-        return self.about if self.file.path is None else replace(self.about, file=str(self.file.path), record=0)
+        """``origin`` in the file that the run has now; else where it was opened."""
+        return self.origin if self.file.path is None else replace(self.origin, file=str(self.file.path), record=0)
 
     @property
     def name(self) -> str:
-        return self.about.name or "run"
+        return self.origin.name or "run"
 
     @property
     def is_saved(self) -> bool:
@@ -177,7 +177,7 @@ class Session:
     def _credit(self) -> None:
         """Set the provenance of the run: if its keys have changed, the edits since it was opened, and their author."""
         opened, made = self._first.recording, self.track.made
-        self.about = opened if made == NONE else made.credited(opened, self._player)
+        self.origin = opened if made == NONE else made.credited(opened, self._player)
 
     def name_player(self, player: str) -> None:
         """Name the editor of the run, who was unknown so far."""
@@ -249,14 +249,14 @@ class Session:
 
     def recording(self, track: InputTrack | None = None, name: str = "") -> Recording:
         """An input track (None: the present one) as a recording, for comparisons and searches."""
-        return recording_of(self.about, self.track if track is None else track, name)
+        return recording_of(self.origin, self.track if track is None else track, name)
 
     # --- files ---
 
     def save(self, path: Path, *, replacing: bool = False) -> None:
         """Write run and branches. Raises OccupiedError, FileError, OSError as ``save_run`` does, ArgumentError."""
         self.end()
-        self.file = save_run(self.about, self.track, self.branches, path, self.file, replacing=replacing)
+        self.file = save_run(self.origin, self.track, self.branches, path, self.file, replacing=replacing)
         self.saved, self._saved_branches = self.track, self._kept()
         self._file_differs = False
         self.journal.begin_again(self._opened())

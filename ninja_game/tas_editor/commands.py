@@ -92,7 +92,7 @@ class RunCommands(DocumentCommands):
     @property
     def _folder(self) -> Path:
         """The folder of the run's file; else the player's replays, also for runs of the game."""
-        opened = self.session.file.path or Path(self.session.about.file)
+        opened = self.session.file.path or Path(self.session.origin.file)
         with suppress(OSError):
             if opened.is_file() and not is_bundled(opened):
                 return opened.parent
@@ -127,26 +127,26 @@ class RunCommands(DocumentCommands):
         behind_death = ", with what is behind its end (Ctrl+E removes it)"
         tail = {"dead": behind_death, "exit": behind_exit}.get(session.tail_behind, "")
         branches = " and its branches beside it" * branches_path(path).exists()
-        replay = session.about.replay
+        replay = session.origin.replay
         nobody = "; its player is unknown" * (not (replay.author or replay.co_authors))
         return f"Saved{tail}: {path}{branches}{nobody}{': Save as asks for your name' * self._asks_name}"
 
     @property
     def _asks_name(self) -> bool:
         """Whether the run's editor has no name yet."""
-        known = self.session.about.replay.author or self.app.settings.name
+        known = self.session.origin.replay.author or self.app.settings.name
         return self.session.track.made != NONE and not known
 
     def keep(self) -> None:
         if self.session.tail_behind == "dead":
             self.app.notify("Keys are pressed behind the death: take them out first, with Ctrl+E")
             return
-        about, track = self.session.about, self.session.track
-        self.editor.attempt(lambda: self.app.notify(keep_replay(self.app.player, replay_of_track(about, track))))
+        origin, track = self.session.origin, self.session.track
+        self.editor.attempt(lambda: self.app.notify(keep_replay(self.app.player, replay_of_track(origin, track))))
 
     def copy_link(self) -> None:
-        about, track = self.session.about, self.session.track
-        copy_link(self.app, lambda: replay_link([replay_of_track(about, track)]), title=self.session.name)
+        origin, track = self.session.origin, self.session.track
+        copy_link(self.app, lambda: replay_link([replay_of_track(origin, track)]), title=self.session.name)
 
     def watch(self) -> None:
         others = self.editor.others if self.editor.ghosts else ()
@@ -176,7 +176,7 @@ class RunCommands(DocumentCommands):
         opened, session = recovered_run.opened, self.session
         if opened.file.path or session.file.path:
             return opened.file.path == (session.file.path and session.file.path.absolute())
-        return opened.track == session.track and same_level(opened.recording, session.about)
+        return opened.track == session.track and same_level(opened.recording, session.origin)
 
     def list_recovered(self) -> None:
         rows: list[MenuRow] = [

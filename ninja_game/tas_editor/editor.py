@@ -87,8 +87,8 @@ class TasEditor:
 
     def other_run(self, name: str, track: InputTrack, made: Contributions | None = None) -> OtherRun:
         """An input track on the level of the run, to be shown beside it."""
-        about, memory = self.session.about, self.session.timeline.memory
-        timeline = Timeline(about.level, track.inputs, body=about.body, memory=memory)
+        origin, memory = self.session.origin, self.session.timeline.memory
+        timeline = Timeline(origin.level, track.inputs, body=origin.body, memory=memory)
         timeline.simulate(len(timeline))
         return OtherRun(name, track, timeline.trajectory(), made or Contributions(), timeline.ending)
 

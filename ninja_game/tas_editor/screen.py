@@ -93,13 +93,13 @@ class TasScreen(WorkspaceScreen):
 
     def _begin_new(self) -> None:
         """Open an empty run of the level over this one."""
-        about = self.session.about
-        on = NamedLevel(about.replay.level_name or about.name, about.level_author, "", about.level, about.file)
-        self.app.push(TasScreen(self.app, new_run(on, body=about.body)))
+        origin = self.session.origin
+        on = NamedLevel(origin.replay.level_name or origin.name, origin.level_author, "", origin.level, origin.file)
+        self.app.push(TasScreen(self.app, new_run(on, body=origin.body)))
 
     def _recover(self, run: RecoveredRun) -> None:
         screen = TasScreen(self.app, run.opened, recovered_run=run)
-        if same_level(run.opened.recording, self.session.about):
+        if same_level(run.opened.recording, self.session.origin):
             screen.editor.others, screen.editor.chosen = self.editor.others, self.editor.chosen
         self.app.replace(screen)
 
@@ -149,23 +149,23 @@ class Head(TasPart):
 
     def render_key(self) -> tuple[object, ...]:
         session = self.editor.session
-        run = session.about.replay.credit, session.timeline.end
+        run = session.origin.replay.credit, session.timeline.end
         return *run, session.file.path, session.is_run_saved, session.is_saved, session.journal.problem
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         session, palette, right = self.editor.session, theme.palette, self.area[2] - 8
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         end = session.timeline.end[0]
-        opened = Path(session.about.file).name
+        opened = Path(session.origin.file).name
         where = ", on another level" * session.moved
         unsaved = f"{opened}{where}, to be saved as a new file" if opened else "no file yet"
         file = session.file.path.name if session.file.path else unsaved
-        about, replay = session.about, session.about.replay
+        origin, replay = session.origin, session.origin.replay
         how, room = f" {replay.how}".rstrip(), right / 2 - 62
         begun_by = replay.made.begun_by if replay.co_authors else ""
         names = filter(None, dict.fromkeys((replay.author, begun_by, *replay.co_authors)))
         credit = ", ".join(re.sub(r"^unknown \((.*)\)$", r"\1", name) for name in names)
-        name = " - ".join(filter(None, (about.name, credit)))
+        name = " - ".join(filter(None, (origin.name, credit)))
         name = theme.fit(name, room - theme.width(how, 13, bold=True), 13, bold=True) + how
         title = theme.text(surface, name, 8, 6, size=13, bold=True, colour=palette.on_tile, width=room)
         x = title.right / theme.canvas.scale + 12

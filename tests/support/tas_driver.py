@@ -83,8 +83,8 @@ class TasDriver(MenuDriver):
 
     def straight_digest(self, tick: int) -> str:
         """Of the world after a tick of the run, run from its start."""
-        about, inputs = self.session.about, self.editor.track.inputs
-        run = Simulation(about.level, body=about.body)
+        origin, inputs = self.session.origin, self.editor.track.inputs
+        run = Simulation(origin.level, body=origin.body)
         for each in range(tick + 1):
             run.step_keys(inputs[each] if each < len(inputs) else 0)
         return run.digest()

@@ -261,7 +261,7 @@ def test_a_kill_between_the_file_and_its_journal_loses_nothing(session: Session,
     path = session.file.path
     assert path is not None
     session.journal.close(keep=True)
-    save_run(session.about, session.track, session.branches, path, session.file)
+    save_run(session.origin, session.track, session.branches, path, session.file)
     (found,) = recovered(tmp_path)
     again = Session(found.opened, tmp_path, memory="plain")
     again.recover(found)

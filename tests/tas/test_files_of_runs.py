@@ -323,7 +323,7 @@ def test_a_saved_run_says_how_often_it_was_edited_and_by_whom(tmp_path: Path) ->
     path = tmp_path / "walk.replay.txt"
     session = by_ann(path)
     session.change(session.track.named(3, "corner"))
-    assert session.about.replay.made == Provenance(played=True), "a name for a tick is no edit"
+    assert session.origin.replay.made == Provenance(played=True), "a name for a tick is no edit"
     session.begin()
     for tick in (3, 4):
         session.change(session.track.replaced(tick, tick + 1, [0]))
@@ -335,7 +335,7 @@ def test_a_saved_run_says_how_often_it_was_edited_and_by_whom(tmp_path: Path) ->
     assert (replay.author, replay.co_authors) == ("Ann", ("Bob",))
     session.undo()
     session.undo()
-    assert session.about.replay.made == Provenance(played=True), "the keys are Ann's again"
+    assert session.origin.replay.made == Provenance(played=True), "the keys are Ann's again"
     session.close()
 
 
@@ -348,12 +348,12 @@ def test_keys_that_are_taken_bring_their_authors_and_searches_along(tmp_path: Pa
     session.change(session.track.replaced(5, 6, [0]), taken=found)
     session.change(session.track.replaced(6, 7, [0]), taken=Contributions(commands=("search",)))
     expected = Provenance(played=True, edits=2, searches=("solve", "search"), begun_by="Ann"), ("Bob", "Cy")
-    assert (session.about.replay.made, session.about.replay.co_authors) == expected
+    assert (session.origin.replay.made, session.origin.replay.co_authors) == expected
     session.close(keep=True)
     (lost,) = recovered(tmp_path)
     again = Session(lost.opened, tmp_path, player="Bob", memory="plain")
     again.recover(lost)
-    assert (again.about.replay.made, again.about.replay.co_authors) == expected
+    assert (again.origin.replay.made, again.origin.replay.co_authors) == expected
     again.save(path)
     assert parse_replay(path.read_text("utf-8")).made == expected[0]
     again.close()
@@ -370,16 +370,16 @@ def test_a_result_that_is_taken_is_no_edit_and_its_origin_stays(player: str, tmp
     saved = parse_replay(path.read_text("utf-8"))
     assert (str(saved.made), saved.author) == ("searched (improve) from a run by unknown (person.txt)", player)
     session.change(session.track.replaced(7, 8, [0]))
-    assert session.about.replay.made.edits == 1
+    assert session.origin.replay.made.edits == 1
     session.change(session.track.replaced(9, 10, [0]), taken=found, edited=False, whole=True)
-    assert session.about.replay.made.edits == 1, "edits that were made stay"
+    assert session.origin.replay.made.edits == 1, "edits that were made stay"
     session.close()
 
 
 def test_an_empty_run_was_nobodys_before(tmp_path: Path) -> None:
     session = Session(new_run(NamedLevel("a room", "me", "", LEVEL, "")), tmp_path, memory="plain")
     session.change(session.track.replaced(0, 0, [2] * 9))
-    assert str(session.about.replay.made) == "edited 1"
+    assert str(session.origin.replay.made) == "edited 1"
     session.close()
 
 
@@ -390,27 +390,27 @@ def test_what_is_undone_is_credited_no_longer(tmp_path: Path) -> None:
     session.keep_branch("mine")
     spliced = session.track.replaced(5, 6, [0])
     session.change(spliced, taken=Contributions(commands=("improve",), names=("Cy",)))
-    theirs = session.about.replay.co_authors
+    theirs = session.origin.replay.co_authors
     assert theirs == ("Bob", "Cy")
     session.save(path)
     session.keep_branch("theirs")
     session.undo()
     session.change(session.track.replaced(9, 10, [0]))
     own = Provenance(played=True, edits=1, begun_by="Ann"), ("Bob",)
-    assert (session.about.replay.made, session.about.replay.co_authors) == own
+    assert (session.origin.replay.made, session.origin.replay.co_authors) == own
     session.checkout_branch(1)
-    assert session.about.replay.co_authors == theirs
+    assert session.origin.replay.co_authors == theirs
     session.checkout_branch(0)
-    assert not session.about.replay.made.edits
+    assert not session.origin.replay.made.edits
     session.change(session.track.replaced(9, 10, [0]))
     session.close(keep=True)
     (lost,) = recovered(tmp_path)
     again = Session(lost.opened, tmp_path, player="Bob", memory="plain")
     again.recover(lost)
-    assert (again.about.replay.made, again.about.replay.co_authors) == own
+    assert (again.origin.replay.made, again.origin.replay.co_authors) == own
     again.undo()
     again.undo()
-    assert again.about.replay.co_authors == theirs
+    assert again.origin.replay.co_authors == theirs
     again.close()
 
 
@@ -433,7 +433,7 @@ def test_the_name_in_a_record_of_n_is_no_players(tmp_path: Path) -> None:
     opened, other = open_run(source, record=0), load_replays(source)[1]
     assert (opened.recording.author, opened.recording.player) == ("me", "")
     session = Session(opened, tmp_path, player="Bob", memory="plain")
-    assert session.about.replay.credit == ""
+    assert session.origin.replay.credit == ""
     session.change(session.track.replaced(5, 6, [0]), taken=Contributions.of(other))
     session.save(tmp_path / "new.replay.txt")
     saved = parse_replay((tmp_path / "new.replay.txt").read_text("utf-8"))

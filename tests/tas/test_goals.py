@@ -30,8 +30,8 @@ def session_of_a_run(tmp_path: Path) -> Session:
 @pytest.mark.parametrize("span", [(0, 40), (100, 150), (300, 333)])
 def test_the_run_itself_is_there_at_the_end_of_the_span(session: Session, make: object, span: tuple[int, int]) -> None:
     wanted = make(SearchedSpan(session, *span))  # type: ignore[operator]
-    about = session.about
-    task = SpanTask(about.level, session.track.inputs, *span, *wanted[:4])
+    origin = session.origin
+    task = SpanTask(origin.level, session.track.inputs, *span, *wanted[:4])
     trials = SpanWorlds(task, 1).try_all(task.base[:, np.newaxis])
     assert 0 < trials.ticks[0] <= task.length
 
@@ -60,7 +60,7 @@ def test_a_piece_is_taken_too_on_the_way_to_the_same_place(session: Session) -> 
     assert wanted.goal.startswith(collect(span).goal.split("(")[0])
     assert " and distance(" in wanted.goal
     assert (wanted.rest, wanted.last) == (True, 80)
-    task = SpanTask(session.about.level, session.track.inputs, 0, 80, *wanted[:4], behind=40)
+    task = SpanTask(session.origin.level, session.track.inputs, 0, 80, *wanted[:4], behind=40)
     assert bytes(SpanWorlds(task, 1).rest) == bytes(key & 7 for key in session.track.inputs[40:])
 
 

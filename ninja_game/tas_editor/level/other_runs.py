@@ -106,18 +106,18 @@ class OtherRuns:
 
 def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
     """A recording as another run. Raises ReplayError for another level, or another body."""
-    about = editor.session.about
-    if not same_level(recording, about):
-        what = "body" if recording.body != about.body else "level"
+    origin = editor.session.origin
+    if not same_level(recording, origin):
+        what = "body" if recording.body != origin.body else "level"
         raise ReplayError(f"{recording.name or 'this run'} is a run with another {what} than the one in the TAS editor")
-    name = _free_name(recording, about, {other.name for other in editor.others})
+    name = _free_name(recording, origin, {other.name for other in editor.others})
     return editor.other_run(name, track_of(recording), Contributions.of(recording))
 
 
-def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
+def _free_name(recording: Recording, origin: Recording, taken: set[str]) -> str:
     """A unique name: its author, or its file and number, or its name."""
     # Records of N are often many by one author: their files and numbers tell them apart.
-    known = recording.whose if recording.player != about.author else recording.place or recording.name
+    known = recording.whose if recording.player != origin.author else recording.place or recording.name
     name = known or "another run"
     return next(free for free in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if free not in taken)
 
@@ -132,8 +132,8 @@ class OtherRunScreen(ReplaysScreen):
 
     def __init__(self, app: App, others: OtherRuns) -> None:
         self.others = others
-        self._about = others.editor.session.at_home
-        self._digest = level_digest(self._about.level)
+        self._origin = others.editor.session.at_home
+        self._digest = level_digest(self._origin.level)
         super().__init__(app)
 
     def build(self) -> Sequence[Widget]:
@@ -150,7 +150,7 @@ class OtherRunScreen(ReplaysScreen):
 
     def places(self) -> list[tuple[str, Iterable[Path | Skipped]]]:
         """The file of the run and those beside it, too."""
-        file = Path(self._about.file)
+        file = Path(self._origin.file)
         names = [name for name in files_in(file.parent) if name.lower().endswith(SUFFIXES)] if file.is_file() else []
         siblings = [file.parent / name for name in sorted(names, key=lambda name: name != file.name)]
         return [("Same folder", siblings[:FILES_SHOWN]), *super().places()]
@@ -160,7 +160,7 @@ class OtherRunScreen(ReplaysScreen):
         return bundled_replays()
 
     def lists(self, recording: Recording) -> bool:
-        return level_digest(recording.level) == self._digest and not same_place(recording, self._about)
+        return level_digest(recording.level) == self._digest and not same_place(recording, self._origin)
 
     def handle(self, event: InputEvent) -> None:
         MenuScreen.handle(self, event)
@@ -194,8 +194,8 @@ class RunFiles(MenuScreen):
     def __init__(self, app: App, others: OtherRuns, done: Action) -> None:
         super().__init__(app)
         self.others, self._done = others, done
-        self._about = others.editor.session.at_home
-        file = Path(self._about.file)
+        self._origin = others.editor.session.at_home
+        file = Path(self._origin.file)
         self.folder = file.absolute().parent if file.is_file() else Path.cwd()
         self.paths: list[Path] = []
         self.field = EntryField("Path or link", lambda: self.open_file(self.field.text), longest=2000)
@@ -216,7 +216,7 @@ class RunFiles(MenuScreen):
 
     def _has_runs(self, file: Path) -> bool:
         try:
-            return bool(runs_of_level(file, self._about))
+            return bool(runs_of_level(file, self._origin))
         except (NinjaGameError, OSError):
             return False
 
@@ -226,7 +226,7 @@ class RunFiles(MenuScreen):
         if not is_link(path) and os.path.isdir(path):  # noqa: PTH112 - likewise
             self.folder, self.list.index, self.redraw = path.resolve(), 0, True
             self._look()
-        elif self.others.editor.attempt(lambda: self.others.open(runs_of_level(path, self._about))):
+        elif self.others.editor.attempt(lambda: self.others.open(runs_of_level(path, self._origin))):
             self.app.pop()
             self._done()
 

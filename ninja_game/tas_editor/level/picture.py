@@ -108,7 +108,7 @@ class LevelPicture:
 
     def _new_run(self) -> CachedWorldSimulation:
         session = self.editor.session
-        return CachedWorldSimulation(session.about.level, body=session.about.body, memory=session.timeline.memory)
+        return CachedWorldSimulation(session.origin.level, body=session.origin.body, memory=session.timeline.memory)
 
     @property
     def canvas(self) -> Canvas:

@@ -171,7 +171,7 @@ class RollCommands:
         text = "\n".join(write_inputs(self._editor.track.inputs[first:last], markers))
         if text:
             notice = f"{counted(last - first, 'tick')} copied"
-            title = self._editor.session.about.name or "inputs"
+            title = self._editor.session.origin.name or "inputs"
             copy_text(self._editor.app, text, title=title, suffix=".inputs.txt", notice=notice)
         else:
             self._editor.app.notify(BEHIND)

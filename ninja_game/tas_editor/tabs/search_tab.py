@@ -452,8 +452,8 @@ class SearchTab(Tab):
         session, (first, last) = self.editor.session, self.span
         measure = "" if self.order == EARLIEST else self.measure.text.strip() or "speed"
         return SpanTask(
-            session.about.level, session.track.inputs, first, last, self.goal.text.strip(), measure,
-            least=self.order == SMALLEST, rest=self.rest, body=session.about.body, behind=self._behind,
+            session.origin.level, session.track.inputs, first, last, self.goal.text.strip(), measure,
+            least=self.order == SMALLEST, rest=self.rest, body=session.origin.body, behind=self._behind,
         )  # fmt: skip
 
     @property
@@ -463,7 +463,7 @@ class SearchTab(Tab):
         session.timeline.simulate(len(session.timeline))
         goal = whole_run(SearchedSpan(session, *self.span))
         self.span, self._why = (0, goal.last), goal.why
-        return SpanTask(session.about.level, session.track.inputs, *self.span, "won", body=session.about.body)
+        return SpanTask(session.origin.level, session.track.inputs, *self.span, "won", body=session.origin.body)
 
     # --- the search ---
 

@@ -151,12 +151,9 @@ def outline(tile: int) -> list[Point]:
     corner = (-H * sx, -H * sy)
     if shape in {tiles.CONCAVE, tiles.CONVEX}:
         # A quarter of a circle about the open (concave) or the solid corner, from one end of the surface to the other.
-        about = 1.0 if shape == tiles.CONCAVE else -1.0
+        sign = 1.0 if shape == tiles.CONCAVE else -1.0
         quarter = [pi / 2 * k / _ARC_STEPS for k in range(_ARC_STEPS + 1)]
-        return [
-            corner,
-            *(((about - about * 2 * sin(a)) * sx * H, (about - about * 2 * cos(a)) * sy * H) for a in quarter),
-        ]
+        return [corner, *((sign * (1 - 2 * sin(a)) * sx * H, sign * (1 - 2 * cos(a)) * sy * H) for a in quarter)]
     points = [corner, (tiles.T_X[tile], tiles.T_Y[tile]), (tiles.S_X[tile], tiles.S_Y[tile])]
     # The thick wedges reach a second corner of the cell, next to the end of the surface in a side's middle.
     if tiles.T_X[tile] == 0.0:

@@ -171,14 +171,14 @@ def page(
     current: str = "",
     figures: str = "",
     picture: str = "",
-    about: str = "",
+    description: str = "",
 ) -> str:
     """A whole page. ``up``: the path to the folder of the pages; ``links``: addresses and names at its top.
 
     ``current``: the address of the page's own link; ``figures``: of the script for figures; ``picture``: of the preview
-    where somebody shares a link, complete if the site's own is known; ``about``: the text beside it.
+    where somebody shares a link, complete if the site's own is known; ``description``: the text beside it.
     """
-    description = shown_text(about, MAX_TEXT) or DESCRIPTION
+    description = shown_text(description, MAX_TEXT) or DESCRIPTION
     shown = {"og:title": shown_text(title), "og:description": description, "og:type": "website", "og:image": picture}
     head = tag(
         "head",

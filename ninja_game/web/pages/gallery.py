@@ -173,7 +173,7 @@ def level_page(
     ]
     summary = ". ".join(f"{name}: {text}" for name, text in about)
     picture = (site or UP) + picture_name(entry.digest)
-    return frame.page(entry.title, *contents, up=UP, links=links, picture=picture, about=named.comment or summary)
+    return frame.page(entry.title, *contents, up=UP, links=links, picture=picture, description=named.comment or summary)
 
 
 def run_page(
@@ -196,9 +196,9 @@ def run_page(
     )
     drawn = tag("div", drawn) if drawn else level_image(entry, place)
     shown = tag("div", drawn, tag("div", *leads, class_="about"), class_="level")
-    about, picture = ". ".join(f"{name}: {text}" for name, text in facts), (site or place) + picture_name(entry.digest)
+    summary, picture = ". ".join(f"{name}: {text}" for name, text in facts), (site or place) + picture_name(entry.digest)
     links = [(normpath(place + address), name) for address, name in links]
-    return frame.page(title, shown, up=place, links=links, picture=picture, about=about)
+    return frame.page(title, shown, up=place, links=links, picture=picture, description=summary)
 
 
 MAX_POINTS = 400  # of a drawn path

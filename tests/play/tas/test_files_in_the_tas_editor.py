@@ -232,7 +232,7 @@ def test_a_recovered_run_knows_its_file_and_the_runs_beside_it(tmp_path: Path) -
     again.screen.level.others.open(other)
     again.choose("Recover")
     again.adopt()
-    assert again.session.about.file == str(file)
+    assert again.session.origin.file == str(file)
     assert [each.name for each in again.editor.others] == ["other.txt"]
     again.chord("o", CTRL)
     again.wait(lambda: again.shown(OtherRunScreen).rows, "the list")
@@ -244,21 +244,21 @@ def test_a_recovered_run_knows_its_file_and_the_runs_beside_it(tmp_path: Path) -
 
 
 def test_the_title_is_cut_at_the_names(at: TasDriver) -> None:
-    about = at.session.about
-    replay = replace(about.replay, co_authors=("somebody with a long name", "another one"), made=Provenance(edits=3))
-    at.session.about = replace(about, replay=replay)
+    origin = at.session.origin
+    replay = replace(origin.replay, co_authors=("somebody with a long name", "another one"), made=Provenance(edits=3))
+    at.session.origin = replace(origin, replay=replay)
     with patch.object(Theme, "text", autospec=True, side_effect=Theme.text) as text:
         at.screen.head.paint(pygame.Surface((792, 600)), at.screen.theme)
     title = text.call_args_list[0].args[2]
-    assert title.startswith(about.name)
+    assert title.startswith(origin.name)
     assert title.endswith("... (edited)")
 
 
 def test_the_title_names_the_opened_run_beside_another_whose_keys_it_has(at: TasDriver) -> None:
-    about = at.session.about
+    origin = at.session.origin
     made = Provenance(edits=3, begun_by="unknown (ann.txt)")
-    replay = replace(about.replay, name="", author="", co_authors=("unknown (mbd.txt)",), made=made)
-    at.session.about = replace(about, replay=replay)
+    replay = replace(origin.replay, name="", author="", co_authors=("unknown (mbd.txt)",), made=made)
+    at.session.origin = replace(origin, replay=replay)
     with patch.object(Theme, "text", autospec=True, side_effect=Theme.text) as text:
         at.screen.head.paint(pygame.Surface((792, 600)), at.screen.theme)
     assert text.call_args_list[0].args[2].endswith(" - ann.txt, mbd.txt (edited)")
@@ -272,10 +272,10 @@ def test_a_closed_window_of_a_saved_run_leaves_nothing(at: TasDriver) -> None:
 
 
 def test_a_new_run_of_the_level_opens_over_this_one(at: TasDriver) -> None:
-    old, level = at.screen, at.session.about.level
+    old, level = at.screen, at.session.origin.level
     at.choose_in_menu("New run on this level")
     at.adopt()
-    assert (len(at.editor.track), at.session.about.level, at.session.file.path) == (0, level, None)
+    assert (len(at.editor.track), at.session.origin.level, at.session.file.path) == (0, level, None)
     at.frames(2)
     at.choose_in_menu("Leave")
     assert at.top() is old

@@ -253,8 +253,8 @@ def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) ->
 
 
 def test_a_run_beside_says_who_made_it(at: TasDriver, tmp_path: Path) -> None:
-    about = at.session.about
-    demo = replace(about, form="file", file=str(tmp_path / "theirs.txt"), replay=replace(about.replay, author=""))
+    origin = at.session.origin
+    demo = replace(origin, form="file", file=str(tmp_path / "theirs.txt"), replay=replace(origin.replay, author=""))
     at.screen.level.others.open([demo])
     assert at.editor.others[0].made.names == ("unknown (theirs.txt)",)
 
@@ -265,8 +265,8 @@ def test_a_run_of_another_level_is_refused(at: TasDriver) -> None:
     with pytest.raises(ReplayError, match="another level"):
         screen.level.others.open(load_replays(elsewhere))
     with pytest.raises(ReplayError, match="no run of"):
-        runs_of_level(elsewhere, screen.session.about)
-    assert len(runs_of_level(RUN, screen.session.about)) == 1
+        runs_of_level(elsewhere, screen.session.origin)
+    assert len(runs_of_level(RUN, screen.session.origin)) == 1
 
 
 def test_the_list_of_other_runs_has_those_of_the_level(at: TasDriver) -> None:
@@ -408,7 +408,7 @@ def test_buttons_beside_the_tabs_show_which_overlays_are_on(at: TasDriver) -> No
 
 
 def test_the_run_is_watched_with_those_beside_it(at: TasDriver) -> None:
-    at.screen.level.others.open(runs_of_level(RUN, at.session.about))
+    at.screen.level.others.open(runs_of_level(RUN, at.session.origin))
     at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
     at.press("escape")
     at.choose("Watch")

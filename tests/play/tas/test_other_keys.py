@@ -120,7 +120,7 @@ def test_undo_selects_again_what_a_key_has_changed(at: TasDriver) -> None:
 
 def test_runs_of_one_file_of_n_are_told_apart(at: TasDriver, tmp_path: Path) -> None:
     """The author in a record of N is that of its level."""
-    level, ticks = at.session.about.level, (30, 10, 20)
+    level, ticks = at.session.origin.level, (30, 10, 20)
     text = write_level_string(level, exact=True)
     records = [(f"a level {count}", text, running(count)) for count in ticks]
     file = write_records(tmp_path / "many.txt", *records)

@@ -630,8 +630,8 @@ def test_the_whole_run_is_shortened_in_the_background_and_keeps_its_markers(at: 
     assert at.session.timeline.end == (found.ticks - 1, "exit")
     (marker,) = at.editor.track.markers
     assert (marker.name, marker.tick < 40) == ("begins", True)
-    assert at.session.about.replay.made.searches == ("improve",)
-    assert at.session.about.replay.made.edits == 1, "that by hand: to take a result is none"
+    assert at.session.origin.replay.made.searches == ("improve",)
+    assert at.session.origin.replay.made.edits == 1, "that by hand: to take a result is none"
 
 
 def test_a_run_that_ends_before_the_exit_is_led_there_and_shortened(at: TasDriver, tab: SearchTab) -> None:
@@ -678,7 +678,7 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     assert results.words(own)[0] == f"tick {own.ticks - 1}, own route"
     assert results.words(replace(own, gold=own.gold - 1))[0].endswith(", 1 gold fewer, own route")
     assert results.put(own)
-    assert "Cy" not in at.session.about.replay.co_authors
+    assert "Cy" not in at.session.origin.replay.co_authors
     at.session.undo()
     assert at.editor.track == slow
     beside = replace(own, inputs=fast.inputs[: own.ticks], own_route=False)
@@ -689,7 +689,7 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     results._others = (replace(cy, name="Dee", trajectory=at.session.timeline.trajectory()), cy)
     assert results.words(other)[0].endswith(", like Cy")
     assert results.put(other)
-    assert "Cy" in at.session.about.replay.co_authors
+    assert "Cy" in at.session.origin.replay.co_authors
 
 
 def test_escape_ends_the_search_and_then_opens_the_menu(at: TasDriver, tab: SearchTab) -> None:

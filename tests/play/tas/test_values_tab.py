@@ -25,7 +25,7 @@ def values_tab(at: TasDriver) -> ValuesTab:
 
 
 def straight_speeds(at: TasDriver) -> list[float]:
-    run = Simulation(at.session.about.level)
+    run = Simulation(at.session.origin.level)
     speeds = []
     for tick in range(len(at.session.timeline)):
         run.step_keys(at.editor.track.inputs[tick] if tick < len(at.editor.track) else 0)
