@@ -187,7 +187,7 @@ def _file_names(items: Sequence[NamedLevel | Recording], suffix: str) -> Iterato
 @click.option(
     "-o", "--output", type=options.NEW_FILE, help="The replay. [default: FILE's name and .replay.txt, in this folder]"
 )
-@click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
+@options.record_option
 @options.play_on_option
 @options.budget_option
 @click.option("--force", is_flag=True, help="Replace a file that exists. FILE is never replaced.")
@@ -226,7 +226,7 @@ def record(
 
 @click.command()
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=options.LevelPath())
-@click.option("--record", type=click.IntRange(min=0), help="This level or recording of the file, counted from 0.")
+@options.record_option
 @click.option("--base", metavar="URL", default="", help="Address of a page with the game, which opens the link.")
 def link(files: Sequence[Path], record: int | None, base: str) -> None:
     """Make a link that carries a level, a pack or replays.

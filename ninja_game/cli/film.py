@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.options import InputPath, Pixels, choose, level_option, load_level_option
+from ninja_game.cli.options import InputPath, Pixels, choose, level_option, load_level_option, record_option
 from ninja_game.cli.progress import heartbeat
 from ninja_game.cli.terminal import size_note, use_dummy_video
 from ninja_game.errors import NinjaGameError
@@ -27,7 +27,7 @@ MAX_BESIDE = 3
     help="The film: NAME.gif, NAME.webm, NAME.mp4, or a folder for one PNG picture per tick. [default: a new file with "
     "the replay's name and .gif]",
 )
-@click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
+@record_option
 @click.option("--size", type=Pixels(), default="528x400", show_default=True, help="Size of the pictures in px.")
 @click.option("--speed", type=click.FloatRange(0.05, 16), default=1.0, show_default=True, help="1 is the game's speed.")
 @click.option("--from", "first", type=click.IntRange(min=0), default=0, help="First picture: after this many ticks.")
@@ -80,12 +80,10 @@ def film(
     path = output or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
     if path.exists() and any(not is_link(file) and path.samefile(file) for file in (replay, *ghosts, *beside)):
         raise click.UsageError("the film would replace the replay")
-    along, others = ([run for file in files for run in load_replays(file, level=level)] for files in (ghosts, beside))
-    if any(all(run.level != part.level for part in parts) for run in (*along, *others)):
+    named = [[run for file in files for run in load_replays(file, level=level)] for files in (ghosts, beside)]
+    if any(all(run.level != part.level for part in parts) for runs in named for run in runs):
         raise click.UsageError("--ghost, --beside: a run of another level")
-    ghosts_of, beside_of = (
-        [tuple(run for run in runs if run.level == part.level) for part in parts] for runs in (along, others)
-    )
+    ghosts_of, beside_of = ([tuple(run for run in runs if run.level == part.level) for part in parts] for runs in named)
     most = max(map(len, beside_of))
     if most > MAX_BESIDE:
         raise click.UsageError(f"--beside: {most} runs; at most {MAX_BESIDE}")
@@ -97,10 +95,10 @@ def film(
     alone = len(parts) == 1
     films = [
         Film(
-            run, size, speed, ghosts=along, beside=others, keys=keys, splits=splits, gold=gold,
+            part, size, speed, ghosts=its_ghosts, beside=its_neighbours, keys=keys, splits=splits, gold=gold,
             first=first if alone else 0, last=last if alone else None,
         )
-        for run, along, others in zip(parts, ghosts_of, beside_of, strict=True)
+        for part, its_ghosts, its_neighbours in zip(parts, ghosts_of, beside_of, strict=True)
     ]  # fmt: skip
     if not alone and (first or last is not None):
         films = section_of(films, first, last)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.options import LevelPath, level_option, load_level_option
+from ninja_game.cli.options import LevelPath, level_option, load_level_option, record_option
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.level import makes_object
@@ -26,7 +26,7 @@ PIPE_WIDTH = 160
 
 @click.command()
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=LevelPath())
-@click.option("--record", type=click.IntRange(min=0), help="Show this one of a file's levels, counted from 0.")
+@record_option
 @level_option
 @click.option("--picture/--no-picture", default=None, help="Draw the level. [default: if it is the only one]")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")

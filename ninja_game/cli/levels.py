@@ -160,7 +160,7 @@ def generate(seed: int | None, difficulty: int, output: Path | None, replay: Pat
       ninja-game generate --difficulty 9 --replay its-run.replay.txt
     """
     from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
-    from ninja_game.generator.generate import generate
+    from ninja_game.generator.generate import generate as make_level
     from ninja_game.search.certificate import named_replay, save_replay
 
     for path in filter(None, (output, replay)):
@@ -169,7 +169,7 @@ def generate(seed: int | None, difficulty: int, output: Path | None, replay: Pat
         raise FileError("level and replay would be one file", str(output), hint="choose another name for one of them")
     seed = SystemRandom().randrange(10**6) if seed is None else seed
     with progress_line() as progress:
-        made = generate(seed, difficulty, report=progress.say)
+        made = make_level(seed, difficulty, report=progress.say)
     if made is None:
         click.echo(f"seed {seed} gives no level of difficulty {difficulty} that can be passed; try another one")
         return FAILED

@@ -71,6 +71,8 @@ memory_option = click.option(
 
 jobs_option = click.option("--jobs", type=JOBS, help="How many workers run recordings. [default: one per core]")
 
+record_option = click.option("--record", type=click.IntRange(min=0), help="Only this one of a file, counted from 0.")
+
 level_option = click.option(
     "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False), help="Level of recordings without one."
 )

@@ -57,7 +57,7 @@ class SearchLog:
 
 @click.command()
 @click.argument("level", type=options.LevelPath(dir_okay=False))
-@click.option("--record", type=click.IntRange(min=0), help="Which of a file's levels, counted from 0.")
+@options.record_option
 @options.shortening_options
 @options.body_option
 @click.option(
@@ -80,7 +80,7 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
       ninja-game solve 00-0-first-steps -o first.replay.txt
       ninja-game solve userlevels.txt --record 17 --gold all --seconds 300 -o gold.replay.txt
     """
-    from ninja_game.search.solve import solve
+    from ninja_game.search.solve import solve as search_run
     from ninja_game.search.task import Task
 
     chosen = options.choose_level(level, record)
@@ -89,7 +89,7 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
     check_gold(task)
     save = saver(output, chosen)
     with progress_line() as report:
-        run = solve(task, report=report, on_better=save)
+        run = search_run(task, report=report, on_better=save)
     if run is None:
         click.echo(not_found_text(task, report.last))
         return FAILED
@@ -101,7 +101,7 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
 
 @click.command()
 @click.argument("replay", type=options.OLD_FILE)
-@click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
+@options.record_option
 @options.level_option
 @options.shortening_options
 @click.option(
@@ -208,7 +208,7 @@ def improve(
 @options.seconds_option(60.0)
 @options.seed_option
 @options.search_jobs_option
-@click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
+@options.record_option
 @options.level_option
 @click.option(
     "-o", "--output", metavar="REPLAY", type=options.NEW_FILE, help="Where to keep the best run. [default: nowhere]"

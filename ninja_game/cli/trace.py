@@ -31,7 +31,7 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 
 @click.command()
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=options.InputPath())
-@click.option("--record", type=click.IntRange(min=0), help="Only this one of a file's recordings, counted from 0.")
+@options.record_option
 @click.option("--ticks", type=click.IntRange(1, MAX_TICKS), help="Run exactly this many ticks, whatever happens.")
 @click.option("--after", type=click.IntRange(0, MAX_TICKS), help="Run this many ticks more than `verify` does.")
 @click.option("--objects", is_flag=True, help="Rows for the objects too, not only for the ninja.")

@@ -6,12 +6,12 @@ import json
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING
 
 import click
 
 from ninja_game.cli.commands import BAD_INPUT, FAILED
-from ninja_game.cli.options import NEW_FILE, InputPath, budget_option, jobs_option
+from ninja_game.cli.options import NEW_FILE, InputPath, budget_option, jobs_option, record_option
 from ninja_game.cli.progress import with_progress
 from ninja_game.cli.terminal import print_error
 from ninja_game.files.shown_text import counted, shown_text
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     help="The level that counts, or a file of them: a run on any other fails. One level is also that of recordings "
     "without.",
 )
-@click.option("--record", type=click.IntRange(min=0), help="Only this one of a file's recordings, counted from 0.")
+@record_option
 @budget_option
 @click.option("--strict", is_flag=True, help="Accept only what a board can rely on: see docs/verification.md.")
 @jobs_option
@@ -57,14 +57,10 @@ if TYPE_CHECKING:
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per recording, for programs.")
 @click.option("-q", "--quiet", is_flag=True, help="Only recordings that fail, and the summary.")
 def verify(
-    files: Sequence[Path],
-    level: Path | None,
-    workers: str | None,
-    report: Path | None,
-    as_json: bool,
+    files: Sequence[Path], memory: str, level: Path | None, record: int | None, budget: int, strict: bool,
+    jobs: int | None, workers: str | None, cluster: str, resume: Path | None, report: Path | None, as_json: bool,
     quiet: bool,
-    **options: Any,
-) -> int:
+) -> int:  # fmt: skip
     """Run recordings again and judge them.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, a folder of them, or a link. Every
@@ -89,13 +85,14 @@ def verify(
     from ninja_game.runs.recording_reader import Unreadable
 
     totals = Totals()
-    processes = None if workers is None else workers == "processes"
+    results = verify_all(
+        files, memory=memory, jobs=jobs, cluster=cluster, resume=resume, record=record,
+        levels=load_levels(level) if level else (), episodes=episodes_of(level) if level else None, strict=strict,
+        budget=budget, processes=None if workers is None else workers == "processes",
+    )  # fmt: skip
     with ExitStack() as stack:
-        options |= {"levels": load_levels(level), "episodes": episodes_of(level)} if level else {}
-        results = verify_all(files, processes=processes, **options)
         if report:
-            own = [options["resume"]] if options["resume"] else []
-            results = _reported(results, report, [*files, *own], stack)
+            results = _reported(results, report, [*files, resume] if resume else files, stack)
         for result in with_progress(results, "run"):
             totals.add(result)
             if isinstance(result, Unreadable):
@@ -104,8 +101,8 @@ def verify(
                 click.echo(json.dumps(result.as_json()))
             elif not (quiet and result.good):
                 click.echo(_row(result))
-    if options["record"] is not None and not totals.recordings + totals.unreadable:
-        raise click.UsageError(f"{', '.join(map(str, files))}: no record {options['record']}")
+    if record is not None and not totals.recordings + totals.unreadable:
+        raise click.UsageError(f"{', '.join(map(str, files))}: no record {record}")
     if not as_json:
         click.echo(_summary(totals))
     return BAD_INPUT if totals.unreadable else FAILED if totals.failed else 0

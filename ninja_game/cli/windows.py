@@ -75,9 +75,9 @@ def play(
 
 @click.command()
 @click.argument("level", required=False, type=options.LevelPath())
-@click.option("--record", type=click.IntRange(0, 10**6), default=0, help="This level of the file, counted from 0.")
+@options.record_option
 @options.window_options
-def edit(level: Path | None, record: int, **window: Any) -> int:
+def edit(level: Path | None, record: int | None, **window: Any) -> int:
     """Make a level, or change one, in a window.
 
     LEVEL is a file of levels, or the name of one of the game's own; without it a room. A readable level is
@@ -92,7 +92,7 @@ def edit(level: Path | None, record: int, **window: Any) -> int:
     from ninja_game.editor.files import Source, open_source
     from ninja_game.files.user_folder import is_bundled
 
-    source = open_source(level, record) if level is not None else None
+    source = open_source(level, record or 0) if level is not None else None
     if source is not None and source.path is not None and is_bundled(source.path):
         source = Source(source.draft)
     from ninja_game.play.editor.screen import EditorScreen
@@ -104,7 +104,7 @@ def edit(level: Path | None, record: int, **window: Any) -> int:
 
 @click.command()
 @click.argument("file", type=options.OLD_FILE)
-@click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
+@options.record_option
 @options.play_on_option
 @click.option(
     "--against", multiple=True, type=options.OLD_FILE, help="Compare with this file's runs; may be given several times."

@@ -56,7 +56,7 @@ class Film:
     ``size``: px of a run's picture. ``speed``: 1 is that of the game. ``ghosts``: runs on the same level in the same
     picture, ``colours``: their numbers (``run_colour``), if not in order; ``beside``: up to three more runs, each in a
     picture of its own. ``keys``, ``splits``: show the keys that are down; show time and splits, with ``gold`` those of
-    gold too, and by how many ticks other runs are later. ``known``: its moments, if they are known already.
+    gold too, and by how many ticks other runs are later. ``known_moments``: its moments, if they are known.
 
     Raises ArgumentError for a section that is empty or begins after the end, and for one without ``last`` in which the
     runs have more than MAX_PICTURES together.
@@ -74,18 +74,18 @@ class Film:
     beside: tuple[Recording, ...] = ()
     splits: bool = False
     gold: bool = False
-    known: range | None = None
+    known_moments: range | None = None
 
     @property
     def whole_size(self) -> tuple[int, int]:
-        ghost_runs, (w, h) = len(self.beside), self.size
-        return w * min(2, 1 + ghost_runs), h * (1 + ghost_runs // 2)
+        others, (w, h) = len(self.beside), self.size
+        return w * min(2, 1 + others), h * (1 + others // 2)
 
     @cached_property
     def moments(self) -> range:
         """The ticks with a picture. Raises LevelError for a level that cannot be played."""
-        if self.known is not None:
-            return self.known
+        if self.known_moments is not None:
+            return self.known_moments
         runs = self.run, *self.beside
         end_tick = self.first + MAX_PICTURES // len(runs) if self.last is None else self.last
         # Ticks after the last picture are not simulated.
@@ -116,8 +116,8 @@ def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film
         count = len(film.moments)
         start, end = max(0, first - before), count - 1 if last is None else min(count - 1, last - before)
         if start <= end:
-            # `known` spares a second simulation of the runs.
-            sections.append(replace(film, first=start, last=end, known=film.moments[start : end + 1]))
+            # `known_moments` spares a second simulation of the runs.
+            sections.append(replace(film, first=start, last=end, known_moments=film.moments[start : end + 1]))
         before += count
     if not sections:
         raise ArgumentError(f"a film from tick {first} to {last} has no pictures; there are {before:,}")
@@ -141,20 +141,20 @@ class _Panel:
     def step(self) -> None:
         self.playback.step()
         self.view.on_tick()
-        world = self.playback.simulation
-        self.time = world.tick if world.outcome == "running" else self.time
+        simulation = self.playback.simulation
+        self.time = simulation.tick if simulation.outcome == "running" else self.time
 
     def draw(self, surface: pygame.Surface, *, whole: bool) -> None:
         self.view.draw(surface, 1.0, whole=whole)
-        hud, run, world = self.hud, self.run, self.playback.simulation
+        hud, run, simulation = self.hud, self.run, self.playback.simulation
         if run.episode:
-            covered = hud.time_bar(surface, run.lifetime + GOLD_BONUS * world.gold - self.time)
+            covered = hud.time_bar(surface, run.lifetime + GOLD_BONUS * simulation.gold - self.time)
         else:
             covered = [hud.label(surface, self.title, self.letters)]
         words, room = [self.title] * bool(run.episode), 670 if self.film.keys else 744
         if self.film.splits:
             words.append(f"{seconds_text(self.time)} s")
-            texts = [text for tick, text in self.splits if tick < world.tick][-SHOWN_SPLITS:]
+            texts = [text for tick, text in self.splits if tick < simulation.tick][-SHOWN_SPLITS:]
             while len(texts) > 1 and hud.theme.width("; ".join([*words, *texts]), self.letters) > room:
                 texts.pop(0)
             words += texts
@@ -162,7 +162,7 @@ class _Panel:
             covered += draw_names(surface, hud.theme, self.ghosts, 1.0, 0.8 * self.letters)
         covered += hud.foot(surface, hud.theme.fit("; ".join(words), room, self.letters), "", self.letters)
         if self.film.keys:
-            covered.append(hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))
+            covered.append(hud.keys(surface, self.playback.keys_at(simulation.tick - 1), 704))
         for rect in covered:
             self.view.also_covered(rect)
 

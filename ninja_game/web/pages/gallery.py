@@ -196,7 +196,8 @@ def run_page(
     )
     drawn = tag("div", drawn) if drawn else level_image(entry, place)
     shown = tag("div", drawn, tag("div", *leads, class_="about"), class_="level")
-    summary, picture = ". ".join(f"{name}: {text}" for name, text in facts), (site or place) + picture_name(entry.digest)
+    summary = ". ".join(f"{name}: {text}" for name, text in facts)
+    picture = (site or place) + picture_name(entry.digest)
     links = [(normpath(place + address), name) for address, name in links]
     return frame.page(title, shown, up=place, links=links, picture=picture, description=summary)
 
