@@ -6,13 +6,12 @@ import os
 import secrets
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from hashlib import sha256
 from pathlib import Path
 from typing import Generic, TypeVar
 
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError, reason
 from ninja_game.files.locking import LOCK_SUFFIX, read_abandoned, remove_abandoned, try_lock
-from ninja_game.files.reading import read_bytes
+from ninja_game.files.reading import digest_of, read_bytes
 
 Draft = TypeVar("Draft")
 """A level or a run under edit: never changed, equal to another one that says the same."""
@@ -21,11 +20,6 @@ Found = TypeVar("Found")
 
 class OccupiedError(NinjaGameError):
     """A file that saving would replace, and that was not made by this document's last save."""
-
-
-def digest_of(data: bytes) -> str:
-    """A digest of a file's bytes."""
-    return sha256(data).hexdigest()
 
 
 def digest_of_file(path: Path) -> str:

@@ -14,11 +14,11 @@ from itertools import takewhile
 from operator import eq
 from pathlib import Path
 
-from ninja_game.document import RecoveryFile, check_free, digest_of, digest_of_file, recovered_from
+from ninja_game.document import RecoveryFile, check_free, digest_of_file, recovered_from
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.locking import remove_abandoned
-from ninja_game.files.reading import read_bytes, read_utf8
+from ninja_game.files.reading import digest_of, read_bytes, read_utf8
 from ninja_game.files.user_folder import EDITING
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.ascii import writer

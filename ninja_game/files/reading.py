@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
 from typing import IO, NamedTuple
 
@@ -146,6 +147,11 @@ def stamp_of(path: Path | str) -> list[int]:
     except (OSError, ValueError):
         return NO_FILE
     return [status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
+
+
+def digest_of(data: bytes) -> str:
+    """Sha256 (hex) of a file's content."""
+    return sha256(data).hexdigest()
 
 
 def read_bytes(path: Path, limit: int = MAX_BYTES) -> bytes:

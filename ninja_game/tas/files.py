@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
-from ninja_game.document import check_free, digest_of, digest_of_file
+from ninja_game.document import check_free, digest_of_file
 from ninja_game.errors import DAMAGED, LevelError, NinjaGameError, ReplayError
-from ninja_game.files.reading import read_bytes, read_utf8
+from ninja_game.files.reading import digest_of, read_bytes, read_utf8
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import is_bundled
 from ninja_game.files.writing import write_atomically

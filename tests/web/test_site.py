@@ -22,6 +22,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError, NinjaGameError
+from ninja_game.files.reading import digest_of
 from ninja_game.files.user_folder import PACKAGE, bundled_replays, data_folder
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.site import build, game_archive
@@ -53,7 +54,7 @@ def pyodide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     files |= {"python_stdlib.zip": library.getvalue(), "pyodide-lock.json": b'{"info": {"abi_version": "1<"}}'}
     for name, content in files.items():
         (folder / name).write_bytes(content)
-        monkeypatch.setitem(game_archive.DIGESTS, name, game_archive.digest_of(content))
+        monkeypatch.setitem(game_archive.DIGESTS, name, digest_of(content))
     return folder
 
 

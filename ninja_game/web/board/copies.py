@@ -17,7 +17,7 @@ from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN
 from ninja_game.web.board.runs import OWN, Key, Rejected, Rows, Run
 from ninja_game.web.pages.gallery import path_data
-from ninja_game.web.pages.memo import Memo, digest_of, program
+from ninja_game.web.pages.memo import Memo, program, values_digest
 
 MAX_COMPARED = 1000
 """Earlier runs of a level to compare a new one with: the fastest, the likeliest to be copied."""
@@ -272,7 +272,7 @@ class _Compared:
 
     def __init__(self, level: str, memo: Memo) -> None:
         self._memo = memo
-        self._key = digest_of([program(), level])
+        self._key = values_digest([program(), level])
         self._runs: list[Run] = []
         self._courses, self._known, self._earlier = Courses(MAX_COMPARED), 0, 0
         self._last: tuple[Key, Course] | None = None
@@ -283,7 +283,7 @@ class _Compared:
 
     def begin_moment(self) -> None:
         """All runs added so far are of earlier moments."""
-        self._key, self._earlier = digest_of([self._key]), len(self._runs)
+        self._key, self._earlier = values_digest([self._key]), len(self._runs)
 
     def add(self, run: Run) -> None:
         self._key = self._key_of(run)

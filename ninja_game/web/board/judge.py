@@ -31,7 +31,7 @@ from ninja_game.web.board.copies import without_copies
 from ninja_game.web.board.players import UNNAMED, Players, folded
 from ninja_game.web.board.runs import KINDS, NO_LEDGER, OWN, Dates, Judged, Ledger, Rejected, Run, ValidatedRuns
 from ninja_game.web.pages.gallery import PublishedLevels, shared_text
-from ninja_game.web.pages.memo import Memo, digest_of, program
+from ninja_game.web.pages.memo import Memo, program, values_digest
 
 _LINE = re.compile(r"^(?=[0-9])")
 
@@ -127,7 +127,7 @@ class _Judging:
             for entry in levels
         ]
         self._budget = min(RUN_BUDGET, max(longest, default=RUN_BUDGET))
-        self._context = digest_of([program(), self._budget, sorted(shown.entries), sorted(self._episodes)])
+        self._context = values_digest([program(), self._budget, sorted(shown.entries), sorted(self._episodes)])
         self._waiting: deque[JudgedFile] = deque()
 
     def files(self, jobs: int | None) -> Iterator[JudgedFile]:

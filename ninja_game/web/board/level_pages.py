@@ -57,7 +57,7 @@ from ninja_game.web.pages.gallery import (
     shared_text,
     watch_address,
 )
-from ninja_game.web.pages.memo import Memo, digest_of
+from ninja_game.web.pages.memo import Memo, values_digest
 
 PER_PAGE = 100  # rows of a table on one page: a page has at most 100 KB
 
@@ -122,7 +122,7 @@ class LevelPages:
         others = [link for link in LINKS[2:] if link != EPISODES or ranking.shown.levels.episodes]
         self.links = [(self.game, "Play"), *LINKS[:2], *assisted, *others]
         self.deeper = [(UP + address, name) for address, name in self.links]
-        self.around = digest_of([self.links, self.site])
+        self.around = values_digest([self.links, self.site])
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
 
     def write_table(

@@ -18,7 +18,7 @@ from ninja_game.files.tree import Tree, leads_below
 from ninja_game.play.window import icon, png_of
 from ninja_game.ui.lettering import CAP, SPACING, WEIGHTS, glyph
 from ninja_game.ui.theme import PALETTES, Palette, mixed
-from ninja_game.web.pages.memo import Memo, digest_of, program
+from ninja_game.web.pages.memo import Memo, program, values_digest
 
 MAX_TEXT = 400  # characters of a text that are shown
 
@@ -134,7 +134,7 @@ class Pages:
 
     def make(self, name: str, data: object, content: Callable[[], str | bytes], *, replay: bool = False) -> None:
         """As ``write``, unless the file is there already, made from the same plain values."""
-        digest = f"{program()} {data}" if isinstance(data, str) else digest_of([program(), data])
+        digest = f"{program()} {data}" if isinstance(data, str) else values_digest([program(), data])
         place = self._place(name, replay=replay)
         file = f"{self._site.root}/{place}"
         if self._memo.recall(place) != [digest, *stamp_of(file)]:

@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import json
 from functools import cache
-from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from ninja_game.errors import DAMAGED
-from ninja_game.files.reading import read_bytes
+from ninja_game.files.reading import digest_of, read_bytes
 from ninja_game.files.writing import write_atomically
 
 MAX_BYTES = 2**30  # the memo of a million runs has half as many
 MAX_MEMOS = 100  # the newest stay
 
 
-def digest_of(data: object) -> str:
+def values_digest(data: object) -> str:
     """Sha256 (hex) of plain values."""
-    return sha256(json.dumps(data).encode("utf-8", "replace")).hexdigest()
+    return digest_of(json.dumps(data).encode("utf-8", "replace"))
 
 
 @cache
@@ -26,7 +25,7 @@ def program() -> str:
     """Digest of everything that cached results depend on: the package's code and the templates of pages."""
     here = Path(__file__).parent
     files = sorted({*here.parents[1].rglob("*.py"), *here.glob("*.*")})
-    return digest_of([sha256(file.read_bytes()).hexdigest() for file in files])
+    return values_digest([digest_of(file.read_bytes()) for file in files])
 
 
 class Memo:

@@ -12,7 +12,7 @@ from typing import Any
 
 from ninja_game import __version__
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError
-from ninja_game.files.reading import read_utf8
+from ninja_game.files.reading import digest_of, read_utf8
 from ninja_game.files.tree import Tree, leads_below
 from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.web.pages.documents import Documents
@@ -125,7 +125,7 @@ def _stamped(
     """
     above = icons | {"manifest.webmanifest": json.dumps(_manifest(), indent=1).encode()}
     parts = sorted((app | above).items())
-    known = archive.digest_of(b"".join(f"{name} {len(content)}\n".encode() + content for name, content in parts))[:16]
+    known = digest_of(b"".join(f"{name} {len(content)}\n".encode() + content for name, content in parts))[:16]
     folder = f"app-{known}"
     build = {"version": __version__, "id": known, "pyodide": about, "sizes": {name: len(app[name]) for name in LARGE}}
     templates = {name: app.pop(name) for name in TEMPLATES} | documents

@@ -6,7 +6,6 @@ Pyodide is five files of its npm package, of one version, identified by their di
 from __future__ import annotations
 
 import gzip
-import hashlib
 import io
 import shutil
 import subprocess
@@ -20,7 +19,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 import tomlkit
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.reading import read_bytes
+from ninja_game.files.reading import digest_of, read_bytes
 from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.files.writing import write_atomically
 
@@ -72,10 +71,6 @@ def pyodide_files(folder: Path | None, cache: Path) -> dict[str, bytes]:
         shutil.rmtree(kept, ignore_errors=True)
         _fetch(kept)
         return _checked(kept)
-
-
-def digest_of(content: bytes) -> str:
-    return hashlib.sha256(content).hexdigest()
 
 
 def _checked(folder: Path) -> dict[str, bytes]:
