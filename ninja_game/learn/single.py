@@ -23,15 +23,7 @@ from ninja_game.learn.actions import Actions
 from ninja_game.learn.levels.origins import DEFAULT_LEVEL, Origin
 from ninja_game.learn.levels.source import checked_seed
 from ninja_game.learn.rendering import EpisodePicture, checked_size, episode_text
-from ninja_game.learn.worlds import (
-    TERMINATED,
-    TRUNCATED,
-    EnvSettings,
-    EnvState,
-    EnvWorlds,
-    checked_options,
-    refuse_unknown,
-)
+from ninja_game.learn.worlds import EnvSettings, EnvState, EnvWorlds, checked_options, refuse_unknown
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, with_press_bit
 from ninja_game.sim.level import Level
@@ -128,13 +120,13 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
             raise ResetNeeded(f"{over}; call reset() before step()")
         worlds = self.worlds
         worlds.step(self._actions.key(action))
-        _, done, _, _, ended, down, _, _ = worlds.facts(0)
+        down, terminated, truncated = worlds.played.item(0), worlds.terminated.item(0), worlds.truncated.item(0)
         held = self._inputs[-1] & JUMP_HELD if self._inputs else 0
-        ticks = done - len(self._inputs)
+        ticks = worlds.ticks.item(0) - len(self._inputs)
         self._inputs += bytes([with_press_bit(down, held)]).ljust(ticks, bytes([down]))
-        self._running = not ended
+        self._running = not (terminated or truncated)
         self._show(ticks)
-        return self._observation(), float(worlds.rewards[0]), ended == TERMINATED, ended == TRUNCATED, self._info()
+        return self._observation(), worlds.rewards.item(0), terminated, truncated, self._info()
 
     def __getstate__(self) -> dict[str, Any]:
         """A copy makes its own picture."""
@@ -150,11 +142,11 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
 
     def _info(self) -> dict[str, Any]:
         worlds = self.worlds
-        outcome, ticks, gold, bits, *_ = worlds.facts(0)
+        bits = worlds.events.item(0)
         return {
-            "outcome": OUTCOME_NAMES[outcome],
-            "ticks": ticks,
-            "gold": gold,
+            "outcome": OUTCOME_NAMES[worlds.outcomes.item(0)],
+            "ticks": worlds.ticks.item(0),
+            "gold": worlds.gold.item(0),
             "events": [name for bit, name in enumerate(EVENT_NAMES) if bits >> bit & 1] if bits else [],
             "level": worlds.source.names[worlds.levels_now[0]],
         }

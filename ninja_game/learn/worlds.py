@@ -319,11 +319,6 @@ class EnvWorlds:
     def _observe(self, indices: Indices) -> None:
         thread_pool(self.threads).share(lambda first, last: self._write(indices, first, last), len(indices))
 
-    def facts(self, index: int) -> list[int]:
-        """The facts about one world, OUTCOME to RANDOM (the kernels above): faster than number by number."""
-        numbers: list[int] = self._facts[index].tolist()
-        return numbers
-
     def ended(self) -> Indices:
         """Indices of the worlds whose episode is over, (k,) intp."""
         return self._ended.nonzero()[0]
