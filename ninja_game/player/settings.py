@@ -97,7 +97,7 @@ def _bindings_of(bindings: Mapping[str, Sequence[str]]) -> InputNames:
 
 def _bindings(what: str, example: str) -> dict[str, SettingSpec]:
     expected = f"lists of names of {what}, such as jump = {example}"
-    meaning = f"{what} of each action that has others than the default ones"
+    meaning = f"The {what} of each action that has others than the default ones"
     return {"spec": SettingSpec("", _is_bindings, expected, meaning, convert=_bindings_of)}
 
 
@@ -111,60 +111,58 @@ class Settings:
         "look",
         "[a-z-]{1,24}",
         "the name of a palette, such as 'classic'",
-        "colours; by-column: each column has its own",
+        "The colours; with by-column each column has its own",
     )
     ninja_colour: str = _text(
-        "", "look", "|#[0-9a-fA-F]{6}", "'' or a colour such as '#186285'", "of the ninja; empty: as the palette has it"
+        "", "look", "|#[0-9a-fA-F]{6}", "'' or a colour such as '#186285'", "The ninja's colour; empty: the palette's"
     )
-    fullscreen: bool = _flag(False, "look", "the whole screen instead of a window")
-    smooth: bool = _flag(True, "look", "positions between two ticks are drawn")
-    reduced_motion: bool = _flag(
-        False, "look", "fewer particles, no shake, no wipes, no freeze; nothing plays behind the menus"
-    )
-    reduced_gore: bool = _flag(False, "look", "no blood")
-    shake: int = _number(50, "look", 0, 100, "of the picture at explosions, percent", 5)
-    particles: int = _number(100, "look", 0, 100, "share of the particles that are shown, percent", 5)
-    show_ghost: bool = _flag(True, "look", "a run to race against plays along")
+    fullscreen: bool = _flag(False, "look", "The game fills the whole screen")
+    smooth: bool = _flag(True, "look", "Motion is drawn between two ticks, too")
+    reduced_motion: bool = _flag(False, "look", "Fewer particles; no shake, wipe or freeze; nothing moves behind menus")
+    reduced_gore: bool = _flag(False, "look", "There is no blood")
+    shake: int = _number(50, "look", 0, 100, "How far explosions shake the picture, percent", 5)
+    particles: int = _number(100, "look", 0, 100, "How many of the particles are shown, percent", 5)
+    show_ghost: bool = _flag(True, "look", "A ghost plays along, to race against")
     ghost: str = _text(
-        "best", "look", "|".join(GHOSTS), "'best', 'next', 'silver', 'gold' or 'author'", "your best, or a medal's pace"
+        "best",
+        "look",
+        "|".join(GHOSTS),
+        "'best', 'next', 'silver', 'gold' or 'author'",
+        "Your best run, or a medal's pace",
     )
-    show_keys: bool = _flag(False, "look", "the keys that are held, while one plays")
-    show_frame_time: bool = _flag(False, "look", "ms that a picture takes")
-    frame_limit: int = _number(0, "look", 0, 1000, "pictures a second; 0: as the display")
-    window_width: int = _number(0, "look", 0, 16384, "px; 0: as it fits the screen")
-    window_height: int = _number(0, "look", 0, 16384, "px; 0: as it fits the screen")
-    volume: int = _number(70, "sound", 0, 99, "of all that is heard", 3)
-    effects_volume: int = _number(99, "sound", 0, 99, "of all but the music, a share of the volume", 3)
-    loop_volume: int = _number(99, "sound", 0, 99, "of sounds that go on, a share of the effects", 3)
-    music_volume: int = _number(45, "sound", 0, 99, "of the music, a share of the volume", 3)
-    music_in_practice: bool = _flag(True, "sound", "music in practice mode too")
-    text_scale: int = _number(0, "tas", 0, 400, "of the text in the TAS editor, percent; 0: as it suits the window")
-    level_width: int = _number(
-        0, "tas", 0, 99, "of the level in the TAS editor, percent of the window; 0: as it suits the window"
-    )
-    tabs_height: int = _number(
-        0, "tas", 0, 99, "of the tabs in the TAS editor, percent of the window; 0: as it suits the window"
-    )
-    play_speed: int = _number(100, "tas", 10, 800, "of playing in the TAS editor, percent")
-    slopes: bool = _flag(False, "editor", "slopes set themselves where full tiles are drawn")
-    practice: bool = _flag(False, "play", "practice mode: saving states, rewinding, slow motion; nothing counts")
-    level_texts: bool = _flag(True, "play", "levels that have not been passed say how they are meant")
+    show_keys: bool = _flag(False, "look", "The keys that you hold are shown while you play")
+    show_frame_time: bool = _flag(False, "look", "The time that a picture takes, ms, is shown")
+    frame_limit: int = _number(0, "look", 0, 1000, "Pictures a second; 0: as many as the display shows")
+    window_width: int = _number(0, "look", 0, 16384, "Width of the window, px; 0 fits the screen")
+    window_height: int = _number(0, "look", 0, 16384, "Height of the window, px; 0 fits the screen")
+    volume: int = _number(70, "sound", 0, 99, "How loud everything is", 3)
+    effects_volume: int = _number(99, "sound", 0, 99, "How loud all but the music is, a share of the volume", 3)
+    loop_volume: int = _number(99, "sound", 0, 99, "How loud lasting sounds are, a share of the effects", 3)
+    music_volume: int = _number(45, "sound", 0, 99, "How loud the music is, a share of the volume", 3)
+    music_in_practice: bool = _flag(True, "sound", "Practice mode has music, too")
+    text_scale: int = _number(0, "tas", 0, 400, "Size of text in the TAS editor, percent; 0 suits the window")
+    level_width: int = _number(0, "tas", 0, 99, "Width of the level in the TAS editor, percent; 0 suits the window")
+    tabs_height: int = _number(0, "tas", 0, 99, "Height of the tabs in the TAS editor, percent; 0 suits the window")
+    play_speed: int = _number(100, "tas", 10, 800, "How fast the TAS editor plays, percent")
+    slopes: bool = _flag(False, "editor", "The level editor adds slopes where you draw full tiles")
+    practice: bool = _flag(False, "play", "Practice mode: you can save, rewind and slow down; nothing counts")
+    level_texts: bool = _flag(True, "play", "Levels that you have not passed show hints")
     game_speed: int = _number(
-        100, "accessibility", 50, 100, "of play, percent; below 100 a run is assisted: no record", 5
+        100, "accessibility", 50, 100, "How fast the game runs, percent; below 100 runs are assisted", 5
     )
-    invincible: bool = _flag(False, "accessibility", "nothing that is met kills; a run is assisted: no record")
-    tap_to_run: bool = _flag(False, "accessibility", "a press of a running key runs until the next one")
-    text_size: int = _number(100, "accessibility", 100, 150, "of all texts but those of the TAS editor, percent")
-    sound_cues: bool = _flag(False, "accessibility", "marks where a sound warns: rocket, laser, chase, turret")
-    name: str = _setting("", "play", _is_name, "at most 40 printable characters", "of the player, in replays")
+    invincible: bool = _flag(False, "accessibility", "Nothing that you touch kills you; runs are assisted")
+    tap_to_run: bool = _flag(False, "accessibility", "One press of a running key runs until the next press")
+    text_size: int = _number(100, "accessibility", 100, 150, "Size of all texts but those of the TAS editor, percent")
+    sound_cues: bool = _flag(False, "accessibility", "Rockets, lasers, chases and turrets that sound are marked")
+    name: str = _setting("", "play", _is_name, "at most 40 printable characters", "Your name in replays")
     site: str = _text(
         "",
         "play",
         "|(?!.{201})https?://[!-~]+",
         "'' or an address such as 'https://example.org/game/'",
-        "address of the page with the game to which links lead",
+        "The address of the page with the game, to which links lead",
     )
-    dead_zone: float = _number(0.35, "pad", 0.05, 0.95, "share of a stick's way that counts as rest", 0.05)
+    dead_zone: float = _number(0.35, "pad", 0.05, 0.95, "Share of a stick's way that counts as rest", 0.05)
     keys: InputNames = field(default_factory=dict, metadata=_bindings("keys", "['z', 'lshift']"))
     pad: InputNames = field(default_factory=dict, metadata=_bindings("buttons", "['a']"))
 
