@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Protocol
 
 import pygame
 
@@ -11,14 +11,24 @@ from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
 
 
+class Host(Protocol):
+    """What every screen needs of its App, which imports this module."""
+
+    theme: Theme
+    mood: Mood
+
+    def pop(self) -> None: ...
+
+    def quit(self) -> None: ...
+
+
 class BaseScreen:
     """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does.
 
-    ``app``: its App, whose type only ``Screen`` in app.py knows. ``see_through``: the screen below is drawn first.
-    ``below_runs``: the screen below is updated too. ``redraw``: the app sets it when the whole window must be drawn
-    again (resized, uncovered, another palette). ``wipes``: whether it comes and goes with a wipe. ``plays``: a level is
-    played in it, over which nothing is to be written. ``hides_game``: it shows that nobody plays, and no notice.
-    ``foot_high``: px at the foot that notices leave free.
+    ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
+    app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
+    comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written. ``hides_game``:
+    it shows that nobody plays, and no notice. ``foot_high``: px at the foot that notices leave free.
     """
 
     see_through = False
@@ -28,15 +38,14 @@ class BaseScreen:
     hides_game = False
     foot_high = 1.0
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: Host) -> None:
         self.app = app
         self.redraw = True
 
     @property
     def theme(self) -> Theme:
         """The colours and letters of this screen, and its area in the window."""
-        theme: Theme = self.app.theme
-        return theme
+        return self.app.theme
 
     @property
     def notice_room(self) -> tuple[float, float]:
@@ -47,8 +56,7 @@ class BaseScreen:
     @property
     def mood(self) -> Mood:
         """The mood of this screen; by default that of the screen below."""
-        mood: Mood = self.app.mood
-        return mood
+        return self.app.mood
 
     @property
     def music(self) -> str:
