@@ -89,7 +89,7 @@ class ReplayScreen(Screen):
         self.view = LevelView(self.app, self.playback.simulation)
         self.view.overlays = self.overlays
         both = zip(self.runs, self._colours, strict=True)
-        others = [each for each in both if each[0] is not run and each[0].level == run.level][:MAX_GHOSTS]
+        others = [other for other in both if other[0] is not run and other[0].level == run.level][:MAX_GHOSTS]
         self._beside, self._shades = tuple(other for other, _ in others), tuple(colour for _, colour in others)
         self.view.ghosts = self.ghosts = ghosts_of(self._beside, self._shades, alone=False)
         self.paused = False
