@@ -22,7 +22,7 @@ _OCTAL = re.compile(r"([+-]?)(0[0-7]+)")
 # From this power on, squaring has made the factor infinite: a digit is worth infinity, a zero NaN (0 times infinity).
 _INFINITE_POWER = 512
 # Below this power every digit is worth 0.
-_LOWEST_POWER = -330
+_MIN_POWER = -330
 _EXPONENT_LIMIT = 10**6
 _SMALLEST = math.ulp(0.0)
 
@@ -79,7 +79,7 @@ def _digit_sum(digits: str, power: int) -> float:
         return NAN if "0" in digits[: power - _INFINITE_POWER + 1] else math.inf
     total = 0.0
     for digit in digits:
-        if power < _LOWEST_POWER:
+        if power < _MIN_POWER:
             break
         total += _digit_value(digit, power)
         power -= 1

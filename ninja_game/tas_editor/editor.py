@@ -159,7 +159,7 @@ class TasPart(Pane):
         self.editor = editor
 
 
-NARROWEST_LEFT, LOWEST_LEVEL, LOWEST_TABS, NARROWEST_ROLL = 424.0, 200.0, 150.0, 350.0
+MIN_LEFT, MIN_LEVEL, MIN_TABS, MIN_ROLL = 424.0, 200.0, 150.0, 350.0
 WIDEST_ROLL, USUAL_TABS = 460.0, 203.0
 """Default sizes, logical px."""
 
@@ -214,11 +214,11 @@ def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
     w, h = size
     shared = w - 3 * _EDGE
     high = h - _ABOVE - _BETWEEN - _BELOW
-    roll = min(max(NARROWEST_ROLL, shared - (high - USUAL_TABS) * WIDTH / HEIGHT), WIDEST_ROLL)
+    roll = min(max(MIN_ROLL, shared - (high - USUAL_TABS) * WIDTH / HEIGHT), WIDEST_ROLL)
     left = shared * preferences.left / 100 if preferences.left else shared - roll
-    left = min(max(NARROWEST_LEFT, left), shared - NARROWEST_ROLL)
+    left = min(max(MIN_LEFT, left), shared - MIN_ROLL)
     tabs = high * preferences.tabs / 100 if preferences.tabs else max(USUAL_TABS, high - ceil(left * HEIGHT / WIDTH))
-    tabs = min(max(LOWEST_TABS, tabs), high - LOWEST_LEVEL)
+    tabs = min(max(MIN_TABS, tabs), high - MIN_LEVEL)
     top = _ABOVE + high - tabs
     aside = left + 2 * _EDGE
     return TasLayout(

@@ -12,7 +12,7 @@ import pytest
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.player.settings import read_settings
 from ninja_game.tas.files import open_run
-from ninja_game.tas_editor.editor import NARROWEST_ROLL, LayoutPreferences, tas_canvas, tas_layout
+from ninja_game.tas_editor.editor import MIN_ROLL, LayoutPreferences, tas_canvas, tas_layout
 from ninja_game.tas_editor.screen import TasScreen
 from ninja_game.ui.theme import Area
 from tests.play.tas.conftest import RUN
@@ -46,7 +46,7 @@ def test_parts_are_in_the_window_beside_each_other(size: tuple[int, int], prefer
     assert all(x >= 0 and y >= 0 and x + w <= width + 0.01 and y + h <= height + 0.01 for x, y, w, h in areas)
     assert not [pair for pair in combinations(areas, 2) if overlap(*pair)]
     assert min(layout.level[2:]) > 190
-    assert layout.roll[2] >= NARROWEST_ROLL - 0.01
+    assert layout.roll[2] >= MIN_ROLL - 0.01
     assert layout.tabs[3] >= 149
 
 
