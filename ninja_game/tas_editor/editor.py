@@ -160,7 +160,7 @@ class TasPart(Pane):
 
 
 MIN_LEFT, MIN_LEVEL, MIN_TABS, MIN_ROLL = 424.0, 200.0, 150.0, 350.0
-WIDEST_ROLL, USUAL_TABS = 460.0, 203.0
+MAX_ROLL, USUAL_TABS = 460.0, 203.0
 """Default sizes, logical px."""
 
 _HEAD, _FOOT, _STRIP = 26.0, 21.0, 18.0
@@ -214,7 +214,7 @@ def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
     w, h = size
     shared = w - 3 * _EDGE
     high = h - _ABOVE - _BETWEEN - _BELOW
-    roll = min(max(MIN_ROLL, shared - (high - USUAL_TABS) * WIDTH / HEIGHT), WIDEST_ROLL)
+    roll = min(max(MIN_ROLL, shared - (high - USUAL_TABS) * WIDTH / HEIGHT), MAX_ROLL)
     left = shared * preferences.left / 100 if preferences.left else shared - roll
     left = min(max(MIN_LEFT, left), shared - MIN_ROLL)
     tabs = high * preferences.tabs / 100 if preferences.tabs else max(USUAL_TABS, high - ceil(left * HEIGHT / WIDTH))

@@ -172,7 +172,7 @@ def draw_object(o: Object, picture: Any, frame: Frame, size: float, box: bool, s
 
 
 MAX_SIDE = 512
-NEAREST_VIEW, WIDEST_VIEW = 48.0, WORLD_WIDTH
+MIN_VIEW, MAX_VIEW = 48.0, WORLD_WIDTH
 SAMPLES = 4
 """Points across a pixel by which tiles are drawn."""
 
@@ -207,8 +207,8 @@ class Pixels(Part):
     def __post_init__(self) -> None:
         if not all(isinstance(side, int) and 1 <= side <= MAX_SIDE for side in (self.width, self.height)):
             raise ArgumentError(f"pixels are {self.width!r} x {self.height!r}; expected 1 to {MAX_SIDE} each")
-        if self.view is not None and not NEAREST_VIEW <= self.view <= WIDEST_VIEW:
-            raise ArgumentError(f"the view is {self.view!r} px; expected {NEAREST_VIEW:g} to {WIDEST_VIEW:g}, or None")
+        if self.view is not None and not MIN_VIEW <= self.view <= MAX_VIEW:
+            raise ArgumentError(f"the view is {self.view!r} px; expected {MIN_VIEW:g} to {MAX_VIEW:g}, or None")
 
     @property
     def box(self) -> Box:
