@@ -42,7 +42,7 @@ def pyodide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """
     monkeypatch.setattr(build, "Documents", lambda address: Mock(build=lambda: dict(DOCUMENTS(address))))
     quick = "ninja_game.web.site.game_archive.gzip.compress"
-    monkeypatch.setattr(quick, lambda data, _, mtime: COMPRESS(data, 1, mtime=mtime))
+    monkeypatch.setattr(quick, lambda data, _, mtime=0: COMPRESS(data, 1, mtime=mtime))
     monkeypatch.setattr("ninja_game.web.site.game_archive.shutil.which", lambda _: None)
     folder = tmp_path / "pyodide"
     folder.mkdir()
