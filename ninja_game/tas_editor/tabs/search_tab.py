@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from math import hypot
 from time import monotonic
@@ -41,7 +41,7 @@ from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.theme import Area, Theme, wrapped
-from ninja_game.ui.widgets import Button, Choice
+from ninja_game.ui.widgets import Button, Choice, Widget
 
 CLOSING_SECONDS = 0.5  # longest wait for a cancelled search when the TAS editor is left
 
@@ -293,15 +293,22 @@ class SpanResults:
 
 
 class PresetMenu(Menu):
-    """A menu with low rows over the roll, so that the run in the level stays visible."""
+    """A menu over the roll, so that the run in the level stays visible, with what a row does below its name."""
 
-    row_height = 24
+    row_height = 46
     veil = 40
 
     @property
     def _box(self) -> Area:
         _, y, w, h = super()._box
         return WIDTH - w - 10, y, w, h
+
+    def build(self) -> Sequence[Widget]:
+        (x, y, w, _), high = self._box, self.row_height
+        return [
+            Button((x + 12, y + 48 + high * k, w - 24, high - 4), text, action, size=12, detail=explanation)
+            for k, (text, action, explanation) in enumerate(self.rows())
+        ]
 
 
 class SearchTab(Tab):

@@ -28,6 +28,7 @@ from ninja_game.tas_editor.tabs.search_tab import COMPILING, NOT_BEGUN, NOTHING,
 from ninja_game.tas_editor.tabs.tab import SMALL
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.theme import Theme
+from ninja_game.ui.widgets import PAD, Button
 from tests.support.tas_driver import TasDriver
 from tests.support.waiting import LONGEST
 
@@ -791,4 +792,7 @@ def test_hints_of_goals_have_room_in_their_menu(at: TasDriver) -> None:
     theme = at.app.menu_theme
     for _, hint, _ in PRESETS:
         hint = hint.format(999_000, 999_999)  # noqa: PLW2901
-        assert theme.width(hint, 9.5) <= PANEL_WIDTH - 16, hint
+        assert theme.width(hint, 10.5) <= PANEL_WIDTH - 24 - 2 * PAD, hint
+    at.choose("Presets")
+    shown = {widget.text: widget.detail for widget in at.shown(Menu).widgets if isinstance(widget, Button)}
+    assert shown == {name: hint.format(0, 39) for name, hint, _ in PRESETS}
