@@ -208,16 +208,17 @@ def tas_canvas(window: tuple[int, int], text_scale: int = 0) -> Canvas:
 def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
     """The areas in a window of this logical size, at least that of the stage.
 
-    Level and tabs are at the left, the roll at the right. By default the level is as large as the tabs' default height
-    allows, and the roll has the rest of the width.
+    Level and tabs are at the left, the roll at the right. By default the level is as large as the tabs' default height,
+    at least a third, allows, and the roll has the rest of the width.
     """
     w, h = size
     shared = w - 3 * _EDGE
     high = h - _ABOVE - _BETWEEN - _BELOW
-    roll = min(max(NARROWEST_ROLL, shared - (high - USUAL_TABS) * WIDTH / HEIGHT), WIDEST_ROLL)
+    usual = max(USUAL_TABS, high / 3)
+    roll = min(max(NARROWEST_ROLL, shared - (high - usual) * WIDTH / HEIGHT), WIDEST_ROLL)
     left = shared * preferences.left / 100 if preferences.left else shared - roll
     left = min(max(NARROWEST_LEFT, left), shared - NARROWEST_ROLL)
-    tabs = high * preferences.tabs / 100 if preferences.tabs else max(USUAL_TABS, high - ceil(left * HEIGHT / WIDTH))
+    tabs = high * preferences.tabs / 100 if preferences.tabs else max(usual, high - ceil(left * HEIGHT / WIDTH))
     tabs = min(max(LOWEST_TABS, tabs), high - LOWEST_LEVEL)
     top = _ABOVE + high - tabs
     aside = left + 2 * _EDGE
