@@ -18,6 +18,7 @@ from ninja_game.formats.ascii.places import Point
 from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, Pane
 from ninja_game.tas.contributions import Contributions
+from ninja_game.tas.journal import BesideRun
 from ninja_game.tas.session import Session
 from ninja_game.tas.timeline import Timeline, Trajectory
 from ninja_game.tas.tracks import InputTrack
@@ -91,6 +92,11 @@ class TasEditor:
         timeline = Timeline(about.level, track.inputs, body=about.body, memory=memory)
         timeline.simulate(len(timeline))
         return OtherRun(name, track, timeline.trajectory(), made or Contributions(), timeline.ending)
+
+    def show_beside(self, run: OtherRun) -> None:
+        """Show another run, and keep it in the journal."""
+        self.others.append(run)
+        self.session.show_beside(BesideRun(run.name, run.track, run.made))
 
     @property
     def selection(self) -> Span:

@@ -60,7 +60,7 @@ class OtherRuns:
         editor = self.editor
         first = len(editor.others)
         for recording in recordings:
-            editor.others.append(other_run(editor, recording))
+            editor.show_beside(other_run(editor, recording))
             editor.chosen = first
 
     @property

@@ -150,7 +150,7 @@ class RollCommands:
         if not step():
             editor.app.notify(refusal)
             return
-        first = _first_change(before, editor.track)
+        first = first_change(before, editor.track)
         cursor, anchor = editor.places.get(editor.track, place)
         tick = cursor if anchor is None else min(cursor, anchor)
         editor.app.notify(f"{done}: {_change_text(before, editor.track, first, tick)}")
@@ -226,7 +226,8 @@ def _with_pasted(track: InputTrack, first: int, pasted: Inputs, *, between: bool
     return made
 
 
-def _first_change(before: InputTrack, after: InputTrack) -> int:
+def first_change(before: InputTrack, after: InputTrack) -> int:
+    """The first tick with other keys, else that of the first other marker, else 0."""
     if before.inputs != after.inputs:
         return before.first_difference(after)
     return min((tick for tick, _ in set(before.markers) ^ set(after.markers)), default=0)
