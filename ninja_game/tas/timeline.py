@@ -250,6 +250,14 @@ class Timeline:
         return ending_text(outcome, end, self.death) if end >= 0 else ""
 
     @property
+    def goes_on(self) -> str:
+        """That a run without an end goes on, and the exits whose switch it has not touched."""
+        world = self.world(self.simulated_until - 1)
+        exits = (obj for obj in world.objects[1 : world.slots_used] if obj.kind == EXIT)
+        shut = ", ".join(str(obj.id) for obj in exits if not getattr(obj, KIND_OF[EXIT].used))
+        return "it goes on" + f", the switch of exit {shut} untouched" * bool(shut)
+
+    @property
     def death(self) -> str:
         """The ninja's killer, in words; "" without a death in the simulated ticks."""
         end, outcome = self.end

@@ -91,7 +91,9 @@ class TasEditor:
         about, memory = self.session.about, self.session.timeline.memory
         timeline = Timeline(about.level, track.inputs, body=about.body, memory=memory)
         timeline.simulate(len(timeline))
-        return OtherRun(name, track, timeline.trajectory(), made or Contributions(), timeline.ending)
+        return OtherRun(
+            name, track, timeline.trajectory(), made or Contributions(), timeline.ending or timeline.goes_on
+        )
 
     def show_beside(self, run: OtherRun) -> None:
         """Show another run, and keep it in the journal."""
