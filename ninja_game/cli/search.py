@@ -105,6 +105,12 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
 @options.level_option
 @options.shortening_options
 @click.option(
+    "--against",
+    multiple=True,
+    type=options.OLD_FILE,
+    help="Shorten this file's routes, too; may be given several times.",
+)
+@click.option(
     "--resume", metavar="LOG", type=options.NEW_FILE, help="Log better runs here; go on from those that it has."
 )
 @click.option(
@@ -116,15 +122,17 @@ def improve(
     level_path: Path | None,
     output: Path,
     smooth: int | None,
+    against: tuple[Path, ...],
     resume: Path | None,
     **task_options: Any,
 ) -> int:
     """Shorten a run that exists.
 
     REPLAY is a replay of ours or a recording $name#author#comment#level#demo#. One that ends before the exit is first
-    led there, in half of the time: by the switch and what else the way needs. The best run so far is always in the
-    output file; every run is played again from the start by the plain memory before it is written. It needs Numba (the
-    extra `fast`).
+    led there, in half of the time: by the switch and what else the way needs. With --against the routes of other runs
+    of the level are shortened beside its own, and their players become co-authors. The best run so far is always in
+    the output file; every run is played again from the start by the plain memory before it is written. It needs Numba
+    (the extra `fast`).
 
     Exit code 1: no way to the exit was found from a run that ends before it.
 
@@ -132,6 +140,7 @@ def improve(
     Examples:
       ninja-game improve first.replay.txt -o shorter.replay.txt
       ninja-game improve demos.txt --record 3 --seconds 300 -o shorter.replay.txt
+      ninja-game improve first.replay.txt --against theirs.replay.txt -o shorter.replay.txt
       ninja-game improve first.replay.txt --seconds 28800 --resume night.log -o shorter.replay.txt
     """
     from ninja_game.formats.load import load_replays
@@ -139,33 +148,41 @@ def improve(
     from ninja_game.search.formula.methods import to_exit
     from ninja_game.search.solve import solve
     from ninja_game.search.task import Task
+    from ninja_game.tas.contributions import Contributions
+    from ninja_game.tas.files import runs_of_level
 
     earlier = load_replays(output) if resume and output.exists() else []
     protect_inputs(on=True)  # what was read of the output may be replaced
     recording = options.choose(
         load_replays(replay, level=options.load_level_option(level_path)), "recordings", replay, record
     )
-    task = Task(recording.level, body=recording.body, first=recording.inputs, **task_options)
+    beside = [run for path in against for run in runs_of_level(path, recording)]
+    theirs = tuple(run.inputs for run in beside)
+    task = Task(recording.level, body=recording.body, first=recording.inputs, others=theirs, **task_options)
     check_gold(task)
-    save = saver_of_better(output, recording, "improve")
-    log = SearchLog(resume, [replay, output]) if resume else None
+    names = [name for run in beside for name in Contributions.of(run).names if name != recording.player]
+    credited = replace(recording.replay, co_authors=tuple(dict.fromkeys((*recording.replay.co_authors, *names))))
+    save = saver_of_better(output, replace(recording, replay=credited) if beside else recording, "improve", against)
+    log = SearchLog(resume, [replay, output, *against]) if resume else None
     if log and earlier:
         others = tuple(run.inputs for run in earlier if run.level == task.level)
         left = max(0.1, task.seconds - log.seconds_spent)
-        task = replace(task, others=others, seconds=left, seed=task.seed + log.starts)
+        task = replace(task, others=(*others, *theirs), seconds=left, seed=task.seed + log.starts)
     played = run_level(task.level, task.first, body=task.body)
     if played.outcome != "exit":
-        known = next(iter(task.others), None)
+        known = next((inputs for inputs in task.others if inputs not in theirs), None)
         first = known or to_exit(
             task.level, task.first[: played.ticks], task.seconds / 2, body=task.body, seed=task.seed, threads=task.jobs
         )
+        passing = (keys for keys in theirs if run_level(task.level, keys, body=task.body).outcome == "exit")
+        first = first or next(passing, None)
         if first is None:
             from ninja_game.runs.deaths import ending_text
 
             ends = ending_text(played.outcome, played.ticks - 1, played.death)
             click.echo(f"{ends}; no way to the exit found from there")
             return FAILED
-        task = replace(task, first=first, others=(), seconds=task.seconds if known else task.seconds / 2)
+        task = replace(task, first=first, others=theirs, seconds=task.seconds if known else task.seconds / 2)
     before: list[int] = []
 
     def keep(run: Replay) -> None:
@@ -342,9 +359,14 @@ def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
     return lambda run: save_replay(path, named_replay(run, "solve", **credit))
 
 
-def saver_of_better(path: Path, recording: Recording, command: str) -> Callable[[Replay], None]:
-    """A function that writes each better run that a command made of a recording, to a file that is not its own."""
+def saver_of_better(
+    path: Path, recording: Recording, command: str, keep: Sequence[Path] = ()
+) -> Callable[[Replay], None]:
+    """A function that writes each better run that a command made of a recording, to a file that is not its own.
+
+    ``keep``: other files that it must not be.
+    """
     from ninja_game.search.certificate import improved_replay, save_replay
 
-    check_output(path, keep=[Path(recording.file)])
+    check_output(path, keep=[Path(recording.file), *keep])
     return lambda run: save_replay(path, improved_replay(run, recording, command))

@@ -221,11 +221,11 @@ PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], SpanGoal]], ...] = (
     ("Same end, sooner", "The same place, speed and state; the rest follows", same_end),
     ("Same end exactly, sooner", "By the digest of all that decides what follows", same_state),
     ("Be there sooner", "Where the run is after tick {1}", be_there),
-    ("Go beyond sooner", "Past the upright line where the run is after tick {1}", go_beyond),
-    ("Greatest speed", "After tick {1}", be_fast),
+    ("Go beyond sooner", "Past the upright line of its place after tick {1}", go_beyond),
+    ("Greatest speed", "As fast as can be after tick {1}", be_fast),
     ("Collect a piece", "The nearest gold that is left after tick {1}", collect),
     ("This piece too", "The nearest left on the way; then the same place", collect_too),
-    ("Stay alive", "From tick {0} to {1}", stay_alive),
+    ("Stay alive", "No death from tick {0} to {1}", stay_alive),
 )
 """Name, explanation ({0}: the first tick, {1}: the last), and the function that makes goal and measure."""
 

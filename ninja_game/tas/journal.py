@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 from zlib import crc32
 
 from ninja_game.document import RecoveryFile, recovered_from
@@ -31,6 +31,7 @@ from ninja_game.tas.tracks import (
     first_difference,
     inputs_of_json,
     markers_of_json,
+    track_as_json,
     track_of_json,
 )
 
@@ -104,10 +105,27 @@ class Journal(RecoveryFile):
 
 
 @dataclass(frozen=True)
+class BesideRun:
+    """Another run that is shown beside the one under edit."""
+
+    name: str
+    track: InputTrack
+    made: Contributions
+
+    def as_json(self) -> dict[str, Any]:
+        return {"beside": self.name, "track": track_as_json(self.track), "made": self.made.as_json()}
+
+    @classmethod
+    def of_json(cls, kept: dict[str, Any]) -> Self:
+        """The inverse of ``as_json``. Raises one of DAMAGED for anything else."""
+        return cls(str(kept["beside"]), track_of_json(kept["track"]), Contributions.of_json(kept["made"]))
+
+
+@dataclass(frozen=True)
 class RecoveredRun:
     """The run of a crashed session. ``opened``: its first state; ``tracks``: after each edit.
 
-    ``branches``: their last state; ``said``: the first line of the journal ``file``.
+    ``branches``: their last state; ``said``: the first line of the journal ``file``; ``beside``: the runs beside it.
     """
 
     opened: OpenedRun
@@ -115,6 +133,7 @@ class RecoveredRun:
     branches: Branches
     said: dict[str, Any]
     file: Path
+    beside: tuple[BesideRun, ...] = ()
 
 
 def recovered(folder: Path) -> Iterator[RecoveredRun]:
@@ -136,14 +155,17 @@ def read_journal(file: Path) -> RecoveredRun:
         run_file = run_file_of(Path(path), digest, branches_digest) if path else RunFile()
         tracks = [track_of_json(header["track"])]
         branches = branches_of_json(header["branches"])
+        beside = [BesideRun.of_json(run) for run in header.get("beside", ())]
         for line in lines:
             with suppress(*DAMAGED):
                 change = json.loads(line)
-                if "at" not in change:
+                if "beside" in change:
+                    beside.append(BesideRun.of_json(change))
+                elif "at" not in change:
                     branches.do(change)
                 elif change.get("goes_on"):
                     tracks[-1] = edited(tracks[-1], change)
                 else:
                     tracks.append(edited(tracks[-1], change))
     opened = OpenedRun(recording, tracks[0], run_file, branches_of_json(header["branches"]))
-    return RecoveredRun(opened, tuple(tracks[1:]), branches, header, file)
+    return RecoveredRun(opened, tuple(tracks[1:]), branches, header, file, tuple(beside))

@@ -13,20 +13,22 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.tas.contributions import NONE, Contributions
 from ninja_game.tas.files import OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
-from ninja_game.tas.journal import Journal, RecoveredRun, edit_as_json
+from ninja_game.tas.journal import BesideRun, Journal, RecoveredRun, edit_as_json
 from ninja_game.tas.timeline import EMPTY_TRAJECTORY, Timeline, Trajectory
 from ninja_game.tas.tracks import Branch, Branches, InputTrack, branch_as_json, track_as_json
 
 TICKS_PER_FRAME = 6000
 """Ticks simulated at once after an edit on the compiled memory: some ms."""
 TICKS_PER_FRAME_PLAIN = 2000
+OPENED = "as it was opened"
 
 
 class Session:
     """A run under edit. ``folder``: the player's, for the journal; ``player``: the editor of the run.
 
     ``origin``: level, body, name and author of the run; ``moved``: it was recorded on another level. ``before_track``:
-    the run before the last edit; ``before``: its trajectory. Raises LevelError for a level that cannot be played.
+    the run before the last edit; ``before``: its trajectory; ``beside``: other runs, for the journal. Raises
+    LevelError for a level that cannot be played.
     """
 
     def __init__(self, opened: OpenedRun, folder: Path, *, player: str = "", memory: str = "auto") -> None:
@@ -41,6 +43,7 @@ class Session:
         self.moved = opened.moved
         self.history: History[InputTrack] = History(opened.track)
         self.saved = opened.track
+        self.beside: list[BesideRun] = []
         self._saved_branches = self._kept()
         self.timeline = Timeline(self.origin.level, opened.track.inputs, body=self.origin.body, memory=memory)
         self.before: Trajectory = EMPTY_TRAJECTORY
@@ -63,6 +66,7 @@ class Session:
         return {
             "path": path, "digest": self.file.digest, "branches_digest": self.file.branches_digest, "source": source,
             "replay": text, "track": track_as_json(self.track), "branches": self.branches.as_json(),
+            "beside": [run.as_json() for run in self.beside],
         }  # fmt: skip
 
     @property
@@ -132,6 +136,8 @@ class Session:
             return
         if not self.history.in_stroke:
             self._look_back()
+        if track.inputs != self.track.inputs and not self.history.can_undo:
+            self._keep_opened()
         if self._undone is not None and self.history.can_redo:
             self._keep_undone(self._undone)
         began, opened = self.history.began, self._first.track
@@ -224,6 +230,13 @@ class Session:
             kept["branches"].append(branch_as_json(undone))
             self._change_branches(kept)
 
+    def _keep_opened(self) -> None:
+        """Keep the run as it was opened as a branch, before its first edit; that alone leaves nothing to save."""
+        saved, inputs = self._kept() == self._saved_branches, self.track.inputs
+        if inputs and all(each.track.inputs != inputs for each in self.branches.all):
+            self.keep_branch(OPENED)
+            self._saved_branches = self._kept() if saved else self._saved_branches
+
     def checkout_branch(self, number: int) -> None:
         """Make a branch the present run; undo restores the run before. Raises ArgumentError for an unknown one."""
         self.end()
@@ -238,6 +251,14 @@ class Session:
     def rename_branch(self, number: int, name: str) -> None:
         """Rename a branch. Raises ArgumentError for an unknown one."""
         self._change_branches({"rename": number, "name": name})
+
+    def show_beside(self, run: BesideRun) -> None:
+        """Keep another run in the journal, so that it is there again after a crash."""
+        self.beside.append(run)
+        if self.journal.file.exists():
+            self.journal.note(run.as_json())
+        else:
+            self.journal.opened = self._opened()
 
     def watch(self, formulas: Iterable[str]) -> None:
         self._change_branches({"watch": list(formulas)})
@@ -277,7 +298,7 @@ class Session:
         for track in run.tracks:
             self.history.change(track)
         self._credit()
-        self.branches = run.branches
+        self.branches, self.beside = run.branches, list(run.beside)
         # The program may have crashed after writing the file, and before starting the journal again.
         self._file_differs = self.file.path is not None and digest_of_file(self.file.path) != self.file.digest
         self._noted = self.track

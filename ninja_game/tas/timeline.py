@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from math import hypot
 from typing import Any
 
 import numpy as np
@@ -18,12 +20,14 @@ from ninja_game.runs.save_states import SaveStates
 from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
 from ninja_game.search.formula.language import Formula, Values, parse_number, parse_truth
 from ninja_game.search.formula.names import FACTS, NAMES, flag_field, id_of, ninja_view, no_object
+from ninja_game.sim.digest import differences, state_digest
 from ninja_game.sim.inputs import MAX_TICKS, fit_inputs
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Body, Level, is_box
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_NAMES
-from ninja_game.simulation import SaveState
+from ninja_game.simulation import SaveState, Simulation
 from ninja_game.tas.tracks import first_difference
 
 AFTERMATH = 40
@@ -246,6 +250,14 @@ class Timeline:
         return ending_text(outcome, end, self.death) if end >= 0 else ""
 
     @property
+    def goes_on(self) -> str:
+        """That a run without an end goes on, and the exits whose switch it has not touched."""
+        world = self.world(self.simulated_until - 1)
+        exits = (obj for obj in world.objects[1 : world.slots_used] if obj.kind == EXIT)
+        shut = ", ".join(str(obj.id) for obj in exits if not getattr(obj, KIND_OF[EXIT].used))
+        return "it goes on" + f", the switch of exit {shut} untouched" * bool(shut)
+
+    @property
     def death(self) -> str:
         """The ninja's killer, in words; "" without a death in the simulated ticks."""
         end, outcome = self.end
@@ -263,6 +275,34 @@ class Timeline:
         """The nearest kept moment at or before the one after this many ticks, for ``Simulation.restore``."""
         at, state = self._states.nearest(min(tick, self.simulated_until, MAX_TICKS))
         return SaveState(self.level, self.body, self.memory, fit_inputs(self.inputs[:at], at), state)
+
+    def world(self, tick: int) -> World:
+        """The world after a simulated tick."""
+        run = Simulation(self.level, body=self.body, memory=self.memory)
+        run.restore(self.save_state(tick + 1))
+        for keys in fit_inputs(self.inputs, tick + 1)[run.tick : tick + 1]:
+            run.step_keys(keys)
+        return run.world
+
+
+NAMED_APART = 3
+"""Objects that ``apart_text`` names at most."""
+
+
+def apart_text(ours: World, theirs: World) -> str:
+    """How far two worlds are apart in what decides later ticks, in words."""
+    if state_digest(ours) == state_digest(theirs):
+        return "in the same state: what follows plays as before"
+    (x, y, vx, vy), (x2, y2, vx2, vy2) = (
+        (n.x, n.y, n.x - n.prev_x, n.y - n.prev_y) for n in (ours.ninja, theirs.ninja)
+    )
+    gap = f"{hypot(x2 - x, y2 - y):.2f} px away, {hypot(vx2 - vx, vy2 - vy):.2f} px/tick other"
+    fields = [name.partition(": ")[::2] for name, _, _ in differences(ours, theirs)]
+    read = (name for name, field in fields if name not in ("ninja", "world") and field not in ("", "move_ticks"))
+    other = [*dict.fromkeys(re.sub(r"object (\d+) \((.*)\)", r"\2 \1", name) for name in read)]
+    more = f" and {len(other) - NAMED_APART} more" * (len(other) > NAMED_APART)
+    objects = f"; other: {', '.join(other[:NAMED_APART])}{more}" * bool(other)
+    return f"not in the same state: {gap}{objects}"
 
 
 WATCHABLE = {**NAMES, "status": 1, "exit_distance": 0}

@@ -36,6 +36,10 @@ BY_PAD = {
 TABLE = CommandTable(bundled_commands("tas-editor.txt"), BY_PAD)
 """All commands with a key, unless the player plays on by hand: then the keys of the game count."""
 
+SPLICES = {
+    "splice_start": "Its beginning, then my rest", "splice_here": "My beginning, then its rest",
+    "splice": "The selected ticks",
+}  # fmt: skip
 IN_MENU = {"save", "save_as", "open_other", "help"}
 
 
@@ -78,6 +82,7 @@ class RunCommands(DocumentCommands):
         rows: list[MenuRow] = [
             ("Save", self.save, key["save"]), ("Save as...", self.save_as, key["save_as"]),
             ("Open another run...", lambda: self._run("open_other"), f"Beside this one: {key['open_other']}"),
+            ("Take from the other run...", self.splice, "Its beginning, its rest or some ticks; O chooses the run"),
             ("New run on this level", self._begin_new, "Empty; Esc, Leave comes back to this one"),
             ("Not saved last time...", self.list_recovered, "Runs that were edited when the program ended"),
             ("Watch", self.watch, "In the replay viewer, with the runs beside it; it makes films too"),
@@ -85,6 +90,13 @@ class RunCommands(DocumentCommands):
             ("Help", self.help, key["help"]), ("Leave", self.leave, ""),
         ]  # fmt: skip
         self.app.push(CommandMenu(self.app, "Run", rows, TABLE, IN_MENU, self._run))
+
+    def splice(self) -> None:
+        rows: list[MenuRow] = [
+            (text, partial(self._run, name), f"At the cursor. {key_text(TABLE.by_name[name])}")
+            for name, text in SPLICES.items()
+        ]
+        self.app.push(Menu(self.app, "Take from the other run", [*rows, ("Back", nothing, "")]))
 
     def own_path(self) -> Path | None:
         return self.session.file.path

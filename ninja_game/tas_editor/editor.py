@@ -18,6 +18,7 @@ from ninja_game.formats.ascii.places import Point
 from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, Pane
 from ninja_game.tas.contributions import Contributions
+from ninja_game.tas.journal import BesideRun
 from ninja_game.tas.session import Session
 from ninja_game.tas.timeline import Timeline, Trajectory
 from ninja_game.tas.tracks import InputTrack
@@ -90,7 +91,14 @@ class TasEditor:
         origin, memory = self.session.origin, self.session.timeline.memory
         timeline = Timeline(origin.level, track.inputs, body=origin.body, memory=memory)
         timeline.simulate(len(timeline))
-        return OtherRun(name, track, timeline.trajectory(), made or Contributions(), timeline.ending)
+        return OtherRun(
+            name, track, timeline.trajectory(), made or Contributions(), timeline.ending or timeline.goes_on
+        )
+
+    def show_beside(self, run: OtherRun) -> None:
+        """Show another run, and keep it in the journal."""
+        self.others.append(run)
+        self.session.show_beside(BesideRun(run.name, run.track, run.made))
 
     @property
     def selection(self) -> Span:
@@ -208,16 +216,17 @@ def tas_canvas(window: tuple[int, int], text_scale: int = 0) -> Canvas:
 def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
     """The areas in a window of this logical size, at least that of the stage.
 
-    Level and tabs are at the left, the roll at the right. By default the level is as large as the tabs' default height
-    allows, and the roll has the rest of the width.
+    Level and tabs are at the left, the roll at the right. By default the level is as large as the tabs' default height,
+    at least a third, allows, and the roll has the rest of the width.
     """
     w, h = size
     shared = w - 3 * _EDGE
     high = h - _ABOVE - _BETWEEN - _BELOW
-    roll = min(max(MIN_ROLL, shared - (high - USUAL_TABS) * WIDTH / HEIGHT), MAX_ROLL)
+    usual = max(USUAL_TABS, high / 3)
+    roll = min(max(MIN_ROLL, shared - (high - usual) * WIDTH / HEIGHT), MAX_ROLL)
     left = shared * preferences.left / 100 if preferences.left else shared - roll
     left = min(max(MIN_LEFT, left), shared - MIN_ROLL)
-    tabs = high * preferences.tabs / 100 if preferences.tabs else max(USUAL_TABS, high - ceil(left * HEIGHT / WIDTH))
+    tabs = high * preferences.tabs / 100 if preferences.tabs else max(usual, high - ceil(left * HEIGHT / WIDTH))
     tabs = min(max(MIN_TABS, tabs), high - MIN_LEVEL)
     top = _ABOVE + high - tabs
     aside = left + 2 * _EDGE

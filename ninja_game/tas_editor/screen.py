@@ -20,6 +20,7 @@ from ninja_game.tas.session import Session
 from ninja_game.tas_editor.commands import TABLE, RunCommands
 from ninja_game.tas_editor.editor import Splitters, TasEditor, TasPart
 from ninja_game.tas_editor.level.part import LevelPart
+from ninja_game.tas_editor.roll.commands import first_change
 from ninja_game.tas_editor.roll.part import Roll
 from ninja_game.tas_editor.tabs.branches_tab import BranchesTab
 from ninja_game.tas_editor.tabs.lead_tab import LeadTab
@@ -56,6 +57,11 @@ class TasScreen(WorkspaceScreen):
         self.head, self.foot_line = Head(self.editor), Foot(self.editor)
         self.files = RunCommands(app, self.editor, self.run, self._recover, self._begin_new)
         self.level.others.open(others)
+        if recovered_run is not None:
+            for run in recovered_run.beside:
+                self.editor.others.append(self.editor.other_run(run.name, run.track, run.made))
+            tracks = (recovered_run.opened.track, *recovered_run.tracks)[-2:]
+            self.editor.go(first_change(tracks[0], tracks[-1]))
         placed = [self.head, self.level, self.roll, self.foot_line, self.strip, *self.tabs]
         self.splitters = Splitters(self.editor, placed)
         self._entered = recovered_run is not None
@@ -100,7 +106,10 @@ class TasScreen(WorkspaceScreen):
     def _recover(self, run: RecoveredRun) -> None:
         screen = TasScreen(self.app, run.opened, recovered_run=run)
         if same_level(run.opened.recording, self.session.origin):
-            screen.editor.others, screen.editor.chosen = self.editor.others, self.editor.chosen
+            known = {each.track for each in screen.editor.others}
+            for other in self.editor.others:
+                if other.track not in known:
+                    screen.editor.show_beside(other)
         self.app.replace(screen)
 
     def enter(self) -> None:

@@ -64,6 +64,12 @@ class ListView(Widget):
         if self.count:
             self.selected(self.index)
 
+    def show_around(self) -> None:
+        """Scroll as little as brings the selection into the middle third, as far as there are rows."""
+        third, line = self.visible_lines // 3, self.index // self.columns
+        self.first = min(max(self.first, line - 2 * third), line - third)
+        self.wheel(0)
+
     def confirm(self) -> bool:
         if self.count:
             self.choose(self.index)

@@ -101,6 +101,23 @@ def test_improve_shortens_a_recording(tmp_path: Path) -> None:
     assert parse_replay(out.read_text("utf-8")).final_tick == WALK_END
 
 
+@pytest.mark.parametrize("mine", [f"40:{'0|' * 2}{'35791394|' * 4}", running(9)], ids=["slow", "cut"])
+def test_improve_shortens_the_routes_of_other_runs_too_and_names_their_players(tmp_path: Path, mine: str) -> None:
+    slow = write_records(tmp_path / "slow.txt", ("Slow", WALK, mine))
+    fast = write_records(tmp_path / "fast.txt", ("Fast", WALK, running(WALK_END + 1)), ("Other", LEDGE, running(9)))
+    out = tmp_path / "out.replay.txt"
+    words = "improve", slow, "--ticks", "1", "--jobs", "1", "-o"
+    assert command(*words, out, "--against", fast).exit_code == 0
+    replay = parse_replay(out.read_text("utf-8"))
+    assert (replay.final_tick, replay.co_authors) == (WALK_END, ("unknown (fast.txt)",))
+    other = write_records(tmp_path / "other.txt", ("Other", LEDGE, running(9)))
+    for name, words_of_error in ((other, "no run of Slow with its body"), (slow, "no other run of Slow")):
+        refused = command(*words, out, "--against", name)
+        assert (refused.exit_code, words_of_error in refused.stderr) == (2, True)
+    kept = command(*words, fast, "--against", fast)
+    assert (kept.exit_code, "fast.txt" in kept.stderr, len(load_replays(fast))) == (2, True, 2)
+
+
 def test_improve_says_where_no_way_leads_to_the_exit(tmp_path: Path) -> None:
     dead = write_records(tmp_path / "dead.txt", ("Dead", SPIKED, running(60)))
     result = command("improve", dead, "--ticks", "20000", "--jobs", "1", "-o", tmp_path / "out.txt")

@@ -6,7 +6,7 @@ import json
 import re
 import warnings
 from dataclasses import replace
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +23,10 @@ from ninja_game.formats.load import load_replays
 from ninja_game.search.formula import methods
 from ninja_game.search.formula.language import FormulaError, parse_number, parse_truth
 from ninja_game.search.formula.leg import LegSearch
-from ninja_game.search.formula.methods import count_ways, search_span
+from ninja_game.search.formula.methods import REPORT_TICKS, count_ways, search_span
 from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
 from ninja_game.search.formula.task import (
+    LONGEST_SPAN,
     SAME_WAY_PX,
     SpanResult,
     SpanTask,
@@ -454,6 +455,34 @@ def test_the_nearest_miss_is_told_ever_nearer_and_ends_where_it_says() -> None:
     px = 400 - run.ninja.x
     assert score_text(task, misses[-1]) == f"closest: {misses[-1].missed_by - 1:.0f} px after tick {run.tick - 1}"  # type: ignore[operator]
     assert px / 2 < misses[-1].missed_by < 2 * px  # type: ignore[operator]
+
+
+def test_a_miss_says_which_part_of_the_goal_is_missing_and_how_far_it_is() -> None:
+    level = parse_level("0" * 713 + "|5^100,566!0^400,566")
+    task = SpanTask(level, bytes(40), 5, 35, goal="x > 90 and taken(1) and (y < 0 or tick > 3)")
+    misses: list[SpanResult] = []
+    assert not searched(task, rounds=4, report_miss=misses.append)
+    missed = misses[-1].missed_by
+    assert missed is not None
+    assert [*misses[-1].missing] == [f"taken(1): {missed - 1:.0f} px"]
+    assert score_text(task, misses[-1]).startswith(f"closest: taken(1): {missed - 1:.0f} px after tick ")
+    task = SpanTask(LEVEL, bytes([2] * 20), 0, 20, goal="x < -100 and y < -10000")
+    assert not searched(task, rounds=4, report_miss=misses.append)
+    x, y = misses[-1].end[:2]
+    assert [*misses[-1].missing] == [f"x < -100: {x + 100:.3g} short", f"y < -10000: {10000 + y:.3g} short"]
+
+
+def test_a_long_beam_reports_again_and_again_and_ends_when_it_is_told() -> None:
+    task = SpanTask(LEVEL, bytes(LONGEST_SPAN), 0, LONGEST_SPAN, goal="x > 10000 and tick > 3000")
+    ticks: list[int] = []
+
+    def report(ticks_run: int, _: object) -> bool:
+        ticks.append(ticks_run)
+        return len(ticks) < 4
+
+    search_span(task, report, method="beam")
+    assert all(REPORT_TICKS <= after - before < 2 * REPORT_TICKS for before, after in pairwise(ticks[:4]))
+    assert ticks[-1] == ticks[3], "no tick more"
 
 
 def test_the_run_as_it_was_begun_is_no_miss() -> None:

@@ -257,6 +257,7 @@ def _tabs(at: TasDriver) -> Iterator[str]:
     at.frames()
     yield "tas-values-fewer"
     at.editor.tab = branches.name
+    at.session.drop_branch(0)  # the run as it was opened
     at.frames()
     yield "tas-branches-empty"
     for name in ("first try", "second try"):

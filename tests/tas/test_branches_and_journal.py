@@ -14,11 +14,12 @@ from ninja_game.errors import DAMAGED, FileError
 from ninja_game.files.locking import remove_abandoned
 from ninja_game.formats.load import load_replays
 from ninja_game.sim.inputs import with_press_bits
+from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import open_run, save_run
-from ninja_game.tas.journal import FOLDER, Journal, read_journal, recovered
-from ninja_game.tas.session import Session
+from ninja_game.tas.journal import FOLDER, BesideRun, Journal, read_journal, recovered
+from ninja_game.tas.session import OPENED, Session
 from ninja_game.tas.tracks import Branch, Branches, InputTrack, branches_of_json
-from tests.support.samples import replay_of_walk
+from tests.support.samples import WALK_END, replay_of_walk
 from tests.support.strategies import tracks
 from tests.support.tas_edits import edit_at_random
 
@@ -128,7 +129,9 @@ def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_pa
         found = read_journal(file)
         done = sum(each <= size for each in sizes)
         tracks = (found.opened.track, *found.tracks)
-        assert (tracks[-1], found.branches.all) == states[done], size
+        track, branches = states[done]
+        opened = done or not found.branches.all  # the run as it was opened is kept just before the first edit
+        assert (tracks[-1], found.branches.all if opened else []) == (track, branches), size
         # What is written afterwards is read again, whatever was cut.
         journal = Journal(tmp_path, found.said, file)
         assert journal.note({"drop": 99})
@@ -169,7 +172,7 @@ def test_a_run_goes_on_where_a_killed_session_was(session: Session, tmp_path: Pa
     again = Session(found.opened, tmp_path, memory="plain")
     again.recover(found)
     assert again.file.path == tmp_path / "walk.replay.txt"
-    assert (again.track, [each.name for each in again.branches.all]) == (stroke, ["one"])
+    assert (again.track, [each.name for each in again.branches.all]) == (stroke, [OPENED, "one"])
     assert not again.is_saved
     assert list(recovered(tmp_path)) == [], "it is gone on with"
     with pytest.raises(FileError, match="another window"):
@@ -186,6 +189,43 @@ def test_a_run_goes_on_where_a_killed_session_was(session: Session, tmp_path: Pa
     third.save(tmp_path / "walk.replay.txt")
     assert load_replays(tmp_path / "walk.replay.txt")[0].replay.playback(9)[:5] == with_press_bits([4] * 5)
     assert list((tmp_path / FOLDER).iterdir()) == []
+
+
+def test_the_run_as_it_was_opened_is_a_branch_from_the_first_edit_on(session: Session, tmp_path: Path) -> None:
+    opened = session.track
+    session.change(opened.named(2, "here"))
+    assert not session.branches.all, "no key has changed"
+    session.undo()
+    session.begin()
+    for tick in range(3):
+        session.change(session.track.replaced(tick, tick + 1, [4]))
+    session.end()
+    (kept,) = session.branches.all
+    assert (kept.name, kept.track, kept.outcome, kept.end) == (OPENED, opened, "exit", WALK_END)
+    session.undo()
+    assert session.is_saved, "nothing of the player's is to be saved"
+    session.change(opened.replaced(0, 1, [4]))
+    assert session.branches.all == [kept], "it is there already"
+    session.save(tmp_path / "walk.replay.txt")
+    assert open_run(tmp_path / "walk.replay.txt").branches.all == [kept], "also in the saved file"
+
+
+def test_runs_beside_are_there_again_after_a_crash(session: Session, tmp_path: Path) -> None:
+    first, second = (BesideRun(name, session.track.replaced(0, 1, [4]), Contributions(names=(name,))) for name in "ab")
+    session.show_beside(first)
+    assert not (tmp_path / FOLDER).exists(), "nothing was edited yet"
+    session.change(session.track.replaced(2, 3, [5]))
+    session.show_beside(second)
+    session.journal.close(keep=True)
+    (found,) = recovered(tmp_path)
+    assert found.beside == (first, second)
+    again = Session(found.opened, tmp_path, memory="plain")
+    again.recover(found)
+    assert again.beside == [first, second]
+    again.save(tmp_path / "walk.replay.txt")
+    again.change(again.track.replaced(2, 3, [1]))
+    again.journal.close(keep=True)
+    assert next(recovered(tmp_path)).beside == (first, second)
 
 
 def test_nobody_discards_what_another_window_goes_on_with(session: Session, tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import ast
 import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial, reduce
 from itertools import pairwise
 from typing import Any
@@ -67,11 +67,15 @@ class FormulaError(FormatError):
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula that was read. ``truth``: whether it is true or false, not a number, whose margin is itself."""
+    """A formula that was read. ``truth``: whether it is true or false, not a number, whose margin is itself.
+
+    ``parts``: of one whose parts are joined by ``and``, each with its text.
+    """
 
     truth: bool
     value: Callable[[Scope], Any]
     margin: Callable[[Scope], Any]
+    parts: tuple[tuple[str, Formula], ...] = ()
 
 
 def parse_truth(text: str, names: Mapping[str, int], facts: Sequence[str]) -> Formula:
@@ -123,8 +127,10 @@ class _Reader:
 
     def error(self, node: ast.expr, what: str, expected: str, hint: str = "") -> FormulaError:
         column = self.start + node.col_offset + 1
-        found = self.text[column - 1 : self.start + (node.end_col_offset or 0)]
-        return FormulaError(what, "", 0, column, repr(found[:30]), expected, hint)
+        return FormulaError(what, "", 0, column, repr(self.source(node)[:30]), expected, hint)
+
+    def source(self, node: ast.expr) -> str:
+        return self.text[self.start + node.col_offset : self.start + (node.end_col_offset or 0)]
 
     def formula(self, node: ast.expr) -> Formula:
         """The formula of any part of the tree."""
@@ -134,7 +140,9 @@ class _Reader:
         try:
             match node:
                 case ast.BoolOp(op, parts):
-                    return reduce(_AND if isinstance(op, ast.And) else _OR, map(self.truth, parts))
+                    both, facts = isinstance(op, ast.And), [*map(self.truth, parts)]
+                    named = tuple(zip(map(self.source, parts), facts, strict=True)) if both else ()
+                    return replace(reduce(_AND if both else _OR, facts), parts=named)
                 case ast.UnaryOp(ast.Not(), part):
                     fact = self.truth(part)
                     return Formula(True, lambda view: 1.0 - fact.value(view), lambda view: -fact.margin(view))

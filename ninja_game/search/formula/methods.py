@@ -38,6 +38,8 @@ ACTIONS = np.array([0, 1, 2, 4, 5, 6], np.uint8)
 """Left, right or neither, with and without jump."""
 ROUNDS, ROUNDS_BESIDE_LEGS = 40, 4
 """Rounds of small changes in a turn; while nothing is found and the solver looks for a way, which finds more."""
+REPORT_TICKS = 100_000
+"""Ticks of a beam between two reports: a second on a slow machine."""
 STEPS = (4, 6, 3, 8, 2, 12, 1)
 """Ticks between two choices of a beam, in turn."""
 MAX_ENDS = 2_000_000
@@ -224,7 +226,7 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
     """Go through the span in steps of this many ticks, all actions at each, and keep the most promising states only."""
     worlds, batch = results.worlds, results.worlds.batch
     batch.restore(worlds.start)
-    survivors = np.zeros(1, np.intp)
+    survivors, reported = np.zeros(1, np.intp), worlds.ticks_run
     keys = np.zeros((task.length, batch.count), np.uint8)
     sequences: list[Keys] = []
     for tick in range(0, task.length, step):
@@ -244,6 +246,9 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
                 ended = keys[:, index].copy()
                 ended[tick + played + 1 :] = 0
                 sequences.append(ended)
+        if worlds.ticks_run - reported >= REPORT_TICKS:
+            reported = worlds.ticks_run
+            results.report()
         promising = (margin if worlds.measure is None else -score) * rng.normal(1.0, noise, len(margin))
         alive = used[batch.outcomes[used] == OUTCOME_RUNNING]
         halves = [alive[np.argsort(-scores[alive], kind="stable")] for scores in (margin, promising)]

@@ -91,8 +91,9 @@ class SpanResult:
     the span, up to the goal; ``inputs``: the whole run with them, up to the goal or to its end; ``gold``: pieces that
     it has in the end; ``end``: x, y (px), vx, vy (px/tick) at the goal; ``own_route``: other runs have no part
     in it; ``missed_by``: the margin that is left to the goal where it was not reached, 0 where only the exit behind it
-    was not; None: reached. Of a miss, the goal is the tick in which it was nearest. ``path``: the ninja after each tick
-    up to the goal, float (ticks, 2), px; none for a miss.
+    was not; None: reached. Of a miss, the goal is the tick in which it was nearest, and ``missing`` says which parts of
+    a goal with ``and`` were not true then. ``path``: the ninja after each tick up to the goal, float (ticks, 2), px;
+    none for a miss.
     """
 
     score: float
@@ -104,6 +105,7 @@ class SpanResult:
     own_route: bool = field(compare=False, default=True)
     missed_by: float | None = field(compare=False, default=None)
     path: NDArray[np.floating] = field(compare=False, repr=False, default_factory=lambda: np.zeros((0, 2)))
+    missing: tuple[str, ...] = field(compare=False, default=())
 
 
 def tidied(task: SpanTask, result: SpanResult) -> SpanResult:
@@ -141,8 +143,19 @@ def _is_same_way(one: SpanResult, other: SpanResult) -> bool:
 
 def target_of(task: SpanTask) -> int | None:
     """The slot of the object that is to be taken or opened, 0: an exit to be reached; None for any other goal."""
-    match = re.fullmatch(r"won|(?:taken|opened)\((\d+)\)", task.goal.replace(" ", ""))
+    match = _match_target(task.goal)
     return match and int(match[1] or -1) + 1
+
+
+def _match_target(goal: str) -> re.Match[str] | None:
+    return re.fullmatch(r"won|(?:taken|opened)\((\d+)\)", goal.replace(" ", ""))
+
+
+def _short_text(goal: str, margin: float) -> str:
+    """How far it is to a goal, or a part of one."""
+    if margin == UNREACHABLE:
+        return "no way"
+    return f"{-margin - 1.0:.0f} px" if _match_target(goal) else f"{-margin:.3g} short"
 
 
 def score_text(task: SpanTask, result: SpanResult) -> str:
@@ -151,7 +164,7 @@ def score_text(task: SpanTask, result: SpanResult) -> str:
     if result.missed_by == 0.0:
         return f"goal after tick {last}, but not the exit"
     if result.missed_by is not None:
-        short = f"{result.missed_by:.3g} short" if target_of(task) is None else f"{result.missed_by - 1.0:.0f} px"
+        short = ", ".join(result.missing) or _short_text(task.goal, -result.missed_by)
         return f"closest: {short} after tick {last}"
     if task.rest:
         return f"exit in tick {result.score - 1:.0f}"
@@ -245,7 +258,15 @@ class SpanWorlds:
             end = [*batch.positions[index].tolist(), *batch.velocities()[index].tolist()]
             own = np.array_equal(keys[:ticks, index], self.task.base[:ticks])
             result = self.result_of(index, keys[:, index], np.inf, ticks, end, abs(float(living[index])))
-            self.miss = None if own else result
+            self.miss = None if own else replace(result, missing=self._missing(index))
+
+    def _missing(self, index: int) -> tuple[str, ...]:
+        """The parts of the goal that are not true in a world, and how far it is to each."""
+        with np.errstate(all="ignore"):
+            parts = [(text, part.value(self.view), part.margin(self.view)) for text, part in self.goal.parts]
+        shape = (self.batch.count,)
+        each = [(text, *(np.broadcast_to(values, shape)[index] for values in pair)) for text, *pair in parts]
+        return tuple(f"{text}: {_short_text(text, margin)}" for text, value, margin in each if not value > 0)
 
     def try_all(self, keys: Keys) -> Trials:
         """Play keys, (ticks of the span, worlds), from the start of the span."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from time import thread_time
@@ -18,7 +18,7 @@ from ninja_game.files.user_folder import bundled_replays, short_path
 from ninja_game.formats.links import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
-from ninja_game.play.app import App
+from ninja_game.play.app import WARNING_MS, App
 from ninja_game.play.menus.menu_screen import Action, MenuScreen
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen, result_of
 from ninja_game.play.workspace import Commands
@@ -26,6 +26,8 @@ from ninja_game.player.records import SavedReplay
 from ninja_game.runs.run import run_level
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import runs_of_level, same_level, same_place, track_of
+from ninja_game.tas.timeline import Timeline, apart_text
+from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.tas_editor.tabs.tab import EntryField
 from ninja_game.ui.input.bindings import InputEvent
@@ -50,6 +52,7 @@ class OtherRuns:
         return {
             "open_other": lambda: self.editor.app.push(OtherRunScreen(self.editor.app, self)),
             "next_other": self.next, "splice": self.splice, "splice_here": self.splice_here,
+            "splice_start": self.splice_start,
         }  # fmt: skip
 
     def open(self, recordings: Sequence[Recording]) -> None:
@@ -57,7 +60,7 @@ class OtherRuns:
         editor = self.editor
         first = len(editor.others)
         for recording in recordings:
-            editor.others.append(other_run(editor, recording))
+            editor.show_beside(other_run(editor, recording))
             editor.chosen = first
 
     @property
@@ -85,23 +88,53 @@ class OtherRuns:
     def splice_here(self) -> None:
         """Replace all ticks from the cursor on by the other run's, from the tick where its ninja was nearest to ours.
 
-        Nearest by place and by speed: a difference of speed counts as the distance after AHEAD ticks. All runs begin
-        alike: in tick 0 it is the other one's tick 0.
+        All runs begin alike: in tick 0 it is the other one's tick 0.
         """
-        editor, other = self.editor, self.chosen
-        tick, positions = editor.cursor, editor.session.timeline.positions
-        if other is None or tick > len(positions):
-            return
-        there, gap = 0, "its start"
+        other, tick = self.chosen, self.editor.cursor
+        if other is not None and tick <= self.editor.session.timeline.simulated_until:
+            there = self._nearest(other, tick)
+            keys = [other.track.keys_at(k) for k in range(there, len(other.track))]
+            what = f"From tick {tick} on {other.name} from its tick {there} on"
+            self._join(lambda track: track.replaced(tick, max(tick, len(track)), keys), other, tick, there, what)
+
+    def splice_start(self) -> None:
+        """Replace all ticks before the cursor by the other run's, up to where its ninja was nearest to ours."""
+        editor, other, tick = self.editor, self.chosen, self.editor.cursor
+        if other is not None and not tick:
+            editor.app.notify("No tick is before this one: go to where your own run goes on")
+        elif other is not None and tick <= editor.session.timeline.simulated_until:
+            there = self._nearest(other, tick)
+            keys = [other.track.keys_at(k) for k in range(there)]
+            what = f"Up to tick {there - 1} {other.name}, then this run from its tick {tick} on"
+            if self._join(lambda track: track.replaced(0, tick, keys), other, tick, there, what):
+                editor.go(there)
+
+    def _nearest(self, other: OtherRun, tick: int) -> int:
+        """The tick of another run before which its ninja was nearest to ours before a tick; 0 for 0.
+
+        Nearest by place and by speed: a difference of speed counts as the distance after AHEAD ticks.
+        """
+        if not tick:
+            return 0
+        ours = self.editor.session.timeline.trajectory()
+        far = np.hypot(*(other.positions - ours.positions[tick - 1]).T)
+        faster = np.hypot(*(other.trajectory.velocities - ours.velocities[tick - 1]).T)
+        return int(np.argmin(far + AHEAD * faster)) + 1
+
+    def _join(
+        self, make: Callable[[InputTrack], InputTrack], other: OtherRun, tick: int, there: int, what: str
+    ) -> bool:
+        """Make an edit that joins two runs, before ``tick`` of ours and ``there`` of the other one; tell the gap."""
+        editor, timeline = self.editor, self.editor.session.timeline
+        gap = "its start"
         if tick:
-            far = np.hypot(*(other.positions - positions[tick - 1]).T)
-            ours = editor.session.timeline.trajectory().velocities[tick - 1]
-            faster = np.hypot(*(other.trajectory.velocities - ours).T)
-            before = int(np.argmin(far + AHEAD * faster))
-            there, gap = before + 1, f"{far[before]:.2f} px away, {faster[before]:.2f} px/tick other"
-        keys = [other.track.keys_at(k) for k in range(there, len(other.track))]
-        if editor.edit_selected(lambda track: track.replaced(tick, max(tick, len(track)), keys), other.made):
-            editor.app.notify(f"From tick {tick} on {other.name} from its tick {there} on, {gap}")
+            beside = Timeline(timeline.level, other.track.inputs[:there], body=timeline.body, memory=timeline.memory)
+            beside.ensure(there - 1)
+            gap = apart_text(timeline.world(tick - 1), beside.world(there - 1))
+        if done := editor.edit_selected(make, other.made):
+            timeline.simulate(len(timeline))
+            editor.app.notify(f"{what}, {gap}. Now: {timeline.ending or 'no exit yet'}", ms=WARNING_MS)
+        return done
 
 
 def other_run(editor: TasEditor, recording: Recording) -> OtherRun:

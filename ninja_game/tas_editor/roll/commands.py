@@ -14,7 +14,7 @@ from ninja_game.play.menus.menu_screen import ask_text
 from ninja_game.play.workspace import Commands
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import inputs_of_text
-from ninja_game.tas.tracks import InputTrack, marker_name
+from ninja_game.tas.tracks import InputTrack, first_difference, marker_name
 from ninja_game.tas_editor.editor import Span, TasEditor
 from ninja_game.tas_editor.roll.facts import changes, compared
 
@@ -150,7 +150,7 @@ class RollCommands:
         if not step():
             editor.app.notify(refusal)
             return
-        first = _first_change(before, editor.track)
+        first = first_change(before, editor.track)
         cursor, anchor = editor.places.get(editor.track, place)
         tick = cursor if anchor is None else min(cursor, anchor)
         editor.app.notify(f"{done}: {_change_text(before, editor.track, first, tick)}")
@@ -158,7 +158,8 @@ class RollCommands:
             editor.places[before] = place
         else:
             cursor, anchor = first, None
-        near = abs(cursor - first) < self._page()
+        last = len(editor.track) - first_difference(before.inputs[first:][::-1], editor.track.inputs[first:][::-1])
+        near = first - self._page() < cursor < max(first, last) + self._page()
         editor.go(first if not near or anchor is None else anchor)
         editor.go(cursor if near else first, select=near and anchor is not None)
 
@@ -225,7 +226,8 @@ def _with_pasted(track: InputTrack, first: int, pasted: Inputs, *, between: bool
     return made
 
 
-def _first_change(before: InputTrack, after: InputTrack) -> int:
+def first_change(before: InputTrack, after: InputTrack) -> int:
+    """The first tick with other keys, else that of the first other marker, else 0."""
     if before.inputs != after.inputs:
         return before.first_difference(after)
     return min((tick for tick, _ in set(before.markers) ^ set(after.markers)), default=0)

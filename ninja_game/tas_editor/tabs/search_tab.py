@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from math import hypot
 from time import monotonic
@@ -38,10 +38,10 @@ from ninja_game.tas.goals import (
 )
 from ninja_game.tas.tracks import InputTrack, first_difference
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
-from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
+from ninja_game.tas_editor.tabs.tab import ROW, SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.theme import Area, Theme, wrapped
-from ninja_game.ui.widgets import Button, Choice
+from ninja_game.ui.widgets import Button, Choice, Widget
 
 CLOSING_SECONDS = 0.5  # longest wait for a cancelled search when the TAS editor is left
 
@@ -51,7 +51,7 @@ COMPILING = (
     "them, ends the search."
 )
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
-NOTHING_YET = "Nothing yet."
+NOTHING_YET = "Nothing yet comes nearer to the goal than the run itself."
 PATIENCE = 5.0  # seconds of a search before pieces of its span are proposed
 FORGET = "Forget earlier"
 WITHOUT_REST = "End at the goal, not then the rest"
@@ -254,7 +254,7 @@ class SpanResults:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
         own, words = self.search.own, score_text(self.task, result)
         if result.missed_by == 0.0:
-            words += f": {self.looked_at(result).ending or 'it goes on'}"
+            words += f": {self.looked_at(result).ending}"
         if self._to_exit and result.missed_by is None and result.gold != self._gold:  # of the run as it was
             words += f", {abs(self._gold - result.gold)} gold {'fewer' if result.gold < self._gold else 'more'}"
         if self._others:
@@ -291,17 +291,40 @@ class SpanResults:
             return COMPILING if self.running else NOT_BEGUN
         return NOTHING_YET if self.running else NOTHING
 
+    @property
+    def advice(self) -> str:
+        """What the nearest miss lacks, and what to try; "" while there is something better."""
+        miss = next((each for each in self.better if each.missed_by is not None), None)
+        if miss is None:
+            return ""
+        last, ending = self.task.first + miss.ticks - 1, self.looked_at(miss).ending
+        if miss.missed_by == 0.0:
+            return f"With what follows the goal, {ending}. Try: {WITHOUT_REST.lower()}; or Same end, sooner."
+        lacks = ", ".join(miss.missing) or score_text(self.task, miss).removeprefix("closest: ").partition(" after ")[0]
+        shut = f"; {ending}" * ("untouched" in ending and "won" in self.task.goal)
+        late = miss.ticks > 0.9 * self.task.length
+        part = "; or a part of the goal alone" * bool(miss.missing)
+        where = "a longer span, it is nearest at its end" if late else "an earlier first tick"
+        return f"Missing after tick {last}: {lacks}{shut}. Try: {where}{part}."
+
 
 class PresetMenu(Menu):
-    """A menu with low rows over the roll, so that the run in the level stays visible."""
+    """A menu over the roll, so that the run in the level stays visible, with what a row does below its name."""
 
-    row_height = 24
+    row_height = 46
     veil = 40
 
     @property
     def _box(self) -> Area:
         _, y, w, h = super()._box
         return WIDTH - w - 10, y, w, h
+
+    def build(self) -> Sequence[Widget]:
+        (x, y, w, _), high = self._box, self.row_height
+        return [
+            Button((x + 12, y + 48 + high * k, w - 24, high - 4), text, action, size=12, detail=explanation)
+            for k, (text, action, explanation) in enumerate(self.rows())
+        ]
 
 
 class SearchTab(Tab):
@@ -588,7 +611,7 @@ class SearchTab(Tab):
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
-        palette, results, (x, y, w, _) = theme.palette, self.results, self.area
+        palette, results, (x, y, w, h) = theme.palette, self.results, self.area
         first, last = self.span
         theme.text(surface, f"Ticks {first} to {last - 1}", x + 6, y + 8, size=11, bold=True, width=120)
         if self._why or (self.span != self.editor.selection and self.editor.anchor is not None):
@@ -608,8 +631,13 @@ class SearchTab(Tab):
                 theme.text(surface, head, at, y + 88, size=8, colour=palette.faint)
         elif self.list.count:
             theme.text(surface, note, x + _LEFT + 4, y + 88, size=8, colour=palette.faint, width=w - 104)
-        for k, line in enumerate(() if self.list.count else wrapped(theme, note, w - 28, 10)):
-            theme.text(surface, line, x + 10, y + 97 + 15 * k, size=10, colour=palette.faint)
+        text, top = (
+            (results.advice if results else "") if self.list.count else note,
+            y + 97 + (ROW + 4) * self.list.count,
+        )
+        lines = wrapped(theme, text, w - 28, 10)
+        for k, line in enumerate(lines if top + 15 * len(lines) <= y + h else ()):
+            theme.text(surface, line, x + 10, top + 15 * k, size=10, colour=palette.faint)
 
     @staticmethod
     def _cells(row: Area) -> tuple[float, ...]:

@@ -96,6 +96,7 @@ class TextTab(Tab):
         self._track = InputTrack(b"")
         self._unfolded: Span | None = None
         self._typed_up_to = -1
+        self._clicked = False
         self.starts = starts_of(self._track)
         self._seen: tuple[object, ...] = ()
         self.list = Rows(self._draw_row, self._choose, hint="A click selects the ticks of a line")
@@ -123,6 +124,9 @@ class TextTab(Tab):
             self.starts = starts_of(self._track, self._unfolded, kept)
             self.list.index = int(np.searchsorted(self.starts, self.editor.cursor, "right")) - 1
             self.list.fill(range(len(self.starts)))
+            if not self._clicked:  # a clicked line stays under the mouse
+                self.list.show_around()
+            self._clicked = False
             self.field.show(self.text(self.list.index))
 
     def span(self, index: int) -> Span:
@@ -192,6 +196,7 @@ class TextTab(Tab):
 
     def _choose(self, index: int) -> None:
         first, last = self.span(index)
+        self._clicked = True
         if self._unfolded and not self._unfolded[0] <= first <= self._unfolded[1]:
             self.editor.go(first)
         else:

@@ -60,7 +60,7 @@ def test_a_run_is_saved_into_its_file(at: TasDriver) -> None:
     assert path is not None
     change(at)
     at.chord("s", CTRL)
-    assert at.app.notice == f"Saved: {path}"
+    assert at.app.notice == f"Saved: {path} and its branches beside it"
     assert at.app._draw_notice(at.screen.theme).right <= at.screen.theme.canvas.rect(*at.screen.roll.area).left
     assert at.session.is_saved
     assert load_replays(path)[0].replay.playback(30) == at.editor.track.inputs[:30]
@@ -179,7 +179,7 @@ def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: TasDriver
     again = TasDriver(tmp_path / "player", tmp_path / "run.replay.txt")
     again.choose("Recover")
     screen = again.shown(TasScreen)
-    assert (screen.editor.track, len(screen.session.branches)) == (wanted, 1)
+    assert (screen.editor.track, len(screen.session.branches)) == (wanted, 2)
     assert screen.session.file.path == tmp_path / "run.replay.txt"
     again.chord("z", CTRL)
     again.chord("s", CTRL)
@@ -234,6 +234,12 @@ def test_a_recovered_run_knows_its_file_and_the_runs_beside_it(tmp_path: Path) -
     again.adopt()
     assert again.session.origin.file == str(file)
     assert [each.name for each in again.editor.others] == ["other.txt"]
+    again.editor.edit(lambda track: track.replaced(12, 13, [1]))
+    again.app.stack.clear()
+    again = TasDriver(tmp_path / "player", file)
+    again.choose("Recover")
+    again.adopt()
+    assert ([each.name for each in again.editor.others], again.editor.cursor) == (["other.txt"], 12)
     again.chord("o", CTRL)
     again.wait(lambda: again.shown(OtherRunScreen).rows, "the list")
     assert "other.txt" in [row.text.split()[0] for row in again.shown(OtherRunScreen).rows]

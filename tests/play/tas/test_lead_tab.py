@@ -85,7 +85,7 @@ def test_the_other_run_is_chosen(at: TasDriver, tab: LeadTab) -> None:
     compared(at, tab)
     assert tab.table
     assert tab.table.rows[-1].ahead == 3
-    at.session.drop_branch(0)
+    at.session.drop_branch(1)
     at.frames()
     assert at.editor.against is None
 

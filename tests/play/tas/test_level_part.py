@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -21,9 +22,9 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.menus.menu_screen import FormPanel
 from ninja_game.play.replay.screen import SPEEDS, ReplayScreen
-from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, Demo
+from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, Demo, with_press_bits
 from ninja_game.tas.files import open_run, runs_of_level
-from ninja_game.tas.timeline import Timeline
+from ninja_game.tas.timeline import Timeline, apart_text
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.level.other_runs import AHEAD, OtherRunScreen, RunFiles
 from ninja_game.tas_editor.level.part import nearest_tick, object_at
@@ -224,9 +225,49 @@ def test_the_rest_of_another_run_from_its_start_has_tick_0_too(at: TasDriver) ->
     at.press("home")
     at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
     assert at.editor.track.inputs == other.inputs
-    assert at.app.notice == "From tick 0 on left from its tick 0 on, its start"
+    assert at.app.notice == "From tick 0 on left from its tick 0 on, its start. Now: no exit yet"
     at.chord("z", pygame.KMOD_LCTRL)
     assert at.app.notice.startswith("Undone: keys from tick 0 on")
+
+
+def test_the_beginning_of_another_run_before_the_rest_of_this_one(at: TasDriver) -> None:
+    editor, mine = at.editor, at.editor.track
+    at.screen.level.others.open([at.session.recording(mine.replaced(60, 60, [0] * 7), "later")])
+    other = editor.others[0]
+    at.press("home")
+    at.chord("b", pygame.KMOD_LCTRL)
+    assert (editor.track, at.app.notice) == (mine, "No tick is before this one: go to where your own run goes on")
+    editor.go(120)
+    here, there = at.session.timeline.positions[119], other.positions
+    faster = other.trajectory.velocities - at.session.timeline.trajectory().velocities[119]
+    joint = int(np.argmin(np.hypot(*(there - here).T) + AHEAD * np.hypot(*faster.T))) + 1
+    assert joint != 120
+    at.choose_in_menu("Take from the other run...")
+    at.choose("Its beginning, then my rest")
+    assert editor.track.inputs == with_press_bits([*map(other.track.keys_at, range(joint))]) + mine.inputs[120:]
+    assert editor.cursor == joint, "where this run goes on"
+    assert editor.track.made.names == other.made.names
+    text = f"Up to tick {joint - 1} {other.name}, then this run from its tick 120 on, not in the same state: "
+    assert at.app.notice.startswith(text)
+    assert at.app.notice.endswith(f"Now: {at.session.timeline.ending or 'no exit yet'}")
+    at.chord("z", pygame.KMOD_LCTRL)
+    assert (editor.track, editor.cursor) == (mine, 120)
+
+
+def test_a_splice_says_whether_both_runs_are_in_the_same_state(at: TasDriver) -> None:
+    editor, mine = at.editor, at.editor.track
+    at.screen.level.others.open([at.session.recording(mine.replaced(200, 240, [KEY_LEFT] * 40), "like it")])
+    editor.go(200)
+    at.chord("b", pygame.KMOD_LCTRL)
+    assert editor.track == mine, "nothing changes"
+    assert "in the same state: what follows plays as before" in at.app.notice
+    events = at.session.timeline.event_ticks
+    taken = next(tick for tick, names in events if "gold" in names)
+    before, after = at.session.timeline.world(taken - 1), at.session.timeline.world(taken)
+    text = apart_text(before, after)
+    gap = np.hypot(after.ninja.x - before.ninja.x, after.ninja.y - before.ninja.y)
+    assert text.startswith(f"not in the same state: {gap:.2f} px away")
+    assert re.search(r"; other: .*gold \d+", text)
 
 
 def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) -> None:

@@ -21,6 +21,7 @@ from ninja_game.search.formula import background
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import SpanResult
 from ninja_game.sim.inputs import Input
+from ninja_game.sim.kinds import EXIT
 from ninja_game.tas.goals import IMPROVE, PRESETS
 from ninja_game.tas_editor.roll.facts import BEFORE, compared, different_keys
 from ninja_game.tas_editor.tabs import search_tab as module
@@ -28,6 +29,7 @@ from ninja_game.tas_editor.tabs.search_tab import COMPILING, NOT_BEGUN, NOTHING,
 from ninja_game.tas_editor.tabs.tab import SMALL
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.theme import Theme
+from ninja_game.ui.widgets import PAD, Button
 from tests.support.tas_driver import TasDriver
 from tests.support.waiting import LONGEST
 
@@ -557,6 +559,32 @@ def test_a_goal_out_of_reach_is_not_reached(at: TasDriver, tab: SearchTab) -> No
     assert is_in(at, results_of(tab), miss)
 
 
+def test_a_goal_out_of_reach_gets_advice(at: TasDriver, tab: SearchTab) -> None:
+    at.write("x > 0 and y < -10000")
+    at.press("return")
+    at.wait(lambda: bool(tab.found), "a miss")
+    at.choose("Stop")
+    results = results_of(tab)
+    at.wait(lambda: not results.running, "the end")
+    results.refresh()
+    (miss,) = results.better
+    last, short = 99 + miss.ticks, f"y < -10000: {10000 + miss.end[1]:.3g} short"
+    where = "a longer span, it is nearest at its end" if miss.ticks > 27 else "an earlier first tick"
+    assert results.advice == f"Missing after tick {last}: {short}. Try: {where}; or a part of the goal alone."
+    with patch.object(Theme, "text", autospec=True, side_effect=Theme.text) as text:
+        tab.paint(at.app.surface, at.screen.theme)
+    shown = " ".join(call.args[2] for call in text.call_args_list)
+    assert results.advice in shown, "below the row"
+    rest = replace(miss, missed_by=0.0, inputs=miss.inputs[:1])
+    results.better = (rest,)
+    (id_,) = (id_ for id_, kind, _, _ in at.session.timeline.objects if kind == EXIT)
+    goes_on = f"it goes on, the switch of exit {id_} untouched"
+    assert results.words(rest)[0] == f"goal after tick {last}, but not the exit: {goes_on}"
+    assert results.advice.startswith(f"With what follows the goal, {goes_on}. Try: end at the goal")
+    results.better = (replace(miss, missed_by=None),)
+    assert not results.advice
+
+
 def test_what_is_near_to_nothing_says_so(at: TasDriver, tab: SearchTab) -> None:
     at.write("dead and won")
     at.press("return")
@@ -791,4 +819,7 @@ def test_hints_of_goals_have_room_in_their_menu(at: TasDriver) -> None:
     theme = at.app.menu_theme
     for _, hint, _ in PRESETS:
         hint = hint.format(999_000, 999_999)  # noqa: PLW2901
-        assert theme.width(hint, 9.5) <= PANEL_WIDTH - 16, hint
+        assert theme.width(hint, 10.5) <= PANEL_WIDTH - 24 - 2 * PAD, hint
+    at.choose("Presets")
+    shown = {widget.text: widget.detail for widget in at.shown(Menu).widgets if isinstance(widget, Button)}
+    assert shown == {name: hint.format(0, 39) for name, hint, _ in PRESETS}

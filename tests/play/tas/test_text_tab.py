@@ -11,6 +11,7 @@ from ninja_game.formats.replay.notations import Marker
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.files import inputs_of_text, open_run
 from ninja_game.tas.tracks import InputTrack
+from ninja_game.tas_editor.editor import USUAL_TABS, LayoutPreferences, tas_layout
 from ninja_game.tas_editor.tabs.text_tab import TextTab, starts_of, text_of
 from tests.support.tas_driver import TasDriver
 
@@ -191,6 +192,27 @@ def test_lines_are_added_at_the_end(at: TasDriver, tab: TextTab) -> None:
     assert tab.field.text == ""
     typed(at, tab, "#far 5,L")
     assert texts(tab)[-3:] == ["#land .*4", "#far L*5", ""]
+
+
+def test_the_line_of_the_cursor_stays_in_the_middle_third_but_under_the_mouse(at: TasDriver, tab: TextTab) -> None:
+    at.session.change(InputTrack(bytes([2, 1] * 40)))
+    lines, places = tab.list.visible_lines, []
+    for tick in [*range(0, 60, 7), *range(60, 20, -7)]:
+        at.editor.go(tick)
+        at.frames()
+        places.append(tab.list.index - tab.list.first)
+    assert places[0] == 0, "nothing is above the first line"
+    assert all(lines // 3 <= place <= 2 * (lines // 3) for place in places[1:]), places
+    first = tab.list.first
+    x, y, w, h = tab.list.row_area(first + lines - 1)
+    at.mouse(x + w / 2, y + h / 2)
+    at.frames()
+    assert (tab.list.index, tab.list.first) == (first + lines - 1, first), "a click does not scroll"
+
+
+def test_a_taller_window_shows_more_lines() -> None:
+    heights = [tas_layout(size, LayoutPreferences()).tabs[3] for size in ((792, 600), (1433, 806), (1651, 929))]
+    assert heights == [pytest.approx(USUAL_TABS), pytest.approx(731 / 3, abs=1), pytest.approx(854 / 3, abs=1)]
 
 
 def test_a_click_selects_the_ticks_of_a_line(at: TasDriver, tab: TextTab) -> None:
