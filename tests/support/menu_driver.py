@@ -13,6 +13,7 @@ import pygame
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.app import build_app
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import FormPanel
 from ninja_game.play.menus.settings import SettingsScreen
@@ -182,6 +183,11 @@ class MenuDriver:
         menu.focus = next(widget for widget in menu.widgets if getattr(widget, "text", "") == entry)
         self.press("return")
         return self.top()
+
+    def open_level(self) -> LevelScreen:
+        """Press what has the focus; the level that it opens."""
+        self.press("return")
+        return self.shown(LevelScreen)
 
     def settings_page(self, page: str) -> SettingsScreen:
         """Choose a page of the settings, which are open, with the mouse."""

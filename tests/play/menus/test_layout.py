@@ -6,7 +6,6 @@ from itertools import combinations
 
 import pytest
 
-from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import PANEL, MainMenu
@@ -88,8 +87,7 @@ def test_only_what_was_passed_can_be_watched(driver: MenuDriver) -> None:
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
     assert browser.watch_best.enabled is False
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     level.begin()
     driver.play_replay(1)
     driver.press("q")

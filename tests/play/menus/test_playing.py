@@ -71,8 +71,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
 
 def test_runs_that_are_begun_anew_count_with_their_gold(driver: MenuDriver) -> None:
     driver.open("Levels")
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     recording = load_replays(bundled_replays()[0])[0]
     gold = 0
     for _ in range(2):
@@ -93,8 +92,7 @@ def test_runs_that_are_begun_anew_count_with_their_gold(driver: MenuDriver) -> N
 def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_path: Path) -> None:
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     assert not level.play.view.ghosts
     level.begin()
     driver.play_replay(1)
