@@ -74,6 +74,11 @@ class MenuDriver:
         assert isinstance(top, kind), top
         return top
 
+    def opened(self, entry: str, kind: type[S]) -> S:
+        """Choose an entry of the main menu by its text; its screen, which is of this kind."""
+        self.open(entry)
+        return self.shown(kind)
+
     def frames(self, count: int = 1, ms: int = FRAME_MS) -> None:
         """Let pictures pass."""
         for _ in range(count):
@@ -178,8 +183,7 @@ class MenuDriver:
 
     def open(self, entry: str) -> BaseScreen:
         """Choose an entry of the main menu by its text."""
-        menu = self.top()
-        assert isinstance(menu, MainMenu)
+        menu = self.shown(MainMenu)
         menu.focus = next(widget for widget in menu.widgets if getattr(widget, "text", "") == entry)
         self.press("return")
         return self.top()
@@ -191,8 +195,7 @@ class MenuDriver:
 
     def settings_page(self, page: str) -> SettingsScreen:
         """Choose a page of the settings, which are open, with the mouse."""
-        screen = self.top()
-        assert isinstance(screen, SettingsScreen)
+        screen = self.shown(SettingsScreen)
         x, y, w, h = screen.tabs.row_area(screen.titles.index(page))
         self.mouse(x + w / 2, y + h / 2)
         return screen

@@ -328,8 +328,7 @@ def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuD
 
 
 def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     place = next(k for k, each in enumerate(browser.shown) if each.episode == "01-0")
     browser.list._select(place)
     assert not browser.play_it.enabled
@@ -392,8 +391,7 @@ def test_ghost_of_a_medal_just_earns_it(driver: MenuDriver, wanted: str, medal: 
 
 
 def test_gold_medal_opens_the_authors_run(driver: MenuDriver) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     first = browser.shown[0]
     assert first.pars is not None
     opened = []
@@ -493,8 +491,7 @@ def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible
 
 
 def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     level = driver.open_level()
     titles = []
     for number in (1, 2):

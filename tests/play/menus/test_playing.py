@@ -90,8 +90,7 @@ def test_runs_that_are_begun_anew_count_with_their_gold(driver: MenuDriver) -> N
 
 
 def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_path: Path) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     level = driver.open_level()
     assert not level.play.view.ghosts
     level.begin()
@@ -115,8 +114,7 @@ def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_pa
     again.press("down", "return")
     assert isinstance(again.top(), ReplayScreen)
     again.press("escape", "escape")
-    replays = again.open("Replays")
-    assert isinstance(replays, ReplaysScreen)
+    replays = again.opened("Replays", ReplaysScreen)
     assert replays.rows[0].text == "First Steps"
     again.press("delete")
     assert again.player.records.level_bests()
@@ -135,8 +133,7 @@ def test_deaths_are_counted_and_retry_is_one_key(driver: MenuDriver) -> None:
 
 
 def test_practice_saves_no_record_and_unlocks_nothing(driver: MenuDriver) -> None:
-    grid = driver.open("Episodes")
-    assert isinstance(grid, EpisodeGrid)
+    grid = driver.opened("Episodes", EpisodeGrid)
     grid._set_practice(True)
     driver.press("return")
     for number in range(1, 6):
