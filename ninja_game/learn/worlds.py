@@ -45,7 +45,7 @@ from ninja_game.simulation import SaveState, Simulation
 
 EXIT_WEIGHT, DEATH_WEIGHT, GOLD_WEIGHT, TICK_WEIGHT = range(4)  # indices of ``weights``
 OUTCOME, TICKS, GOLD, EVENTS, ENDED, PLAYED, WAIT, RANDOM = range(8)
-"""Columns of ``facts``, a row for each world. PLAYED: the keys of its last tick. WAIT: steps left in which no key is
+"""Rows of ``facts``, a column for each world. PLAYED: the keys of its last tick. WAIT: steps left in which no key is
 pressed; RANDOM: state of the generator that decides whether keys are repeated (`protocol.py`)."""
 TERMINATED, TRUNCATED = 1, 2  # how an episode has ended; 0: it goes on
 CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
@@ -63,7 +63,7 @@ def advance_worlds(
     A world stops at its first exit contact or death, and at ``time_limit`` ticks. Jump is pressed, as at a keyboard,
     where it is held and was not in the tick before. ``repeat`` of CHANCES: how often it plays the keys of the step
     before; while it waits, none. ``weights`` (EXIT_WEIGHT to TICK_WEIGHT): what each is worth; ``rewards`` (worlds)
-    receives the sum. ``facts`` (worlds x OUTCOME to RANDOM): EVENTS are those of all ticks, as bits. ``changed``
+    receives the sum. ``facts`` (OUTCOME to RANDOM x worlds): EVENTS are those of all ticks, as bits. ``changed``
     (worlds): whether one of CHANGES happened; also set where the list of events was full. ``terminated``, ``truncated``
     (worlds): what ENDED tells.
     """
@@ -74,13 +74,13 @@ def advance_worlds(
         w = worlds[index]
         down = int(keys[index])
         if repeat:
-            facts[index, RANDOM] = next_random(int(facts[index, RANDOM]))
-            if facts[index, RANDOM] < repeat:
-                down = int(facts[index, PLAYED])
-        if facts[index, WAIT]:
-            facts[index, WAIT] -= 1
+            facts[RANDOM, index] = next_random(int(facts[RANDOM, index]))
+            if facts[RANDOM, index] < repeat:
+                down = int(facts[PLAYED, index])
+        if facts[WAIT, index]:
+            facts[WAIT, index] -= 1
             down = 0
-        facts[index, PLAYED] = down
+        facts[PLAYED, index] = down
         tick = w.tick
         gold = w.gold
         event_bits = 0
@@ -100,11 +100,11 @@ def advance_worlds(
         elif w.outcome == OUTCOME_DEAD:
             reward += weights[DEATH_WEIGHT]
         rewards[index] = reward
-        facts[index, OUTCOME] = w.outcome
-        facts[index, TICKS] = w.tick
-        facts[index, GOLD] = w.gold
-        facts[index, EVENTS] = event_bits
-        facts[index, ENDED] = TERMINATED if w.outcome else TRUNCATED if w.tick >= time_limit else 0
+        facts[OUTCOME, index] = w.outcome
+        facts[TICKS, index] = w.tick
+        facts[GOLD, index] = w.gold
+        facts[EVENTS, index] = event_bits
+        facts[ENDED, index] = TERMINATED if w.outcome else TRUNCATED if w.tick >= time_limit else 0
         terminated[index] = w.outcome != 0
         truncated[index] = w.outcome == 0 and w.tick >= time_limit
         changed[index] = crowded or (event_bits & CHANGES) != 0
@@ -254,7 +254,7 @@ class EnvWorlds:
         self._places = (self._worlds.maps, level_of, self._worlds.worlds)
         chance = int(repeat * CHANCES)
         ends = self.terminated, self.truncated
-        self._episodes = (frame_skip, time_limit, chance, weights, self.rewards, self._facts, self._changed, *ends)
+        self._episodes = (frame_skip, time_limit, chance, weights, self.rewards, self._facts.T, self._changed, *ends)
         self._settings: dict[str, Any] = {
             "level": self.source, "count": count, "observation": self.observation.parts, "flat": flat, "reward": terms,
             "frame_skip": frame_skip, "time_limit": time_limit, "repeat": repeat,

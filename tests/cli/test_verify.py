@@ -20,6 +20,7 @@ from ninja_game.cli.main import cli
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.text import RULES_VERSION
 from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
+from tests.support.slow import the_rest_is_slow
 
 
 def verify(*words: str | Path, memory: str = "plain") -> Result:
@@ -188,7 +189,7 @@ def test_no_file_is_wrong_usage(tmp_path: Path) -> None:
     assert verify(tmp_path).exit_code == 2, "an empty folder"
 
 
-@pytest.mark.parametrize("closed", ["2>&-", ">&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("closed", the_rest_is_slow(["<&- >&- 2>&-", ">&-", "2>&-"], 2))
 @pytest.mark.parametrize("name, code", [("good.txt", 0), ("bad.txt", 1), ("missing.txt", 2)])
 def test_closed_outputs_change_no_exit_code(tmp_path: Path, name: str, code: int, closed: str) -> None:
     workers = "processes" if (name, closed) == ("bad.txt", "<&- >&- 2>&-") else "threads"

@@ -434,6 +434,14 @@ def test_what_is_pasted_stays_in_the_level(tools: EditorTools, corner: tuple[flo
         tools.cancel()
 
 
+def test_what_would_leave_the_level_stays_where_it_is(tools: EditorTools) -> None:
+    tools.pick_up(object_of_type("gold"))
+    drag(tools, (36, 300))
+    tools.choose(frozenset({(0, 0)}))
+    assert [tools.shift(dx, 0) for dx in (-24, 720, 24)] == [False, True, False]
+    assert tools.draft.objects[0].values[0] == 756
+
+
 def test_undo_keeps_selected_what_is_still_there(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("gold"))
     for x in (100, 200, 300):

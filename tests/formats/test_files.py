@@ -194,13 +194,13 @@ def test_a_text_that_is_plainly_no_level_is_refused(text: str) -> None:
 
 
 BULK = {
-    "blank lines": "\n" * 2**23,
-    "blanks": " " * 2**23,
-    "lines of blanks": " \n" * 2**22,
-    "comments": ";\n" * 2**20,
-    "returns": "\r" * 2**23,
-    "dollars": "$" * 2**22,
-    "a level below blank lines": "\n" * 2**23 + TEXT,
+    "blank lines": "\n" * 2**21,
+    "blanks": " " * 2**21,
+    "lines of blanks": " \n" * 2**20,
+    "comments": ";\n" * 2**19,
+    "returns": "\r" * 2**21,
+    "dollars": "$" * 2**20,
+    "a level below blank lines": "\n" * 2**21 + TEXT,
 }
 
 
@@ -210,7 +210,7 @@ def test_megabytes_of_nothing_take_no_time(name: str) -> None:
         started = time.process_time()
         with suppress(NinjaGameError):
             read(BULK[name])
-        assert time.process_time() - started < 10
+        assert time.process_time() - started < 3
 
 
 @pytest.mark.parametrize(

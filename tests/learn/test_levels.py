@@ -57,8 +57,9 @@ def test_the_split_is_one_level_of_each_episode_and_never_changes() -> None:
 
 
 @pytest.mark.parametrize(
-    "wrong", ["00-0-first-stepz", "nowhere.txt", "", "generated:3", "generated:11:1", "generated:3:a-b", "a\0b"]
-)
+    "wrong", ["00-0-first-stepz", "nowhere.txt", "", "generated:3", "generated:11:1", "generated:3:a-b", "a\0b",
+              "packed:0", "packed:11"],
+)  # fmt: skip
 def test_a_level_that_there_is_not_is_an_error_that_names_levels(wrong: str) -> None:
     with pytest.raises(ArgumentError, match="expected"):
         level_source(wrong)
@@ -144,3 +145,9 @@ def test_generated_levels_are_those_of_their_seeds() -> None:
     source = level_source("generated:1:3-4")
     assert source.names == ["generated-1-3", "generated-1-4"]
     assert source.levels == generated_levels([3, 4], 1).levels
+
+
+@pytest.mark.parametrize("difficulty", [1, 10])
+def test_packed_levels_are_those_of_a_difficulty(difficulty: int) -> None:
+    source = level_source(f"packed:{difficulty}")
+    assert {name.rpartition("-")[0] for name in source.names} == {f"generated-{difficulty}"}

@@ -191,6 +191,12 @@ def test_pixels_show_the_ninja_the_walls_and_a_closed_door(memory: str) -> None:
     assert not corner[22:, 22:].any()
 
 
+def test_pixels_show_a_beam_from_end_to_end() -> None:
+    shown = seen(parse_level(FLOOR + "|5^300,300!6^500,100,0,0,1,0"), Pixels(99, 75), [0] * 11, memory="plain")
+    beam = [(492 - 468 * share, 109 + 466 * share) for share in np.linspace(0, 1, 40)]
+    assert all(shown[int(y / 8), int(x / 8)] for x, y in beam)
+
+
 @pytest.mark.parametrize("memory", BOTH)
 def test_the_time_left_goes_down_to_nothing(memory: str) -> None:
     worlds = EnvWorlds(LEVELS[0], 1, observation=TimeLeft(), time_limit=8, memory=memory)

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from ninja_game import Simulation
-from ninja_game.backend.memories import compiled_available
+from ninja_game.backend.memories import compiled, compiled_available
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.rewards import DeathPenalty, ExitReward, GoldReward, TimePenalty
-from ninja_game.learn.worlds import EnvWorlds
+from ninja_game.learn.worlds import EnvWorlds, advance_worlds
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from tests.support.learning import LEVELS, random_actions, same
@@ -50,8 +50,16 @@ def test_threads_change_nothing() -> None:
 @needs_numba
 def test_plain_and_compiled_show_the_same_bytes() -> None:
     actions, seeds = random_actions(100, 4), [3, 4, 5, 6]
-    plain, compiled = (history(actions, worlds=make(4, memory=memory), seeds=seeds) for memory in ("plain", "compiled"))
-    assert plain == compiled
+    one, other = (history(actions, worlds=make(4, memory=memory), seeds=seeds) for memory in ("plain", "compiled"))
+    assert one == other
+
+
+@needs_numba
+def test_one_world_and_many_share_one_compiled_function() -> None:
+    for count in (1, 4):
+        history(random_actions(2, count), worlds=make(count), seeds=[3] * count)
+    entry: Any = compiled(advance_worlds)
+    assert len(entry.signatures) == 1
 
 
 @pytest.mark.parametrize("memory", BOTH)

@@ -44,8 +44,7 @@ def opened(driver: MenuDriver, link: str) -> None:
 
 def test_link_of_a_level_is_copied_under_levels_and_played(driver: MenuDriver, clipboard: list[str]) -> None:
     driver.app.change_settings(site="https://example.org/game/")
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     next(each for each in browser.widgets if getattr(each, "text", "") == "Link").confirm()
     (link,) = clipboard
     assert link.startswith("https://example.org/game/#level=1.")

@@ -34,7 +34,7 @@ def bare_digests(path: Path) -> list[str]:
     return digests
 
 
-@pytest.mark.parametrize("path", the_rest_is_slow({path.name.split(".")[0]: path for path in reversed(REPLAYS)}, 4))
+@pytest.mark.parametrize("path", the_rest_is_slow({path.name.split(".")[0]: path for path in reversed(REPLAYS)}, 2))
 def test_a_run_with_everything_on_is_the_bare_run(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     recording = load_replays(path)[0]
     digests = []

@@ -257,8 +257,7 @@ def _records_and_replays(driver: MenuDriver) -> Iterator[str]:
 
 def _replays(driver: MenuDriver) -> None:
     """The list of replays with all its files, which it reads while pictures are shown."""
-    screen = driver.open("Replays")
-    assert isinstance(screen, ReplaysScreen)
+    screen = driver.opened("Replays", ReplaysScreen)
     screen._read_files(LONGEST)
     screen._arrange()
     screen.redraw = True  # what a busy machine reads only now is as new as what it reads for a picture
@@ -281,8 +280,7 @@ def _settings(driver: MenuDriver) -> Iterator[str]:
 
 def _help(driver: MenuDriver) -> Iterator[str]:
     """Every page, when what it tells of has just happened."""
-    screen = driver.open("Help")
-    assert isinstance(screen, HelpScreen)
+    screen = driver.opened("Help", HelpScreen)
     for index, topic in enumerate(screen.topics):
         screen.list._select(index)
         demonstration = screen.demonstration
@@ -306,8 +304,7 @@ def _lab(driver: MenuDriver) -> Iterator[str]:
     """Every figure, a second into its demonstration."""
     driver.open("Help")
     driver.choose("How it works")
-    screen = driver.top()
-    assert isinstance(screen, LabScreen)
+    screen = driver.shown(LabScreen)
     for index, figure in enumerate(screen.figures):
         screen.list._select(index)
         driver.frames(40)
@@ -317,8 +314,7 @@ def _lab(driver: MenuDriver) -> Iterator[str]:
 
 def _editor(driver: MenuDriver) -> Iterator[str]:
     """A level in the editor, with problems, something in hand, something selected; its panels."""
-    screen = driver.open("Editor")
-    assert isinstance(screen, EditorScreen)
+    screen = driver.opened("Editor", EditorScreen)
     draft = draft_of(parse_levels(RANGE)[0])
     gold = tuple(ObjectSpec(GOLD, (300.0 + 12 * k, 200.0)) for k in range(5))
     draft = put(
@@ -364,8 +360,7 @@ def _messages(driver: MenuDriver, screen: EditorScreen) -> Iterator[str]:
 
 def _editor_states(driver: MenuDriver) -> Iterator[str]:
     """Symmetry under the mouse, a certificate and a stale one, a test, the choice of a level, what is not saved."""
-    screen = driver.open("Editor")
-    assert isinstance(screen, EditorScreen)
+    screen = driver.opened("Editor", EditorScreen)
     screen.session.begin(Source(ROOM))
     driver.frames(2)
     for name, tile in (("tiles", True), ("objects", False)):
@@ -481,8 +476,7 @@ def _daily(driver: MenuDriver) -> Iterator[str]:
     with ExitStack() as stack:
         stack.enter_context(patch("ninja_game.play.menus.daily.date", Today))
         stack.enter_context(patch("ninja_game.play.menus.daily.run_in_background", lambda *_: endless))
-        screen = driver.open("Daily")
-        assert isinstance(screen, DailyScreen)
+        screen = driver.opened("Daily", DailyScreen)
         maker = screen._maker
         assert maker is not None
         maker.progress = "level 3 of 8"
@@ -498,8 +492,7 @@ def _daily(driver: MenuDriver) -> Iterator[str]:
         for name in ("pack.toml", "pars.toml", "00-0-first-steps.txt"):
             text = (PACK / name).read_text("utf-8").replace("00-0-first-steps.txt", screen.file.name)
             (pack / name.replace("00-0-first-steps.txt", screen.file.name)).write_text(text, "utf-8")
-        screen = driver.open("Daily")
-        assert isinstance(screen, DailyScreen)
+        screen = driver.opened("Daily", DailyScreen)
         assert screen.entry is not None
         yield "daily"
         driver.player.marks.passed(screen.entry.digest, 170, 1)

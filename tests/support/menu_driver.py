@@ -13,6 +13,7 @@ import pygame
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.app import build_app
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import FormPanel
 from ninja_game.play.menus.settings import SettingsScreen
@@ -72,6 +73,11 @@ class MenuDriver:
         top = self.app.top
         assert isinstance(top, kind), top
         return top
+
+    def opened(self, entry: str, kind: type[S]) -> S:
+        """Choose an entry of the main menu by its text; its screen, which is of this kind."""
+        self.open(entry)
+        return self.shown(kind)
 
     def frames(self, count: int = 1, ms: int = FRAME_MS) -> None:
         """Let pictures pass."""
@@ -177,16 +183,19 @@ class MenuDriver:
 
     def open(self, entry: str) -> BaseScreen:
         """Choose an entry of the main menu by its text."""
-        menu = self.top()
-        assert isinstance(menu, MainMenu)
+        menu = self.shown(MainMenu)
         menu.focus = next(widget for widget in menu.widgets if getattr(widget, "text", "") == entry)
         self.press("return")
         return self.top()
 
+    def open_level(self) -> LevelScreen:
+        """Press what has the focus; the level that it opens."""
+        self.press("return")
+        return self.shown(LevelScreen)
+
     def settings_page(self, page: str) -> SettingsScreen:
         """Choose a page of the settings, which are open, with the mouse."""
-        screen = self.top()
-        assert isinstance(screen, SettingsScreen)
+        screen = self.shown(SettingsScreen)
         x, y, w, h = screen.tabs.row_area(screen.titles.index(page))
         self.mouse(x + w / 2, y + h / 2)
         return screen

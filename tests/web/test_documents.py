@@ -116,6 +116,7 @@ def test_every_figure_of_a_document_is_one_of_the_lab_and_has_a_still_picture(fi
             assert files[f"lab/{name.decode()}-{palette}.png"].startswith(b"\x89PNG")
     live = {path.stem.removeprefix(LAB) for path in (ROOT / "docs" / "pictures").glob(f"{LAB}*")}
     assert {name.decode() for name in shown} == live & set(FIGURES)
+    assert not [name for name, content in files.items() if re.search(rb"<p>\s*<picture", content)]
 
 
 def test_search_finds_parts_of_pages_by_their_words(files: dict[str, bytes]) -> None:

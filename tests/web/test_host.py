@@ -232,6 +232,7 @@ async (active) => {
   Object.defineProperty(navigator, "userActivation", { value: { hasBeenActive: active }, configurable: true });
   sounds.unlock();
   delete navigator.userActivation;
+  await sounds.audio?.close();
   return sounds.audio !== null;
 }
 """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +24,13 @@ async (text) => {
 }
 """
 LENGTH = "() => sounds.length(0)"
+
+
+@pytest.fixture(autouse=True)
+def _silence(python: Any) -> Iterator[None]:
+    """A sound device takes processor time until it is closed or stopped, silent or not."""
+    yield
+    python.evaluate("() => { window.sounds?.audio?.close(); host.sounds.audio?.suspend(); }")
 
 
 @pytest.mark.parametrize("name", ["gold-1", "jump-2", "land-hard-3", "chase"])

@@ -17,7 +17,6 @@ from typing import Any
 
 import pytest
 
-from ninja_game.files.user_folder import data_folder
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
@@ -27,6 +26,7 @@ from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.pages.gallery import SORT_ORDERS, published_levels, write_gallery
 from tests.support.forgeries import WALKING, replay
+from tests.support.own_pack import PACK
 from tests.support.samples import WALK
 from tests.support.visitor import LOADING, eventually
 from tests.support.web_page import CACHE, served
@@ -67,14 +67,14 @@ def board_of_hostile_names(folder: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with the hostile board and a gallery of a few levels of ours."""
+    """A folder with the hostile board and a gallery of a few levels."""
     return made_by_one(tmp_path_factory, "pages", write_site) / "site"
 
 
 def write_site(base: Path) -> None:
     base.mkdir()
     folder = board_of_hostile_names(base)
-    write_gallery(folder, published_levels(data_folder("levels")), address=PUBLIC)
+    write_gallery(folder, published_levels(PACK), address=PUBLIC)
     # Nobody touches a figure here.
     for name, content in (Documents(PUBLIC).build() | {"app-folder/figures.js": b""}).items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -120,8 +120,8 @@ def all_pages(site: Path) -> list[str]:
 def test_a_chat_shows_every_level_and_run_with_its_own_title_words_and_picture(site: Path) -> None:
     pages = [path for name in ("gallery/levels", "board/levels", "replays") for path in site.glob(f"{name}/*.html")]
     pages = [path for path in pages if not path.stem.endswith("-runs")]
-    levels, runs = len(published_levels(data_folder("levels")).entries), len([*site.glob("replays/*.txt")])
-    assert len(pages) == levels + len(HOSTILE) + runs > 300
+    levels, runs = len(published_levels(PACK).entries), len([*site.glob("replays/*.txt")])
+    assert len(pages) == levels + len(HOSTILE) + runs > 30
     shown = set()
     for path in [*pages, site / "index.html"]:
         about = dict(re.findall(r'<meta (?:property|name)="([a-z:]+)" content="([^"]*)">', path.read_text("utf-8")))
@@ -201,7 +201,7 @@ def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any
     page = open_page("gallery/index.html", viewport=PHONE)
     levels = page.locator(".card:visible")
     count = levels.count()
-    assert count == len(published_levels(data_folder("levels")).entries)
+    assert count == len(published_levels(PACK).entries)
     page.keyboard.press("Tab")
     assert page.locator(":focus").inner_text() == "To the content"
     page.keyboard.press("Enter")
@@ -231,7 +231,7 @@ def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any
 
 def test_everything_is_read_without_a_script(open_page: Callable[..., Any]) -> None:
     page = open_page("gallery/index.html", java_script_enabled=False)
-    assert page.locator(".card:visible").count() == len(published_levels(data_folder("levels")).entries)
+    assert page.locator(".card:visible").count() == len(published_levels(PACK).entries)
     assert page.locator("form.search").is_hidden()
     page.locator(".card a").first.click()
     page.get_by_role("heading", name="Par times").wait_for()

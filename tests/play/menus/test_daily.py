@@ -57,8 +57,7 @@ def making(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> MenuDriver:
 
 def opened(driver: MenuDriver) -> DailyScreen:
     """The screen, when nothing is being made any more."""
-    screen = driver.open("Daily")
-    assert isinstance(screen, DailyScreen)
+    screen = driver.opened("Daily", DailyScreen)
     end = monotonic() + LONGEST
     while screen._maker and monotonic() < end:
         sleep(0.02)
@@ -141,8 +140,7 @@ def test_leaving_gives_up_what_is_made(driver: MenuDriver, monkeypatch: pytest.M
         return False
 
     monkeypatch.setattr(daily, "make_daily", slow)
-    screen = driver.open("Daily")
-    assert isinstance(screen, DailyScreen)
+    screen = driver.opened("Daily", DailyScreen)
     assert screen._maker is not None
     driver.press("escape")
     assert stopped.wait(15), "it is not told that nobody waits for it"

@@ -55,8 +55,7 @@ def said(level: LevelScreen) -> str:
 
 
 def test_first_level_says_its_goal_with_the_keys_of_whoever_plays(driver: MenuDriver) -> None:
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     assert said(level).startswith("Left and Right run, ")
     assert "Touch the switch, then go through the exit" in said(level)
     driver.app.controls.pad_used = True
@@ -67,8 +66,7 @@ def test_first_level_says_its_goal_with_the_keys_of_whoever_plays(driver: MenuDr
 
 
 def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) -> None:
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     objects = level.attempt.simulation.world.objects
     places = {name: (x, y) for name, x, y in hud_view(level.play).named}
     assert places == {
@@ -96,8 +94,7 @@ def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) ->
 @pytest.mark.parametrize("reduced", [False, True])
 def test_switch_sends_out_rings_until_it_is_touched(driver: MenuDriver, reduced: bool) -> None:
     driver.app.change_settings(reduced_motion=reduced)
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     level.play.messages.text = ""
     objects = level.attempt.simulation.world.objects
     switch = next(o for o in objects[1:] if o.kind == SWITCH)
@@ -148,8 +145,7 @@ def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: Me
 
 
 def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -> None:
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     level.begin()
     driver.play_replay(1)
     assert level.phase is Phase.PASSED
@@ -269,8 +265,7 @@ def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDrive
 
 
 def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(driver: MenuDriver) -> None:
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     for keys, told in (([0] * (START_TICKS + QUIET_TICKS), True), ([2, 2, 1, 1] * 400, False)):
         heard = []
         for helps in (True, False):
@@ -290,8 +285,7 @@ def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(
 @pytest.mark.parametrize("reduced", [False, True])
 def test_a_text_under_which_the_ninja_comes_fades_while_it_is_there(driver: MenuDriver, reduced: bool) -> None:
     driver.app.change_settings(reduced_motion=reduced)
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     view = hud_view(level.play)
     assert view.said
     hud, surface = Hud(driver.app.theme), driver.app.surface
@@ -334,8 +328,7 @@ def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuD
 
 
 def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     place = next(k for k, each in enumerate(browser.shown) if each.episode == "01-0")
     browser.list._select(place)
     assert not browser.play_it.enabled
@@ -358,8 +351,7 @@ def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     menu = driver.shown(MainMenu)
     assert isinstance(menu.focus, Button)
     assert (menu.focus.detail, menu.focus.hint) == ("Begin with First Steps", "Start at the very beginning")
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     level.begin()
     driver.play_replay(1)
     driver.press("q")
@@ -399,8 +391,7 @@ def test_ghost_of_a_medal_just_earns_it(driver: MenuDriver, wanted: str, medal: 
 
 
 def test_gold_medal_opens_the_authors_run(driver: MenuDriver) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     first = browser.shown[0]
     assert first.pars is not None
     opened = []
@@ -421,8 +412,7 @@ def test_level_without_its_certificate_races_the_best_run(driver: MenuDriver) ->
 
 def stuck_level(driver: MenuDriver) -> LevelScreen:
     """The first level, after so many deaths that help is offered."""
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     for number in range(STUCK_AFTER):
         if number:
             level.retry()
@@ -470,8 +460,7 @@ def test_slower_play_opens_what_follows_without_a_record(driver: MenuDriver) -> 
 
 
 def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible(driver: MenuDriver) -> None:
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     for begun, keys in ((False, ["n"]), (True, ["n"]), (True, ["escape", "down", "down", "return"])):
         level.retry()
         if begun:
@@ -502,10 +491,8 @@ def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible
 
 
 def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    browser = driver.opened("Levels", Browser)
+    level = driver.open_level()
     titles = []
     for number in (1, 2):
         level.begin()
@@ -525,8 +512,7 @@ def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) 
 
 
 def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver: MenuDriver) -> None:
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     level.begin()
     hud = Hud(driver.app.theme)
     (text, tiles, things, _, covers, _), far = hud_view(level.play).said or ("", (), (), None, True, False), []
@@ -636,8 +622,7 @@ def test_help_with_walls_is_gone_once_the_climb_is_done() -> None:
 
 
 def test_keys_of_the_help_bear_the_letters_that_its_words_name(driver: MenuDriver) -> None:
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     level.begin()
     level.play.messages.text = CLIMB % ("{right}", "{left}")
     view = hud_view(level.play)
@@ -649,8 +634,7 @@ def test_keys_of_the_help_bear_the_letters_that_its_words_name(driver: MenuDrive
 
 
 def test_text_of_the_start_covers_no_name_of_a_thing(driver: MenuDriver) -> None:
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     play, hud = level.play, Hud(driver.app.theme)
     text, tiles, *_ = hud_view(play).said or ("", ())
     named = [o for o in play.attempt.simulation.world.objects[1:] if o.kind in {SWITCH, EXIT}]
@@ -664,8 +648,7 @@ def test_text_of_the_start_covers_no_name_of_a_thing(driver: MenuDriver) -> None
 
 
 def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: MenuDriver) -> None:
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     run = level.context
     assert isinstance(run, EpisodeSession)
     count = len(run.episode.levels)

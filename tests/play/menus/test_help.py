@@ -42,8 +42,7 @@ def test_a_wrong_room_is_named() -> None:
 
 
 def test_every_page_plays_and_loops(driver: MenuDriver) -> None:
-    screen = driver.open("Help")
-    assert isinstance(screen, HelpScreen)
+    screen = driver.opened("Help", HelpScreen)
     for index, page in enumerate(PAGES):
         screen.list._select(index)
         assert screen.demonstration is not None
@@ -58,8 +57,7 @@ def test_every_page_plays_and_loops(driver: MenuDriver) -> None:
 
 
 def test_the_keys_page_has_every_key_of_every_action(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
-    screen = driver.open("Help")
-    assert isinstance(screen, HelpScreen)
+    screen = driver.opened("Help", HelpScreen)
     driver.press("end", "right")
     assert screen.focus is screen.keys
     drawn: set[str] = set()

@@ -385,8 +385,7 @@ def test_one_tick_shows_every_call_of_the_real_world() -> None:
 def test_the_lab_by_keys_and_mouse(driver: MenuDriver) -> None:
     driver.open("Help")
     driver.choose("How it works")
-    screen = driver.top()
-    assert isinstance(screen, LabScreen)
+    screen = driver.shown(LabScreen)
     driver.frames(10)
     driver.press("down", "down", "down")
     assert screen.figure.name == "projection"
@@ -419,8 +418,7 @@ def test_the_mouse_presses_and_drags_a_figure_in_its_own_px(
 ) -> None:
     driver.open("Help")
     driver.choose("How it works")
-    screen = driver.top()
-    assert isinstance(screen, LabScreen)
+    screen = driver.shown(LabScreen)
     left, top, zoom = screen.figure.view
     x, y = FIGURE[0] + 30 * zoom, FIGURE[1] + 40 * zoom
     called: list[tuple[str, float, float]] = []

@@ -6,7 +6,6 @@ from itertools import combinations
 
 import pytest
 
-from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import PANEL, MainMenu
@@ -57,8 +56,7 @@ def test_panel_of_the_main_menu_holds_its_entries(driver: MenuDriver) -> None:
 
 
 def test_grid_shows_only_the_episodes_that_there_are(driver: MenuDriver) -> None:
-    grid = driver.open("Episodes")
-    assert isinstance(grid, EpisodeGrid)
+    grid = driver.opened("Episodes", EpisodeGrid)
     episodes = driver.player.catalogue.episodes
     assert sorted(number for number in grid.grid.numbers if number >= 0) == sorted(episodes)
     for _ in range(3 * len(grid.grid.numbers)):
@@ -79,25 +77,21 @@ def test_grid_with_gaps_never_selects_a_gap() -> None:
 
 
 def test_only_what_was_passed_can_be_watched(driver: MenuDriver) -> None:
-    records = driver.open("Records")
-    assert isinstance(records, RecordsScreen)
+    records = driver.opened("Records", RecordsScreen)
     assert records.list.hint == "Not yet passed in one go"
     driver.press("return")
     assert isinstance(driver.top(), RecordsScreen)
     driver.press("escape")
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     assert browser.watch_best.enabled is False
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     level.begin()
     driver.play_replay(1)
     driver.press("q")
     enabled: bool = browser.watch_best.enabled
     assert enabled
     driver.press("escape")
-    again = driver.open("Records")
-    assert isinstance(again, RecordsScreen)
+    again = driver.opened("Records", RecordsScreen)
     driver.press("down")
     assert again.list.hint == "Enter to watch, E to save as a text file"
 
@@ -105,12 +99,10 @@ def test_only_what_was_passed_can_be_watched(driver: MenuDriver) -> None:
 def test_file_that_cannot_be_read_is_named(driver: MenuDriver) -> None:
     (driver.player.folder / "levels" / "broken.txt").write_text("ninja-game level 1\nnonsense")
     (driver.player.replay_folder / "torn.replay.txt").write_text("ninja-game replay 1\nnonsense")
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     assert "broken.txt" in browser.problems[0].text
     driver.press("escape")
-    replays = driver.open("Replays")
-    assert isinstance(replays, ReplaysScreen)
+    replays = driver.opened("Replays", ReplaysScreen)
     assert replays.problems == ["torn.replay.txt"]
 
 
@@ -120,8 +112,7 @@ def test_any_name_of_a_level_is_shown(driver: MenuDriver, name: str) -> None:
     named = text.replace("name: First Steps", f"name: {name}", 1)
     assert named != text
     (driver.player.folder / "levels" / "odd.txt").write_text(named, "utf-8")
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     driver.press("end")
     driver.frames(3)
     driver.press("return")

@@ -71,8 +71,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
 
 def test_runs_that_are_begun_anew_count_with_their_gold(driver: MenuDriver) -> None:
     driver.open("Levels")
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     recording = load_replays(bundled_replays()[0])[0]
     gold = 0
     for _ in range(2):
@@ -91,10 +90,8 @@ def test_runs_that_are_begun_anew_count_with_their_gold(driver: MenuDriver) -> N
 
 
 def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_path: Path) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    browser = driver.opened("Levels", Browser)
+    level = driver.open_level()
     assert not level.play.view.ghosts
     level.begin()
     driver.play_replay(1)
@@ -117,8 +114,7 @@ def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_pa
     again.press("down", "return")
     assert isinstance(again.top(), ReplayScreen)
     again.press("escape", "escape")
-    replays = again.open("Replays")
-    assert isinstance(replays, ReplaysScreen)
+    replays = again.opened("Replays", ReplaysScreen)
     assert replays.rows[0].text == "First Steps"
     again.press("delete")
     assert again.player.records.level_bests()
@@ -137,8 +133,7 @@ def test_deaths_are_counted_and_retry_is_one_key(driver: MenuDriver) -> None:
 
 
 def test_practice_saves_no_record_and_unlocks_nothing(driver: MenuDriver) -> None:
-    grid = driver.open("Episodes")
-    assert isinstance(grid, EpisodeGrid)
+    grid = driver.opened("Episodes", EpisodeGrid)
     grid._set_practice(True)
     driver.press("return")
     for number in range(1, 6):

@@ -64,8 +64,7 @@ def test_ones_own_runs_are_shown_alone(driver: MenuDriver) -> None:
     driver.shown(LevelScreen).begin()
     driver.play_replay(1)
     driver.press("q")
-    screen = driver.open("Replays")
-    assert isinstance(screen, ReplaysScreen)
+    screen = driver.opened("Replays", ReplaysScreen)
     assert [row.when == "Included" for row in screen.rows] == [False, True]
     screen.focus = screen.filter
     driver.press("right")
@@ -75,22 +74,19 @@ def test_ones_own_runs_are_shown_alone(driver: MenuDriver) -> None:
 
 
 def test_authors_runs_are_there_where_a_gold_medal_has_opened_them(driver: MenuDriver) -> None:
-    screen = driver.open("Replays")
-    assert isinstance(screen, ReplaysScreen)
+    screen = driver.opened("Replays", ReplaysScreen)
     assert not screen.rows
     driver.press("escape")
     first = driver.player.catalogue.episodes[0].levels[0]
     assert first.pars is not None
     driver.player.marks.passed(first.digest, first.pars.par("gold"), 0)
-    screen = driver.open("Replays")
-    assert isinstance(screen, ReplaysScreen)
+    screen = driver.opened("Replays", ReplaysScreen)
     assert {row.text for row in screen.rows} == {"First Steps"}
 
 
 def test_rows_say_exit_or_gold_and_authors_have_one_name(driver: MenuDriver) -> None:
     driver.earn_gold()
-    screen = driver.open("Replays")
-    assert isinstance(screen, ReplaysScreen)
+    screen = driver.opened("Replays", ReplaysScreen)
     driver.wait(lambda: len(screen.rows) >= len(bundled_replays()))
     assert "exit" in {row.what.split(", ")[0] for row in screen.rows}
     level = room_level(["@.o.o"], ())
@@ -103,8 +99,7 @@ def test_rows_say_exit_or_gold_and_authors_have_one_name(driver: MenuDriver) -> 
 def test_the_same_run_of_an_author_stands_once(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
     files = [bundled_replays()[0]] * 2
     monkeypatch.setattr(ReplaysScreen, "bundled", lambda _: files)
-    screen = driver.open("Replays")
-    assert isinstance(screen, ReplaysScreen)
+    screen = driver.opened("Replays", ReplaysScreen)
     driver.frames(5)
     assert len(screen.rows) == 1
 

@@ -165,8 +165,7 @@ def test_key_is_rebound_by_pressing_it(driver: MenuDriver) -> None:
 
 
 def test_levels_are_searched_and_sorted(driver: MenuDriver) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     browser.focus = browser.entry_field
     driver.type("chimney")
     assert [entry.title for entry in browser.shown] == ["The Chimney"]
@@ -181,16 +180,14 @@ def test_levels_are_searched_and_sorted(driver: MenuDriver) -> None:
 def test_dropped_file_is_there_when_the_browser_opens(driver: MenuDriver) -> None:
     (driver.player.folder / "levels" / "mine.txt").write_text("0" * 713 + "|5^100,566!11^160,564,130,564")
     (driver.player.folder / "levels" / "broken.txt").write_text("ninja-game level 1\nnonsense")
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     assert "mine" in [entry.title for entry in browser.shown]
     assert [problem.text[:13] for problem in browser.problems] == ["broken.txt:2:"]
 
 
 def test_level_without_a_ninja_is_refused_with_a_message(driver: MenuDriver) -> None:
     (driver.player.folder / "levels" / "empty.txt").write_text("0" * 713 + "|0^100,566")
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     browser.play([entry.title for entry in browser.shown].index("empty"))
     assert driver.top() is browser
     assert browser.message
@@ -259,8 +256,7 @@ def test_odd_names_and_a_level_without_ninja_stop_no_screen(driver: MenuDriver) 
     driver.open("Levels")
     driver.frames(5)
     driver.press("escape")
-    screen = driver.open("Replays")
-    assert isinstance(screen, ReplaysScreen)
+    screen = driver.opened("Replays", ReplaysScreen)
     screen.list.index = next(place for place, row in enumerate(screen.rows) if row.text.startswith("x"))
     driver.press("return")
     driver.frames(3)
@@ -283,8 +279,7 @@ def test_damaged_rows_are_told_of_where_they_are_missing(driver: MenuDriver) -> 
 
 
 def test_file_dropped_on_the_window_is_taken_in(driver: MenuDriver, tmp_path: Path) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     file = tmp_path / "dropped.txt"
     file.write_text("0" * 713 + "|5^100,566!11^160,564,130,564")
     pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(file)))
@@ -296,8 +291,7 @@ def test_file_dropped_on_the_window_is_taken_in(driver: MenuDriver, tmp_path: Pa
 
 
 def test_a_dropped_file_gets_no_name_that_is_odd_and_follows_no_link(driver: MenuDriver, tmp_path: Path) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     levels, outside = driver.player.folder / "levels", tmp_path / "outside.txt"
     (levels / "link.txt").symlink_to(outside)
     (tmp_path / "dropped").mkdir()

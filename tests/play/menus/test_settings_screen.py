@@ -18,9 +18,7 @@ from tests.support.menu_driver import MenuDriver
 
 @pytest.fixture
 def screen(driver: MenuDriver) -> SettingsScreen:
-    opened = driver.open("Settings")
-    assert isinstance(opened, SettingsScreen)
-    return opened
+    return driver.opened("Settings", SettingsScreen)
 
 
 def test_moving_between_pages_shows_them(driver: MenuDriver, screen: SettingsScreen) -> None:
@@ -136,8 +134,7 @@ def test_a_key_of_the_menus_cannot_hide_the_game(driver: MenuDriver) -> None:
 
 
 def test_a_palette_is_seen_in_a_level_beside_its_setting(driver: MenuDriver) -> None:
-    screen = driver.open("Settings")
-    assert isinstance(screen, SettingsScreen)
+    driver.opened("Settings", SettingsScreen)
 
     def sample() -> pygame.Color:
         driver.frames(1)

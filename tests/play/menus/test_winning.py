@@ -36,8 +36,7 @@ def heard(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 def passed_level(driver: MenuDriver, *, failures: int = 0) -> LevelScreen:
     """The first level, in the tick of its exit contact."""
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     first = driver.player.catalogue.episodes[0].levels[0]
     for ticks in range(30, 30 + failures):
         level.begin()
@@ -220,8 +219,7 @@ def test_reduced_motion_has_none_of_it(driver: MenuDriver) -> None:
 def test_wipe_shows_both_pictures_and_delays_no_key(driver: MenuDriver) -> None:
     driver.app.wipes = True
     before = picture(driver)
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     middle = picture(driver)
     driver.frames(WIPE_MS // FRAME_MS)
     after = picture(driver)
@@ -276,8 +274,7 @@ def test_panel_of_an_end_fades_in_as_a_whole_and_its_medal_hides_no_word(driver:
 @pytest.mark.parametrize("size", [100, 150])
 def test_panel_of_an_end_leaves_free_where_the_run_ended(driver: MenuDriver, size: int) -> None:
     driver.app.change_settings(text_size=size)
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     hud, ninja = Hud(driver.app.theme), level.attempt.simulation.world.ninja
     for ninja.x in range(40, 792, 120):
         for ninja.y in range(40, 560, 90):
@@ -310,8 +307,7 @@ def test_explosion_shakes_the_picture_as_much_as_is_wished(driver: MenuDriver, s
 
 
 def test_landing_presses_the_figure_together_by_its_impact(driver: MenuDriver) -> None:
-    driver.press("return")
-    level = driver.shown(LevelScreen)
+    level = driver.open_level()
     squashes = []
     for held in (2, 40):
         level.retry()
