@@ -104,9 +104,9 @@ def evict_old_kernels(folder: Path) -> None:
     dated = []
     for path in folder.glob("*.code"):
         with suppress(OSError):
-            about = path.lstat()
-            if _KERNEL.fullmatch(path.name) and stat.S_ISREG(about.st_mode):
-                dated.append((about.st_mtime, path))
+            status = path.lstat()
+            if _KERNEL.fullmatch(path.name) and stat.S_ISREG(status.st_mode):
+                dated.append((status.st_mtime, path))
     for _, path in sorted(dated, reverse=True)[MAX_KERNELS:]:
         with suppress(OSError):
             path.unlink()
@@ -126,8 +126,8 @@ class KernelCache:
         self._held: dict[Path, int] = {}
 
     def _file(self, signature: Any, processor: tuple[str, ...]) -> str:
-        about = sha256(f"{signature} {processor}".encode()).hexdigest()
-        return f"{self.name}-{about[:16]}.code"
+        digest = sha256(f"{signature} {processor}".encode()).hexdigest()
+        return f"{self.name}-{digest[:16]}.code"
 
     def load_overload(self, signature: Any, context: Any) -> Any:
         """Load the kernel for these types; None if it is missing or damaged, and no other process is making it."""

@@ -51,11 +51,11 @@ def check_self_test(open_world: Callable[[Level, bool], Worlds], memory: str) ->
 
     ``open_world``: makes a new world in a level, with the box or not; ``memory``: the memory's name in messages.
     """
-    found = self_test_digest(open_world)
-    if found != DIGEST:
+    digest = self_test_digest(open_world)
+    if digest != DIGEST:
         raise SelfTestError(
             f"the {memory} memory does not compute the world of N here, so nothing is judged: a known run gives "
-            f"{found[:12]}…, expected {DIGEST[:12]}…; empty the folder of compiled code, or choose another --memory"
+            f"{digest[:12]}…, expected {DIGEST[:12]}…; empty the folder of compiled code, or choose another --memory"
         )
 
 

@@ -118,11 +118,11 @@ def read_link(text: str | Path) -> Link:
         raise LinkError("the link is too long", LINK, expected=f"at most {MOST_CHARACTERS:,} characters")
     _, mark, fragment = "".join(whole.split()).strip(_AROUND).partition("#")
     parts = unquote(fragment).split("&")
-    found = [_PART.fullmatch(part) for part in parts[: MOST_TEXTS + 1]]
-    if not mark or None in found:
+    candidates = [_PART.fullmatch(part) for part in parts[: MOST_TEXTS + 1]]
+    if not mark or None in candidates:
         hint = "copy it again, whole"
         raise LinkError("not a link of a level, pack or replay", LINK, found=repr(fragment[:40]), hint=hint)
-    matches = [match for match in found if match]
+    matches = [match for match in candidates if match]
     kind = next(kind for kind in LINK_KINDS if kind == matches[0][1])
     if len(matches) > (MOST_TEXTS if kind == "replay" else 1) or any(match[1] != kind for match in matches):
         raise LinkError("a link of too many things", LINK, expected=f"a level, a pack, or up to {MOST_TEXTS} replays")

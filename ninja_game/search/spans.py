@@ -35,7 +35,7 @@ FEW_TICKS, MANY_TICKS = 500_000, 2_000_000
 """A search exhausted before the first number counts as early, after the second as late."""
 SPAN_TICKS = 1_000_000  # ticks of a search
 DOUBLINGS = 3  # half of all searches get twice the ticks, half of these twice again, and so on
-EACH_COSTS = 10_000  # ticks that the preparation of a search is worth
+PREPARATION_TICKS = 10_000  # ticks that the preparation of a search is worth
 
 
 class SpanSettings(NamedTuple):
@@ -85,7 +85,7 @@ class SpanSearches:
         self.know(inputs)
         random = np.random.default_rng([seed, PASSES])
 
-        while not spend(EACH_COSTS):
+        while not spend(PREPARATION_TICKS):
             length = int(random.choice(LENGTHS))
             first = max(0, int(random.integers(-length // 2, max(len(inputs) - 5, 1))))
             settings = draw_settings(random)

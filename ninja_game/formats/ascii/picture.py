@@ -39,28 +39,28 @@ class Problems:
 
     def __init__(self, file: str) -> None:
         self.file = file
-        self.found: list[LevelError] = []
+        self.mistakes: list[LevelError] = []
 
     def add(
         self, what: str, line: int, column: int = 0, *, found: str = "", expected: str = "", hint: str = ""
     ) -> None:
         """Record a mistake at a line and column (from 1)."""
-        self.found.append(LevelError(what, self.file, line, column, found, expected, hint))
+        self.mistakes.append(LevelError(what, self.file, line, column, found, expected, hint))
 
     def add_error(self, error: LevelError, line: int) -> None:
         """Record an error that was raised without file and line."""
         error.file, error.line = self.file, line
-        self.found.append(error)
+        self.mistakes.append(error)
 
     @property
     def full(self) -> bool:
         """Whether there are so many mistakes that further checks waste time."""
-        return len(self.found) >= _ENOUGH
+        return len(self.mistakes) >= _ENOUGH
 
     def raise_if_any(self) -> None:
         """Raise the recorded mistakes in the order of their lines; do nothing without any."""
-        if self.found:
-            first, *others = sorted(self.found, key=lambda error: (error.line, error.column))
+        if self.mistakes:
+            first, *others = sorted(self.mistakes, key=lambda error: (error.line, error.column))
             joined = LevelTextError(**vars(first))
             joined.further = tuple(others)
             raise joined
@@ -115,7 +115,7 @@ def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems)
 
     ``end``: the line for reports of a missing row.
     """
-    before = len(problems.found)
+    before = len(problems.mistakes)
     rows: list[tuple[str, int, int]] = []
     misnumbered = False
     for number, (line, text) in enumerate(lines[:ROWS], 1):
@@ -128,7 +128,7 @@ def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems)
         amount, line = ("many", lines[ROWS][0]) if len(lines) > ROWS else ("few", end)
         expected = f"{ROWS} rows, each |{COLUMNS} characters|"
         problems.add(f"the picture has too {amount} rows", line, found=f"{len(lines)}", expected=expected)
-    if len(problems.found) > before:
+    if len(problems.mistakes) > before:
         return None
     texts, numbers, columns = zip(*rows, strict=True)
     return Picture(texts, numbers, columns)

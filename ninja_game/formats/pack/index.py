@@ -74,7 +74,7 @@ class PackIndex:
     @property
     def reasons(self) -> dict[tuple[str, str], str]:
         """The reasons for accepted findings, by file and code, without findings that no index may accept."""
-        return {(each.file, each.code): each.reason for each in self.accepted if each.code not in NEVER_ACCEPTED}
+        return {(odd.file, odd.code): odd.reason for odd in self.accepted if odd.code not in NEVER_ACCEPTED}
 
     @property
     def title(self) -> str:

@@ -109,9 +109,9 @@ class PackFiles:
         data, folder = BytesIO(), self.path.resolve().name.removesuffix(".zip")
         with ZipFile(data, "w", ZIP_DEFLATED) as file:
             for name in self.own_names:
-                about = ZipInfo(f"{folder}/{name}")
-                about.compress_type = ZIP_DEFLATED
-                file.writestr(about, self.text(name))
+                entry = ZipInfo(f"{folder}/{name}")
+                entry.compress_type = ZIP_DEFLATED
+                file.writestr(entry, self.text(name))
         return data.getvalue()
 
     def place(self, name: str) -> str:

@@ -74,9 +74,9 @@ class Replay:
     co_authors: tuple[str, ...] = ()
 
     @classmethod
-    def of_inputs(cls, inputs: bytes, level: Level, **about: Any) -> Self:
-        """Make a replay without claims. ``about``: other fields by their names."""
-        return cls(inputs, max(0, len(inputs) - 1), "", level=level, **about)
+    def of_inputs(cls, inputs: bytes, level: Level, **fields: Any) -> Self:
+        """Make a replay without claims. ``fields``: other fields by their names."""
+        return cls(inputs, max(0, len(inputs) - 1), "", level=level, **fields)
 
     @property
     def unclaimed(self) -> bool:

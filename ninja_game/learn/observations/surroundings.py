@@ -68,14 +68,14 @@ MAX_CACHED = 4096
 
 
 def cached_by_tiles(
-    make: Callable[..., NDArray[Any]], context: PartContext, number: int, *about: float
+    make: Callable[..., NDArray[Any]], context: PartContext, number: int, *lengths: float
 ) -> NDArray[Any]:
     """Give the result of ``make`` for a level's tiles, kept for other levels with the same tiles."""
-    key = make, tuple(context.fresh[number].tiles), about
+    key = make, tuple(context.fresh[number].tiles), lengths
     if key not in _BY_TILES:
         if len(_BY_TILES) >= MAX_CACHED:
             _BY_TILES.clear()
-        _BY_TILES[key] = make(context, number, *about)
+        _BY_TILES[key] = make(context, number, *lengths)
     return _BY_TILES[key]
 
 

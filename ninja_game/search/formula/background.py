@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 class SpanSearch:
     """A search in its own thread, on ``jobs`` threads (one per core), for ``seconds`` (0: until it is cancelled).
 
-    ``method``, ``every`` and ``memory``: as in ``search_span``. ``found``: the best results so far, best first, each
+    ``method``, ``every`` and ``memory``: as in ``search_span``. ``results``: the best results so far, best first, each
     with the whole run; a better list replaces the old one. ``own``: the result of the run's own keys, None if they miss
     the goal. ``miss``: the nearest result as long as nothing has reached the goal, None if nothing comes near.
     ``ticks_run``: ticks simulated. ``problem``: why the search could not continue, "" if it could.
@@ -52,7 +52,7 @@ class SpanSearch:
             raise ArgumentError(f"method is {method!r}; expected 'auto', {', '.join(map(repr, METHODS))}")
         task.check()
         self.task = task
-        self.found: tuple[SpanResult, ...] = ()
+        self.results: tuple[SpanResult, ...] = ()
         self._tidy: dict[bytes, SpanResult] = {}
         self.own: SpanResult | None = None
         self.miss: SpanResult | None = None
@@ -95,7 +95,7 @@ class SpanSearch:
     def _work(self) -> None:
         report_miss = partial(setattr, self, "miss")
         results = search_span(self.task, self._report, report_miss=report_miss, **self._options)  # type: ignore[arg-type]
-        self.found = self._without_idle_keys(results, np.inf)
+        self.results = self._without_idle_keys(results, np.inf)
         self._ended = monotonic()
 
     def _fail(self, why: str) -> None:
@@ -111,7 +111,7 @@ class SpanSearch:
                 from ninja_game.search.solve import compile_solver  # few searches are of a whole run
 
                 run_in_background(compile_solver, lambda _: None)
-        self.ticks_run, self.found = ticks, self._without_idle_keys(results, TIDYING_SECONDS)
+        self.ticks_run, self.results = ticks, self._without_idle_keys(results, TIDYING_SECONDS)
         late = self._limit and self.seconds >= self._limit
         return not (late or self._cancelled.is_set())
 
@@ -137,10 +137,10 @@ NO_WAY = "No way to the exit was found from the end of this run: select ticks be
 
 
 class RunSearch(SpanSearch):
-    """The same for a whole run, ``task.inputs``, which is shortened as `ninja-game improve` does it.
+    """A search that shortens a whole run, ``task.inputs``, as `ninja-game improve` does.
 
     A run that ends before the exit is first continued to it. ``gold``: pieces that it must still take. ``others``: runs
-    of the level whose routes are shortened too. ``found``: the runs by its own route and by all routes that no other
+    of the level whose routes are shortened too. ``results``: the runs by its own route and by all routes that no other
     one beats in ticks and gold.
     """
 
@@ -237,7 +237,7 @@ class RunSearch(SpanSearch):
             self._unbeaten[own_route] = _unbeaten([*self._unbeaten[own_route], result])
             own = self._unbeaten[True]
             others = (way for way in _unbeaten([*own, *self._unbeaten[False]]) if not way.own_route)
-            self.found = tuple(sorted([*own, *others]))
+            self.results = tuple(sorted([*own, *others]))
 
 
 def _unbeaten(results: list[SpanResult]) -> tuple[SpanResult, ...]:

@@ -61,12 +61,12 @@ def fields_of(cls: type) -> list[Field]:
     """List the fields that a struct declares or inherits, bases first, in the order of declaration."""
     if "FIELDS" in cls.__dict__:
         return list(cls.__dict__["FIELDS"])
-    found: dict[str, Field] = {}
+    fields: dict[str, Field] = {}
     for base in reversed(cls.__mro__[:-1]):
         hints = get_type_hints(base, include_extras=True)
         for name in get_annotations(base):
-            found.setdefault(name, _field(name, hints[name]))
-    return list(found.values())
+            fields.setdefault(name, _field(name, hints[name]))
+    return list(fields.values())
 
 
 def scalars_of(cls: type) -> list[Field]:
