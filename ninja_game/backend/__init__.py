@@ -1,1 +1,1 @@
-"""Worlds, in two memories: plain Python objects or NumPy records; what compiles for them, and which one to use."""
+"""The two memories of worlds, plain Python objects and NumPy records; the compiler; the choice between the memories."""

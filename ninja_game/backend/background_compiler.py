@@ -1,6 +1,6 @@
-"""A process in the background compiles all kernels of all commands once, so that nobody waits for them.
+"""A background process that compiles all kernels of all commands once, so that no command waits for them.
 
-It is `ninja-game compile`, at low priority and in a session of its own: it outlives whoever started it, and one of them
+It runs `ninja-game compile` at low priority in its own session, so it outlives the process that started it. Only one
 works at a time.
 """
 
@@ -16,9 +16,9 @@ from ninja_game.errors import FileError
 from ninja_game.files.locking import try_lock
 
 VARIABLE = "NINJA_GAME_BACKGROUND_COMPILER"
-"""Environment variable: 0 switches the process off; commands then wait for their kernels."""
+"""Environment variable: 0 turns the process off; commands then wait for their kernels."""
 
-BEHIND = 15  # how far its priority is lowered (os.nice)
+BEHIND = 15  # how much its priority is lowered (os.nice)
 
 _STARTED: list[subprocess.Popen[bytes]] = []  # the process that this one has started
 
@@ -28,7 +28,7 @@ def is_enabled() -> bool:
 
 
 def start() -> None:
-    """Start it, once a process; where that is impossible, each process compiles the kernels that it needs."""
+    """Start it, once per process. Where that is impossible, every process compiles the kernels that it needs."""
     if _STARTED or not is_enabled():
         return
     environment = {**os.environ, "PYTHONSAFEPATH": "1", VARIABLE: "0"}
@@ -53,7 +53,7 @@ def start() -> None:
 
 
 def is_compiling() -> bool:
-    """Whether it, or one that another process started, compiles now."""
+    """Tell whether it, or the one of another process, compiles now."""
     if _STARTED and _STARTED[0].poll() is None:
         return True
     with suppress(OSError, FileError):
@@ -65,9 +65,9 @@ def is_compiling() -> bool:
 
 
 def lock_compilation() -> int | None:
-    """A handle that keeps others from compiling everything as long as it is open; None where another one does.
+    """Give a handle that keeps others from compiling everything while it is open; None if another process has one.
 
-    Raises OSError where no file can be written, FileError as ``code_folder``.
+    Raises OSError if no file can be written, and what ``code_folder`` raises.
     """
     folder = code_folder()
     folder.mkdir(parents=True, exist_ok=True)
@@ -75,6 +75,6 @@ def lock_compilation() -> int | None:
 
 
 def lower_priority() -> None:
-    """Give this process a low priority, where the system has such a thing."""
+    """Lower the priority of this process, if the system has priorities."""
     if sys.platform != "win32":
         os.nice(BEHIND)

@@ -1,4 +1,4 @@
-"""The digest that names the machine code of a kernel, of all its sources; it needs neither Numba nor NumPy."""
+"""The digest of a kernel's sources, which names its machine code. Needs neither Numba nor NumPy."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from typing import Any
 from ninja_game.sim.memory.declare import REGISTERED
 
 OPTIONS = {"nogil": True, "error_model": "python", "_nrt": False}
-"""How Numba compiles every function. No kernel makes an array, so none counts references to one (``_nrt``)."""
+"""Options of Numba for every function. ``_nrt``: no reference counts, since no kernel makes an array."""
 
 
 def code_digest(entry: Callable[..., Any], compiler: str) -> str:
-    """A digest of all that goes into the machine code of a kernel.
+    """Hash everything that determines the machine code of a kernel.
 
-    That is ``compiler`` (what compiles it, with its options), the code of the function and of all registered functions
-    that it reaches, the fields of the named tuples that they take, and the values of the constants that they name,
-    wherever those are defined.
+    That is ``compiler`` (the compiler with its options), the code of the function and of all registered functions that
+    it reaches, the fields of the named tuples that they take, and the values of the constants that they name, wherever
+    those are defined.
     """
     digest = sha256(compiler.encode())
     waiting: list[Any] = [entry]
@@ -48,12 +48,12 @@ def code_digest(entry: Callable[..., Any], compiler: str) -> str:
 
 
 def _is_plain(value: Any) -> bool:
-    """Whether a global is a constant that a rule may name."""
+    """Tell whether a global is a constant that a rule may name."""
     return isinstance(value, (bool, int, float, str, tuple, list))
 
 
 def _codes(code: CodeType) -> Iterator[CodeType]:
-    """A function's code and that of the functions inside it."""
+    """Give a function's code and the code of the functions inside it."""
     yield code
     for value in code.co_consts:
         if isinstance(value, CodeType):

@@ -1,4 +1,4 @@
-"""The compiled memory: worlds as NumPy records, in which compiled kernels run."""
+"""The compiled memory: worlds as NumPy records, on which compiled kernels run."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ Compile = Callable[[Callable[..., Any]], Callable[..., Any]]
 """Gives the compiled twin of a kernel (``memories.compiled``)."""
 
 SLICE = 400_000
-"""Ticks times objects in one call of a kernel, some tens of milliseconds: between calls Python sees Ctrl-C."""
+"""Ticks times objects per call of a kernel, some tens of milliseconds: Python sees Ctrl-C only between calls."""
 
 _NinjaRow: Any = namedtuple("_NinjaRow", [field.name for field in fields_of(Ninja)])  # type: ignore[misc]  # noqa: PYI024
 _EventRow: Any = namedtuple("_EventRow", [field.name for field in fields_of(Event)])  # type: ignore[misc]  # noqa: PYI024
 
 
 def load_worlds(compiled: Compile, levels: Sequence[Level], *, box: bool) -> tuple[NDArray[np.void], Records]:
-    """Levels, and a new world in each, as arrays of records. Raises LevelError as ``object_table`` does."""
+    """Load levels, and a new world in each, as arrays of records. Raises LevelError as ``object_table`` does."""
     tables = [object_table(level) for level in levels]
     worlds = new_worlds(len(levels), max(table.slots for table in tables))
     return _loaded(compiled, levels, tables, worlds, 0, box), worlds
@@ -46,7 +46,7 @@ def load_worlds(compiled: Compile, levels: Sequence[Level], *, box: bool) -> tup
 def _loaded(
     compiled: Compile, levels: Sequence[Level], tables: Sequence[ObjectTable], worlds: Records, first: int, box: bool
 ) -> NDArray[np.void]:
-    """Make new worlds of zeroed ones from ``first`` on, one in each level; the maps of the levels."""
+    """Load one world per level into zeroed worlds from ``first`` on; gives the maps of the levels."""
     maps = np.zeros(len(levels), TILE_MAP)
     for number, (level, table) in enumerate(zip(levels, tables, strict=True)):
         map_, world = maps[number : number + 1], worlds[first + number : first + number + 1]
@@ -71,8 +71,8 @@ class CompiledWorlds(Worlds):
         self._step, self._observe = compiled(step_world), compiled(observe_object)
         tables = [object_table(level) for level in self.levels]
         self.slots = max(table.slots for table in tables)
-        # After the worlds comes a fresh one for each level, and one more: an array of one is contiguous, which is
-        # another type for Numba, compiled again.
+        # Behind the worlds lies a fresh one per level, and one more: an array of one record is always contiguous, which
+        # is another type for Numba and would be compiled again.
         self.worlds: Records = new_worlds(count + len(tables) + 1, self.slots)
         self.maps = _loaded(compiled, self.levels, tables, self.worlds, count, box)
         self.records, self.fresh = self.worlds[:count], self.worlds[count:]
@@ -108,7 +108,7 @@ class CompiledWorlds(Worlds):
         self._step(self.maps, levels[index], self.worlds, index, keys)
 
     def _played(self) -> list[int]:
-        """Which level each world plays, as Python's own numbers: one of NumPy costs a tenth of a tick."""
+        """The level of each world, as Python ints: an int of NumPy costs a tenth of a tick."""
         self._levels_played = self.level_of.tolist()
         return self._levels_played
 
@@ -140,7 +140,7 @@ class CompiledWorlds(Worlds):
         return record
 
     def _slices(self, ticks: int) -> Iterator[tuple[int, int]]:
-        """First and last tick of each call of a kernel."""
+        """Give the first and last tick of each call of a kernel."""
         for first in range(0, ticks, self._ticks_at_once):
             yield first, min(first + self._ticks_at_once, ticks)
 
@@ -179,7 +179,7 @@ class CompiledWorlds(Worlds):
         return states
 
     def restore_many(self, states: Any, indices: Any, levels: Any) -> None:
-        """A state holds its level's objects."""
+        """Restore worlds. A state holds the objects of its level."""
         self.states[indices], self.level_of[indices], self._event_count[indices] = states, levels, 0
         self._levels_played = []
 
@@ -189,7 +189,7 @@ class CompiledWorlds(Worlds):
 
 
 def compiled_copy(compiled: Compile, worlds: Worlds) -> CompiledWorlds:
-    """Copies of plain worlds, which go on alike: states, levels and events."""
+    """Copy plain worlds with states, levels and events; the copies go on like the originals."""
     copies = CompiledWorlds(compiled, worlds.levels, worlds.count, box=worlds.box)
     copies.load(range(worlds.count), worlds.level_of)
     for index in range(worlds.count):

@@ -1,10 +1,10 @@
-"""Makes compiled twins of rules: the same functions over NumPy records, by Numba.
+"""Makes compiled twins of rules: the same functions over NumPy records, compiled by Numba.
 
-A twin has the code of its rule and a namespace of its own, in which rules are compiled functions and module-level lists
-are constant arrays. So the plain rules stay ordinary Python and both memories run side by side in one process.
+A twin has the code of its rule and its own namespace, in which rules are compiled functions and module-level lists
+constant arrays. So the plain rules stay ordinary Python, and both memories run side by side in one process.
 
-Only kernels get the wrappers that Python needs and a place in the cache; that saves a quarter of the compile time
-and most of the cache.
+Only kernels get the wrappers that Python needs and a place in the cache, which saves a quarter of the compile time and
+most of the cache.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from ninja_game.sim.memory.declare import KERNELS, REGISTERED
 R = TypeVar("R")
 
 AttachCache = Callable[[Any, Callable[..., Any], bool], None]
-"""Gives the compiled twin of a kernel, before its first call, a place in a cache; with whether it is checked."""
+"""Gives a kernel's compiled twin, before its first call, a place in a cache; the flag: indices are checked."""
 
 
 class Compiler:
-    """``compiler(kernel)`` is its compiled twin, which takes the same arguments.
+    """``compiler(kernel)`` gives the compiled twin of a kernel; it takes the same arguments.
 
-    Nothing is compiled before a twin is called for the first time. ``checked``: raise IndexError for an index out of
-    range, which is silent otherwise. ``attach_cache``: see ``AttachCache``. ``pipeline``: the passes, as
-    ``numba_import`` gives them. ``numba``: the module, as ``numba_import`` gives it.
+    A twin is compiled at its first call. ``checked``: an index out of range raises IndexError; otherwise it goes
+    unnoticed. ``attach_cache``: see ``AttachCache``. ``pipeline``: the passes, ``numba``: the module, both from
+    ``numba_import``.
     """
 
     def __init__(
@@ -54,14 +54,14 @@ class Compiler:
         self._namespaces: dict[str, dict[str, Any]] = {}
 
     def __call__(self, entry: Callable[..., R]) -> Callable[..., R]:
-        """The compiled twin of a kernel. Raises TypeError for any other function."""
+        """Give the compiled twin of a kernel. Raises TypeError for any other function."""
         if entry not in KERNELS:
             raise TypeError(f"{entry.__module__}.{entry.__qualname__} is not a kernel")
         twin: Callable[..., R] = self._twin(entry)
         return twin
 
     def _twin(self, rule: Callable[..., Any]) -> Any:
-        """The twin of a registered function; with it come the twins of whatever its module knows."""
+        """Make the twin of a registered function, and the twins of all rules in its module's namespace."""
         if rule not in self._twins:
             namespace = self._namespaces.setdefault(rule.__module__, {"__builtins__": __builtins__})
             twin = FunctionType(rule.__code__, namespace, rule.__name__, rule.__defaults__)
@@ -76,9 +76,9 @@ class Compiler:
         return self._twins[rule]
 
     def _one_for_all_integers(self, compiled: Any) -> Any:
-        """Have a function take any integer as int64: Numba would compile it for each type and each constant again."""
+        """Make a function take any integer as int64: Numba would compile it again for each type and each constant."""
         template, types = getattr(compiled, "get_call_template", None), self._types
-        if template is None:  # private in Numba: without it everything works, but compiling takes longer
+        if template is None:  # private in Numba: without it everything works, but compiles longer
             return compiled
 
         def widened(args: Iterable[Any], names: dict[str, Any]) -> Any:
@@ -92,12 +92,12 @@ class Compiler:
         return compiled
 
     def _fill(self, namespace: dict[str, Any], source: dict[str, Any]) -> None:
-        """Give a namespace what its module has: twins for rules, arrays for lists of numbers, the rest as it is."""
+        """Fill a namespace from its module: twins for rules, arrays for lists of numbers, the rest unchanged."""
         for name, value in source.items():
             if isinstance(value, FunctionType) and value in REGISTERED:
                 namespace[name] = self._twin(value)
             elif isinstance(value, (list, tuple)) and value and {*map(type, value)} <= {int, float}:
-                # A table of numbers, which a rule may index.
+                # A table of numbers, which rules index.
                 namespace[name] = np.array(value)
             elif not name.startswith("__"):
                 namespace[name] = value

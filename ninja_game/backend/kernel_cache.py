@@ -1,11 +1,11 @@
 """The machine code of compiled kernels, kept in files from one process to the next.
 
-A kernel's file is named after a digest of all the code and constants that went into it (``code_digest``), wherever it
-lies: an edit of any rule is another file. Numba's own cache looks at the file of the kernel alone, and falls back
-to folders beside the sources, so it is not used. A release's wheel has kernels for any processor of its family
-(``SHIPPED``), under the names that they have on this machine; where one of these fits, nothing is compiled.
+A kernel's file is named after a digest of all its code and constants (``code_digest``), wherever they are defined:
+after an edit of any rule the name is another. Numba's own cache checks only the file of the kernel itself, and falls
+back to folders beside the sources; so it is not used. A release's wheel has kernels for any processor of its family
+(``SHIPPED``), under the names that they have on this machine; if one of these fits, nothing is compiled.
 
-Two processes that need the same kernel at the same time compile it once: the second one waits and reads the file.
+If two processes need the same kernel, it is compiled once: the second process waits and reads the file.
 """
 
 from __future__ import annotations
@@ -31,26 +31,26 @@ from ninja_game.files.locking import LOCK_SUFFIX, try_lock
 from ninja_game.files.reading import open_regular
 from ninja_game.files.user_folder import PACKAGE, cache_folder, folder_from_variable
 
-SHIPPED = PACKAGE / "data" / "kernels"  # machine code that came with the installation; a checkout has none
+SHIPPED = PACKAGE / "data" / "kernels"  # machine code of the installation; a checkout has none
 
 GENERIC = ("generic", "")
-"""The processor that it is made for, as Numba names one: any of the family, with no features beyond."""
+"""The processor of that code, in Numba's words: any of the family, without extra features."""
 
-MAX_KERNELS = 200  # how many compiled kernels stay in the cache folder: the newest, some ten versions of all
+MAX_KERNELS = 200  # most kernels in the cache folder, the newest ones: some ten versions of all
 
-LOCK_TIMEOUT = 120  # seconds to wait for a process that compiles the same kernel; then this one compiles it too
+LOCK_TIMEOUT = 120  # seconds to wait for a process that compiles the same kernel; then this one compiles it
 
 _KERNEL = re.compile(r"[a-z_]+-[0-9a-f]{32}-[0-9a-f]{16}\.code")
 
 COMPILES_AGAIN = "; it works, but compiles again in the next process"
 
 before_compiling: list[Callable[[], None]] = []
-"""What is called once, before the first kernel that has to be compiled: it takes a while."""
+"""Called once, before the first kernel that has to be compiled, since that takes a while."""
 
 
 @cache
 def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
-    """How the names of a kernel's files begin; Numba is not imported for it."""
+    """Give the beginning of the names of a kernel's files, without importing Numba."""
     from importlib.metadata import version
 
     # Kernels contain no code of NumPy, only the layout of its arrays, which patch releases keep.
@@ -60,7 +60,7 @@ def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
 
 
 def are_cached(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
-    """Whether there is machine code of all these kernels."""
+    """Tell whether all these kernels have machine code in the cache."""
     kept = {
         path.stem.rpartition("-")[0]
         for folder in (SHIPPED, code_folder())
@@ -71,9 +71,9 @@ def are_cached(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
 
 
 def attach_cache(dispatcher: Any, entry: Callable[..., Any], checked: bool) -> None:
-    """Let the machine code of a kernel's twin be read from the cache folder, and written there.
+    """Let the machine code of a kernel's twin be read from and written to the cache folder.
 
-    A Numba without the private parts that this needs works without a cache, which is said once.
+    With a Numba without the private parts that this needs, it warns once, and everything works without a cache.
     """
     from numba.core import codegen, compiler, serialize
 
@@ -89,9 +89,9 @@ def attach_cache(dispatcher: Any, entry: Callable[..., Any], checked: bool) -> N
 
 @cache
 def code_folder() -> Path:
-    """Where machine code is kept: in NUMBA_CACHE_DIR, or else in the user's cache folder.
+    """Give the folder of machine code: NUMBA_CACHE_DIR, or a folder in the user's cache folder.
 
-    Raises FileError where there is none, and for a relative path: what lies in the current folder is never loaded.
+    Raises FileError if there is none, and for a relative path: code in the current folder must never be loaded.
     """
     folder = folder_from_variable("NUMBA_CACHE_DIR", lambda: cache_folder() / "compiled")
     if not folder.is_absolute():
@@ -100,23 +100,23 @@ def code_folder() -> Path:
 
 
 def evict_old_kernels(folder: Path) -> None:
-    """Remove all but the newest kernels of a cache folder; what cannot be removed stays."""
+    """Remove all but the newest kernels of a cache folder, as far as they can be removed."""
     dated = []
     for path in folder.glob("*.code"):
         with suppress(OSError):
-            about = path.lstat()
-            if _KERNEL.fullmatch(path.name) and stat.S_ISREG(about.st_mode):
-                dated.append((about.st_mtime, path))
+            status = path.lstat()
+            if _KERNEL.fullmatch(path.name) and stat.S_ISREG(status.st_mode):
+                dated.append((status.st_mtime, path))
     for _, path in sorted(dated, reverse=True)[MAX_KERNELS:]:
         with suppress(OSError):
             path.unlink()
 
 
 class KernelCache:
-    """The machine code of one kernel in files, one for each signature and processor; what Numba asks of a cache.
+    """The machine code of one kernel in files, one per signature and processor, with the interface of Numba's caches.
 
-    A file holds the digest of what follows, then the code. What cannot be read is compiled; where nothing can be
-    written, that is said once and everything works without a cache.
+    A file holds the digest of the code, then the code. A file that cannot be read is compiled again; if no file can be
+    written, it warns once, and everything works without a cache.
     """
 
     def __init__(self, folder: Path, name: str) -> None:
@@ -126,11 +126,11 @@ class KernelCache:
         self._held: dict[Path, int] = {}
 
     def _file(self, signature: Any, processor: tuple[str, ...]) -> str:
-        about = sha256(f"{signature} {processor}".encode()).hexdigest()
-        return f"{self.name}-{about[:16]}.code"
+        digest = sha256(f"{signature} {processor}".encode()).hexdigest()
+        return f"{self.name}-{digest[:16]}.code"
 
     def load_overload(self, signature: Any, context: Any) -> Any:
-        """The kernel for these types; None if it is not there or damaged, and no other process is making it."""
+        """Load the kernel for these types; None if it is missing or damaged, and no other process is making it."""
         context.refresh()
         system, *processor = context.codegen().magic_tuple()
         path = self.folder / self._file(signature, (system, *processor))
@@ -145,7 +145,7 @@ class KernelCache:
         return code
 
     def _wait(self, path: Path) -> None:
-        """Keep other processes from making a file; where one is making it, wait until it has, or has died."""
+        """Lock a file that this process makes; if another process makes it, wait until it is done, or has died."""
         end = time.monotonic() + LOCK_TIMEOUT
         with suppress(OSError):
             self.folder.mkdir(parents=True, exist_ok=True)
@@ -155,14 +155,14 @@ class KernelCache:
                 self._held[path] = handle
 
     def _release(self, path: Path) -> None:
-        """Let others have a file, whether it was made or not."""
+        """Unlock a file, whether it was made or not."""
         if path in self._held:
             os.close(self._held.pop(path))
             with suppress(OSError):
                 path.with_suffix(LOCK_SUFFIX).unlink(missing_ok=True)
 
     def save_overload(self, signature: Any, result: Any) -> None:
-        """Write a kernel, whole or not at all."""
+        """Write a kernel, completely or not at all."""
         path = self.folder / self._file(signature, result.codegen.magic_tuple())
         try:
             self._write(path, result)
@@ -193,7 +193,7 @@ class KernelCache:
 
 
 def _read(path: Path, context: Any) -> Any:
-    """The kernel in a file; None where there is none, or a damaged one."""
+    """Load the kernel in a file; None if the file is missing or damaged."""
     from numba.core.compiler import CompileResult
 
     rebuild: Any = CompileResult._rebuild  # noqa: SLF001 - as Numba's own caches do

@@ -1,7 +1,7 @@
-"""The kernels of memories: load, step, run and trace worlds without a return to Python each tick.
+"""The kernels of memories: load, step, run and trace worlds without a return to Python in every tick.
 
-These functions take arrays of worlds and an index, never a single record: that is what Numba passes quickly. The plain
-memory calls the same functions with lists. Results go into flat arrays of numbers, which both write quickly.
+They take arrays of worlds and an index, never a single record, since Numba passes arrays quickly. The plain memory
+calls the same functions with lists. Results go into flat arrays of numbers, which both memories write quickly.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ninja_game.sim.traces import is_switched, place_of, status_of
 from ninja_game.sim.world import step
 
 PLACES, NUMBERS = len(TRACED_FLOATS), len(TRACED_INTS)
-"""How many places and numbers a trace has of a tick."""
+"""Numbers of floats and of ints that a trace records per tick."""
 
 
 @kernel
@@ -41,20 +41,20 @@ def load_world(
 
 @kernel
 def step_world(levels: Sequence[TileMap], number: int, worlds: Sequence[World], index: int, keys: int) -> None:
-    """One tick of world ``index`` in level ``number``."""
+    """Run one tick of world ``index`` in level ``number``."""
     step(levels[number], worlds[index], keys)
 
 
 @kernel
 def kill_ninja(worlds: Sequence[World], index: int, cause: int, dx: float, dy: float) -> None:
-    """Kill the ninja where it is, from outside the rules: its time is over, or the player gave up."""
+    """Kill the ninja where it is, for a reason outside the rules: its time is over, or the player gave up."""
     n = worlds[index].ninja
     kill(worlds[index], cause, 0, dx, dy, n.x, n.y)
 
 
 @kernel
 def observe_object(worlds: Sequence[World], index: int, slot: int) -> tuple[int, float, float, int]:
-    """Kind, place (px) and status of an object, as traces show them."""
+    """Give kind, place (px) and status of an object, as traces show them."""
     x, y = place_of(worlds[index], slot)
     return worlds[index].objects[slot].kind, x, y, status_of(worlds[index], slot)
 
@@ -69,10 +69,10 @@ def run_world(
     places: Any,
     states: Any,
 ) -> int:
-    """Run until the tick of the first exit contact or death, or to the end of ``inputs``; the number of ticks run.
+    """Run to the tick of the first exit contact or death, or to the end of ``inputs``; gives the number of ticks run.
 
-    World ``index`` runs in level ``number``.
-    ``places`` (x, y of each tick in turn, px) and ``states`` (one a tick) receive the ninja's after each tick.
+    World ``index`` runs in level ``number``. ``places`` (x, y of each tick in turn, px) and ``states`` (one per tick)
+    receive the ninja's values after each tick.
     """
     level = levels[number]
     w = worlds[index]
@@ -102,12 +102,12 @@ def trace_world(
     switched: Any,
     events: Any,
 ) -> None:
-    """Run all of ``inputs``, whatever happens, and record everything after each tick.
+    """Run all of ``inputs``, also after an exit contact or death, and record everything after each tick.
 
-    World ``index`` runs in level ``number``.
-    ``ninja``: TRACED_FLOATS of each tick in turn; ``numbers``: TRACED_INTS. ``places``: x, y of each object in
-    ``slots``; ``statuses``: one of each; ``switched``: 1 for a door that is not as it began. ``events``:
-    MAX_EVENTS numbers a tick, each event's plus 1, 0 behind the last; nothing is recorded in an empty array.
+    World ``index`` runs in level ``number``. ``ninja``: TRACED_FLOATS of each tick in turn; ``numbers``: TRACED_INTS.
+    ``places``: x, y of each object in ``slots``; ``statuses``: one per object; ``switched``: 1 for a door that is not
+    in its first state. ``events``: MAX_EVENTS numbers per tick, those of the events plus 1, 0 after the last. An empty
+    array records nothing.
     """
     level = levels[number]
     w = worlds[index]
@@ -116,7 +116,7 @@ def trace_world(
     for tick in range(len(inputs)):
         step(level, w, int(inputs[tick]))
         place, fact = PLACES * tick, NUMBERS * tick
-        # In the order of TRACED_FLOATS and of TRACED_INTS.
+        # The order of TRACED_FLOATS and of TRACED_INTS.
         ninja[place] = canonical(n.x)
         ninja[place + 1] = canonical(n.y)
         ninja[place + 2] = canonical(n.prev_x)
@@ -147,10 +147,10 @@ def trace_world(
 def run_worlds(
     levels: Sequence[TileMap], level_of: Any, worlds: Sequence[World], inputs: Any, first: int, last: int, stop: int
 ) -> int:
-    """Run worlds ``first`` … ``last`` - 1, each for all rows of ``inputs`` (ticks x worlds); the number of ticks run.
+    """Run worlds ``first`` … ``last`` - 1 for all rows of ``inputs`` (ticks x worlds); gives the number of ticks run.
 
-    ``level_of``: which level each world plays. ``stop``: leave worlds alone whose exit contact or death has been. World
-    after world, not tick after tick: so a world stays in the processor's cache while its ticks run.
+    ``level_of``: the level of each world. ``stop``: skip worlds after their exit contact or death. The outer loop is
+    over worlds, not over ticks, so that a world stays in the processor's cache while its ticks run.
     """
     ticks = 0
     for index in range(first, last):

@@ -1,8 +1,8 @@
 """The compiled memory: the schema as NumPy records, so that a save-state is one copy of bytes.
 
-Kinds overlap: an object's record has the common header, and behind it every kind's own fields share the same bytes. A
-field that several kinds declare has one place. Offsets are given explicitly; NumPy would lose the alignment of nested
-records otherwise.
+Kinds overlap: an object's record has the common header, then the fields of all kinds in the same bytes. A field that
+several kinds declare has one place. Offsets are given explicitly; NumPy would otherwise lose the alignment of nested
+records.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ninja_game.sim.memory.schema import Event, Ninja, TileMap, World
 
 _SIZES = {"f8": 8, "f4": 4, "i8": 8, "i4": 4, "i2": 2, "u1": 1}
 _REFUSED = set(dir(np.recarray)) | set(dir(np.record))
-"""Names that NumPy's record types answer themselves: such a field would silently read something else."""
+"""Attributes of NumPy's record types: a field with such a name would silently give something else."""
 
 HUGE_PAGE = 1 << 21
 """Bytes of a huge page."""
@@ -28,7 +28,7 @@ Records = NDArray[np.void]
 
 
 def dtype_of(cls: type) -> np.dtype[np.void]:
-    """The record layout of a schema class. Raises TypeError for a field name that NumPy would hide."""
+    """Give the record layout of a schema class. Raises TypeError for a field name that NumPy would hide."""
     fields = fields_of(cls)
     for field in fields:
         if field.name in _REFUSED:
@@ -45,7 +45,7 @@ def dtype_of(cls: type) -> np.dtype[np.void]:
 
 
 def _overlaid(fields: list[Field]) -> np.dtype[np.void]:
-    """The layout of ``Object``: each field at the lowest place that is free in all the kinds that have it."""
+    """Lay out ``Object``: put each field at the lowest place that is free in all kinds that have it."""
     kinds = [{field.name for field in fields_of(base)} for base in Object.__bases__]
     header = {field.name for field in fields_of(Header)}
     taken: list[set[int]] = [set() for _ in kinds]
@@ -65,7 +65,7 @@ def _overlaid(fields: list[Field]) -> np.dtype[np.void]:
 
 
 def _record(fields: list[Field], offsets: list[int], size: int) -> np.dtype[np.void]:
-    """An aligned dtype with given offsets."""
+    """Make an aligned dtype with given offsets."""
     names = [field.name for field in fields]
     formats = [_dtype(field) for field in fields]
     return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": size}, align=True)
@@ -84,7 +84,7 @@ WORLD = dtype_of(World)
 TILE_MAP = dtype_of(TileMap)
 OBJECT = dtype_of(Object)
 STATE_START = WORLD.fields["event_count"][1]  # type: ignore[index]
-"""A save-state leaves out the events, which come first."""
+"""A save-state leaves out the events, which are first."""
 OBJECTS_START = WORLD.fields["objects"][1]  # type: ignore[index]
 
 _set_ninja, _set_event, _set_object = (setter_of(fields_of(cls)) for cls in (Ninja, Event, Object))
@@ -95,20 +95,20 @@ _GET_KIND = {kind.number: getter_of(fields_of(kind.fields)) for kind in KINDS}
 
 
 def used_bytes(objects: int) -> int:
-    """Bytes of a world that are in use when ``objects`` slots are taken (slot 0, nobody, among them)."""
+    """Bytes of a world in use if ``objects`` slots are taken, slot 0 included."""
     return OBJECTS_START + objects * OBJECT.itemsize
 
 
 def new_worlds(count: int, objects: int) -> Records:
-    """``count`` zeroed worlds in one block, each with room for ``objects`` slots, as an array of records.
+    """Make ``count`` zeroed worlds in one block, with room for ``objects`` slots each, as an array of records.
 
-    The records are spaced by what they use, not by the full capacity: the array's stride is smaller than its item.
-    Unused capacity lies in untouched pages at the end of the block. What is used lies in huge pages, if it fills some:
-    a tick meets a handful of places of a world, and small pages would make most of them misses of the address cache.
+    The stride is that of the used bytes, smaller than the item, which has the full capacity. Unused capacity lies in
+    untouched pages at the end of the block. Used bytes lie in huge pages if they fill some: a tick touches a handful of
+    places of a world, and most would miss the address cache with small pages.
     """
     stride = _align(used_bytes(objects), 64)
     size = (count - 1) * stride + max(stride, WORLD.itemsize)
-    # Private: a forked process must not write into the worlds of its parent.
+    # Private: a forked process must not write into its parent's worlds.
     block = mmap.mmap(-1, size, access=mmap.ACCESS_COPY if hasattr(mmap, "MAP_PRIVATE") else mmap.ACCESS_WRITE)
     if hasattr(mmap, "MADV_HUGEPAGE"):
         huge = count * stride // HUGE_PAGE * HUGE_PAGE
@@ -119,7 +119,7 @@ def new_worlds(count: int, objects: int) -> Records:
 
 
 def bytes_of(worlds: Records) -> NDArray[np.uint8]:
-    """The states of worlds as a matrix of bytes, one row per world, without their events; a view.
+    """View the states of worlds, without events, as a matrix of bytes, one row per world.
 
     Save-states and copies between worlds are copies of rows. ``worlds``: an array from ``new_worlds``, not a slice.
     """
@@ -127,7 +127,7 @@ def bytes_of(worlds: Records) -> NDArray[np.uint8]:
 
 
 def plain_copy(worlds: Records, index: int) -> World:
-    """One world of an array as plain objects, for looking at it, digests and comparisons. Its events come along."""
+    """Copy one world of an array, with its events, to plain objects: to read it, hash it or compare it."""
     record = worlds[index]
     w = World()
     for field in fields_of(World):
@@ -145,7 +145,7 @@ def plain_copy(worlds: Records, index: int) -> World:
 
 
 def write_plain(w: World, worlds: Records, index: int) -> None:
-    """Write plain objects into one record of an array: of each object the fields that its kind has."""
+    """Write plain objects into one record of an array: of each object only the fields that its kind has."""
     record = worlds[index]
     for name in _SCALARS:
         record[name] = getattr(w, name)

@@ -1,12 +1,12 @@
-"""Which memory to use, and compiled kernels, each made once per process.
+"""The choice of memory, and compiled kernels, made once per process.
 
-There are two: "plain" (Python objects) and "compiled" (arrays, by Numba). Who asks for "auto" gets the compiled one, as
-far as that is faster: one run of little work, for which loading Numba would take longer, stays on the plain memory.
-Where its kernels are not in the cache yet, any run begins on the plain one, and moves to the compiled one
-(``switch_to_compiled``) once a process in the background has compiled them: the bits are the same. A run that is judged
-follows a ``Plan``, by which compiled code checks each index.
+There are two memories: "plain" (Python objects) and "compiled" (arrays, by Numba). "auto" means the compiled one where
+that is faster: a single short run stays on the plain memory, since loading Numba would take longer than the run. If its
+kernels are not in the cache yet, any run begins on the plain memory, and moves to the compiled one
+(``switch_to_compiled``) once a background process has compiled them: both give the same bits. A run that is judged
+follows a ``Plan``; its compiled code checks indices.
 
-Before the first compiled world of a process is loaded, it is put to the test (``self_test.py``).
+Before the first compiled world of a process is loaded, the memory must pass a test (``self_test.py``).
 """
 
 from __future__ import annotations
@@ -38,16 +38,16 @@ R = TypeVar("R")
 _LOCK = Lock()  # one thread at a time imports Numba and makes twins
 _KERNELS: dict[tuple[Callable[..., Any], bool], Any] = {}
 _FAILURES: list[str] = []
-"""Why the compiled memory cannot be used in this process, once that has been tried."""
+"""Why the compiled memory cannot be used in this process; empty before the first try."""
 _MAX_TICK_COST = in_page_or_not(PAGE_TICK_COST, NO_LIMIT)
 _ALL_CHECKED = os.environ.get("NINJA_GAME_CHECKED") == "1"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """The memory that a run begins in (``first``), and the one it changes to once that pays (``then``).
+    """The memory in which a run begins (``first``), and the one to which it changes once that pays off (``then``).
 
-    ``checked``: compiled code checks each index: one out of range is an IndexError.
+    ``checked``: compiled code checks indices; one out of range raises IndexError.
     """
 
     first: MemoryName
@@ -57,26 +57,26 @@ class Plan:
 
 PLAIN, CHECKED, CHECKED_LATER = Plan("plain", "plain"), Plan("compiled", "compiled"), Plan("plain", "compiled")
 
-_WORK = [0]  # work of all runs of this process that were short enough for the plain memory: PLAIN_WORK at most
+_WORK = [0]  # work of all runs of this process that were short enough for the plain memory; at most PLAIN_WORK
 
 _RUN_KERNELS = {
     False: (load_world, run_world, step_world, observe_object, trace_world, kill_ninja),
     True: (load_world, run_world),
 }
-"""The kernels that a run, or a judged one, may need: it goes on in the compiled memory when all are there."""
+"""The kernels that a run, or a judged run, may need: it moves to the compiled memory when all are there."""
 
 
 class MemoryUnavailableError(NinjaGameError):
-    """The compiled memory was asked for, but Numba is not installed, or its compiler is switched off."""
+    """The compiled memory was asked for, but Numba is not installed, or its compiler is turned off."""
 
 
 def compiled_available() -> bool:
-    """Is Numba installed, with its compiler on? Without it everything works on the plain memory."""
+    """Tell whether Numba is installed, with its compiler on. Without it everything works on the plain memory."""
     return not _FAILURES and find_spec("numba") is not None and os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
 
 
 def choose_memory(memory: str) -> MemoryName:
-    """Turn "plain", "compiled" or "auto" (compiled where available) into one of the first two.
+    """Resolve "plain", "compiled" or "auto" (compiled if available) to one of the first two.
 
     Raises MemoryUnavailableError for "compiled" without Numba, ArgumentError for another word.
     """
@@ -101,17 +101,17 @@ def open_worlds(
     at_once: bool = False,
     ticks: int = MAX_TICKS,
 ) -> Worlds:
-    """``count`` new worlds in one level or several, in a memory as ``choose_memory`` takes it, or by a plan.
+    """Open ``count`` new worlds in one level or several, in a memory as for ``choose_memory``, or by a plan.
 
-    ``at_once``: wait for no compiler; where "auto" would, they are plain, and where so many ``ticks`` are little work.
-    Raises LevelError for a level that cannot be played or is too large for a page, what ``choose_memory`` and
+    ``at_once``: never wait for a compiler; "auto" then gives plain worlds if it would wait, or if ``ticks`` are little
+    work. Raises LevelError for a level that cannot be played or is too large for a page, and what ``choose_memory`` and
     ``compiled`` raise.
     """
     several = [levels] if isinstance(levels, Level | str) else levels
     if _MAX_TICK_COST < NO_LIMIT and (cost := max(map(tick_cost, several), default=0)) > _MAX_TICK_COST:
         found, expected = f"work of {cost:,} a tick", f"at most {_MAX_TICK_COST:,}"
         raise LevelError("too many objects for a page", found=found, expected=expected, hint="play it on a desktop")
-    # The first time this imports Numba, which must come before NumPy.
+    # The first call imports Numba, which must come before NumPy.
     if not isinstance(memory, Plan):
         begins = at_once and memory == "auto"
         begins = begins and prefers_plain(memory, ticks * max(map(tick_cost, several), default=0), now=True)
@@ -124,9 +124,9 @@ def open_worlds(
 
 
 def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False, now: bool = False) -> bool:
-    """Whether a run of so much work begins on the plain memory: it is little, or kernels are still to be compiled.
+    """Tell whether a run begins on the plain memory: it is little ``work``, or kernels are not compiled yet.
 
-    ``now``: it begins now; its work counts, and a process compiles kernels that are missing.
+    ``now``: the run begins now: count its work, and let a process compile missing kernels.
     """
     if memory != "auto" or not compiled_available():
         return False
@@ -146,7 +146,7 @@ def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool =
 
 
 def warm_up() -> bool:
-    """Have a process in the background compile the kernels of a run, where they are still to be compiled."""
+    """Let a background process compile the kernels of a run, if they are not compiled yet."""
     if missing := compiled_available() and not _kernels_ready(checked=False):
         from ninja_game.backend import background_compiler
 
@@ -155,7 +155,7 @@ def warm_up() -> bool:
 
 
 def _kernels_ready(*, checked: bool) -> bool:
-    """Whether the kernels for a run have been made, or are in the cache."""
+    """Tell whether the kernels of a run have been made, or are in the cache."""
     from ninja_game.backend.kernel_cache import are_cached
 
     checked = _ALL_CHECKED or checked
@@ -164,10 +164,10 @@ def _kernels_ready(*, checked: bool) -> bool:
 
 
 def switch_to_compiled(worlds: Worlds, memory: str | Plan, ticks: int) -> Worlds:
-    """Worlds that were opened ``at_once``, or, for so many ticks that it is worth it, copies in the compiled memory.
+    """Give worlds that were opened ``at_once``, or, if ``ticks`` are worth it, copies of them in the compiled memory.
 
-    To be asked between two ticks. While its kernels are being compiled they are the same worlds; where nobody compiles
-    any more, this does. Raises SelfTestError as ``compiled``.
+    Call it between two ticks. While kernels are being compiled it gives the same worlds; if no process compiles them
+    any more, it compiles them itself. Raises SelfTestError as ``compiled`` does.
     """
     plan = memory if isinstance(memory, Plan) else Plan("plain", choose_memory(memory), checked=False)
     small = ticks * max(map(tick_cost, worlds.levels)) <= PLAIN_WORK
@@ -184,7 +184,7 @@ def switch_to_compiled(worlds: Worlds, memory: str | Plan, ticks: int) -> Worlds
 
 
 def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
-    """As ``choose_memory``; the compiled memory is ready then, and "auto" is plain where its Numba does not work."""
+    """Like ``choose_memory``, with the compiled memory made ready; "auto" is plain if its Numba does not work."""
     if choose_memory(memory) == "plain":
         return "plain"
     try:
@@ -200,9 +200,9 @@ def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
 
 
 def proven_memory(memory: str, work: int = NO_LIMIT) -> Plan:
-    """The plan by which a run of so much work is judged, once the known run has come out on its first memory.
+    """Give the plan for a judged run of this much work, after the known run has passed on its first memory.
 
-    Raises SelfTestError where it does not, and what ``choose_memory`` raises.
+    Raises SelfTestError if it does not pass, and what ``choose_memory`` raises.
     """
     begins = prefers_plain(memory, work, checked=True, now=True)
     if not begins and _usable_memory(memory, checked=True) == "compiled":
@@ -217,10 +217,10 @@ def _prove_plain() -> None:
 
 
 def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[..., R]:
-    """The compiled twin of a kernel, which takes the same arguments; any thread may ask.
+    """Give the compiled twin of a kernel, which takes the same arguments. Any thread may call this.
 
-    Raises MemoryUnavailableError without Numba, TypeError for a function that is not a kernel, SelfTestError
-    where compiled worlds are not as they must be.
+    Raises MemoryUnavailableError without Numba, TypeError for a function that is not a kernel, SelfTestError if
+    compiled worlds compute something else.
     """
     checked = checked or _ALL_CHECKED
     kernel: Callable[..., R] | None = _KERNELS.get((entry, checked))
@@ -241,18 +241,18 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
 
 
 def is_compiled(entry: Callable[..., Any]) -> bool:
-    """Whether this process has made the compiled twin of a kernel."""
+    """Tell whether this process has made the compiled twin of a kernel."""
     return (entry, _ALL_CHECKED) in _KERNELS
 
 
 def compiled_if_possible(entry: Callable[..., R]) -> Callable[..., R]:
-    """The compiled twin of a kernel that only takes arrays of numbers; without Numba the function itself."""
+    """Give the compiled twin of a kernel that only takes arrays of numbers; without Numba the function itself."""
     return compiled(entry) if _usable_memory("auto") == "compiled" else entry
 
 
 @cache
 def _compiler(checked: bool) -> Compiler:
-    """One of the two compilers of this process. NINJA_GAME_CHECKED=1 leaves only the one that checks indices."""
+    """Give one of the two compilers of this process. NINJA_GAME_CHECKED=1 leaves only the one that checks indices."""
     choose_memory("compiled")
     from ninja_game.backend.kernel_cache import attach_cache
     from ninja_game.backend.numba_import import import_numba, make_pipeline
@@ -267,6 +267,6 @@ def _compiler(checked: bool) -> Compiler:
 
 
 def _unusable(what: str, error: Exception) -> MemoryUnavailableError:
-    """The error that Numba cannot do this; the compiled memory is not tried again."""
+    """Make the error for a failure of Numba; the compiled memory is not tried again."""
     _FAILURES.append(f"Numba cannot {what} ({type(error).__name__}: {error!s:.200}); install another version")
     return MemoryUnavailableError(f"{_FAILURES[-1]}, or use the plain memory")

@@ -1,12 +1,12 @@
-"""The one place that imports Numba: with the settings of this project, whatever the environment and the folder say.
+"""The only import of Numba, with the settings of this project, whatever the environment and the folder say.
 
-Numba takes settings from variables NUMBA_… and from ``.numba_config.yaml`` in the current folder. Some of them change
-what compiled code computes (the processor's features, the optimizer), others make it fail; so neither reaches it. What
-is honoured is HONOURED, and it is read by us.
+Numba takes settings from variables NUMBA_… and from ``.numba_config.yaml`` in the current folder. Some change what
+compiled code computes (the processor's features, the optimizer), others make it fail. So it gets neither; this module
+reads the variables of HONOURED itself.
 
-Three things lean on private parts of Numba, and can be left out should a new one break them: let ``make_pipeline`` give
-None, and kernels are as fast, but take half as long again to compile; leave out ``_ConfigFinder``, and a file of
-settings in the current folder counts; leave out ``_nrt`` (``code_digest.OPTIONS``), and searches are some 5 % slower.
+Three things use private parts of Numba and can be left out if a new version breaks them. If ``make_pipeline`` gives
+None, kernels are as fast, but take half as long again to compile. Without ``_ConfigFinder``, a file of settings in the
+current folder counts. Without ``_nrt`` (``code_digest.OPTIONS``), searches are some 5 % slower.
 """
 
 from __future__ import annotations
@@ -21,23 +21,23 @@ from typing import Any
 from warnings import catch_warnings, simplefilter
 
 HONOURED = ("NUMBA_CACHE_DIR", "NUMBA_DISABLE_JIT")
-"""Variables of Numba that this program reads: the cache folder, and whether anything is compiled."""
+"""Variables of Numba that this program reads: the cache folder, and whether to compile anything."""
 
 FIXED = {"NUMBA_DEBUGINFO": "0", "NUMBA_ENABLE_PROFILING": "0"}
-"""Settings that would follow from variables of other programs (VS_PROFILER)."""
+"""Settings that variables of other programs (VS_PROFILER) would change."""
 
 _CONFIG, _CONFIG_FILE = "numba.core.config", ".numba_config.yaml"
 _FOREIGN = ("NUMBA_", "NUMPY_", "NPY_", "LLVMLITE_")
 
 
 class _ConfigLoader:
-    """Loads Numba's module of settings with no name of a file in it; ``finds``: the loader that finds its code."""
+    """Loads Numba's module of settings without the name of a file in it; ``finds``: the loader that finds its code."""
 
     def __init__(self, finds: Any) -> None:
         self._finds = finds
 
     def create_module(self, spec: ModuleSpec) -> None:
-        """Give None: Python makes the module itself."""
+        """Give None, so that Python makes the module."""
 
     def exec_module(self, module: ModuleType) -> None:
         code = self._finds.get_code(_CONFIG)
@@ -48,12 +48,12 @@ class _ConfigLoader:
 
 
 class _ConfigFinder:
-    """Finds that module, and no other."""
+    """Finds that module only."""
 
     def find_spec(self, fullname: str, path: Sequence[str] | None, target: Any = None) -> ModuleSpec | None:
         if fullname != _CONFIG:
             return None
-        # A frozen program has a module finder of its own.
+        # A frozen program has its own module finder.
         specs = (finder.find_spec(fullname, path, target) for finder in sys.meta_path if finder is not self)
         spec = next(filter(None, specs), None)
         if spec:
@@ -63,20 +63,20 @@ class _ConfigFinder:
 
 @cache
 def warn_once(message: str) -> None:
-    """Write a line on stderr, the first time only."""
+    """Write a line to stderr, the first time only."""
     sys.stderr.write(f"ninja-game: {message}\n")
 
 
 def remove_foreign_settings() -> None:
-    """Take what NumPy, llvmlite and Numba would read out of the environment, for worker processes too."""
+    """Remove from the environment what NumPy, llvmlite and Numba would read, for worker processes too."""
     for name in [name for name in os.environ if name.startswith(_FOREIGN) and name not in HONOURED]:
         del os.environ[name]
 
 
 def import_numba() -> Any:
-    """Numba, with its settings as they are by default; one thread at a time may call this.
+    """Import Numba with its default settings; only one thread at a time may call this.
 
-    Raises ImportError where Numba was imported before and its settings cannot be set back.
+    Raises ImportError if Numba was imported before and its settings cannot be reset.
     """
     imported_before = "numba" in sys.modules
     remove_foreign_settings()
@@ -95,20 +95,20 @@ def import_numba() -> Any:
         raise ImportError(f"the settings of Numba {numba.__version__} cannot be set back")
     if settings is None:
         return numba
-    # Also if Numba was imported before. The number of threads cannot change then; we do not use it.
+    # This also covers an earlier import of Numba. The number of threads cannot change then; we do not use it.
     settings.process_environ(FIXED | {"NUMBA_NUM_THREADS": config.NUMBA_NUM_THREADS})
-    # Numba asks again before each function that it compiles.
+    # Numba reads the environment again before every function that it compiles.
     settings.update = lambda **_: None
     return numba
 
 
 @cache
 def make_pipeline() -> type | None:
-    """What ``numba.njit`` takes as ``pipeline_class``; None for a Numba without the private parts that this needs.
+    """Make the value of ``numba.njit``'s ``pipeline_class``; None if Numba lacks the private parts that this needs.
 
     Numba makes machine code of every function that it compiles, and optimizes it together with all functions that it
-    calls. Of rules only kernels run, and they hold copies of all others; so the others are left as LLVM's code,
-    which is optimized in the kernel. That saves a third of the time, and the kernels are as fast.
+    calls. Of the rules only kernels run, with copies of all others inside; so the others are left as LLVM's code, which
+    is optimized in the kernel. That saves a third of the time, and the kernels are as fast.
     """
     try:
         return _make_pipeline()
@@ -127,10 +127,10 @@ def _make_pipeline() -> type:
         getattr(library, needed)
 
     class InnerLibrary(library):  # type: ignore[misc, valid-type]
-        """The code of a function that is copied into others and never runs by itself."""
+        """The code of a function that is only copied into others and never runs by itself."""
 
         def _optimize_final_module(self) -> None:
-            """Nothing: it is optimized where it is copied to."""
+            """Do nothing: the code is optimized in the function that it is copied to."""
 
         def _finalize_final_module(self) -> None:
             """Make no machine code of it."""
@@ -139,12 +139,12 @@ def _make_pipeline() -> type:
 
     @register(mutates_CFG=True, analysis_only=False)
     class RuleLowering(lowering):  # type: ignore[misc, valid-type]
-        """Turns a typed function into LLVM's code; a kernel also into machine code."""
+        """Turns a typed function into LLVM's code, and a kernel also into machine code."""
 
         _name = "rule_lowering"
 
         def run_pass(self, state: Any) -> bool:
-            """Only kernels have a wrapper for Python."""
+            """Lower a function; only kernels get a wrapper for Python."""
             if not state.flags.no_cpython_wrapper:
                 return bool(super().run_pass(state))
             state.library = InnerLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
@@ -152,7 +152,7 @@ def _make_pipeline() -> type:
             state.flags.no_compile = True
             super().run_pass(state)
             state.flags.no_compile = False
-            # Each time another built-in function: callers find the library by it.
+            # A new built-in function each time: callers look the library up by it.
             stand_in: Any = [].append
             state.cr = state.cr._replace(cfunc=stand_in)
             state.targetctx.insert_user_function(stand_in, state.cr.fndesc, [state.library])

@@ -1,4 +1,4 @@
-"""The plain memory: worlds of ordinary Python objects. It starts at once, and anybody may look into it."""
+"""The plain memory: worlds of ordinary Python objects. It starts at once, and any code can read its objects."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, TileMap, Worl
 from ninja_game.sim.world import step
 
 PlainState = tuple[tuple[Any, ...], tuple[Any, ...], list[int], list[int], list[tuple[Any, ...]]]
-"""A save-state of a plain world: its scalars, the ninja, cell heads, edges, objects. Never changed once made."""
+"""A save-state of a plain world: scalars, ninja, cell heads, edges, objects. It never changes."""
 
 
 def tile_map(data: Level) -> TileMap:
-    """A level as the rules see it."""
+    """Give a level as the rules read it."""
     level = TileMap()
     level.tiles = grid_tiles(data)
     return level
 
 
 def load_plain(data: Level, box: bool) -> tuple[TileMap, World]:
-    """A level and a new world in it. Raises LevelError as ``object_table`` does."""
+    """Load a level and a new world in it. Raises LevelError as ``object_table`` does."""
     table = object_table(data)
     level = tile_map(data)
     w = World()
@@ -44,13 +44,13 @@ _get_event, _set_event = getter_of(fields_of(Event)), setter_of(fields_of(Event)
 
 
 def save_plain(w: World) -> PlainState:
-    """Everything that changes during a run, but the events of the last tick."""
+    """Save everything that changes during a run, except the events of the last tick."""
     objects = [_get_object(o) for o in w.objects]
     return _get_scalars(w), _get_ninja(w.ninja), w.heads.copy(), w.edges.copy(), objects
 
 
 def restore_plain(w: World, state: PlainState) -> None:
-    """Put a world back to a save-state of the same level."""
+    """Restore a save-state of the same level."""
     scalars, ninja, heads, edges, objects = state
     _set_scalars(w, scalars)
     _set_ninja(w.ninja, ninja)
@@ -113,7 +113,7 @@ class PlainWorlds(Worlds):
         return bytes_of(self.records)
 
     def _show(self, index: int) -> None:
-        """Copy a world into its record, once somebody looks at those."""
+        """Copy a world into its record, if the records are in use."""
         if self._shown is not None:
             from ninja_game.backend.layout import write_plain
 
@@ -177,7 +177,7 @@ class PlainWorlds(Worlds):
         return [save_plain(self.worlds[index]) for index in indices]
 
     def restore_many(self, states: Iterable[PlainState], indices: Iterable[int], levels: Iterable[int]) -> None:
-        """A world of another level is made again."""
+        """Restore worlds. A world is rebuilt if its state is of another level."""
         for state, index, number in zip(states, indices, levels, strict=True):
             if self.level_of[index] != number:
                 self.worlds[index] = load_plain(self.levels[number], self.box)[1]
@@ -193,5 +193,5 @@ class PlainWorlds(Worlds):
 
 
 def _zeros(code: str, count: int) -> array[Any]:
-    """So many zeros of a type, in one buffer."""
+    """Make a buffer of ``count`` zeros of a type."""
     return array(code, bytes(count * array(code).itemsize))

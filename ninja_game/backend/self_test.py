@@ -1,8 +1,8 @@
-"""A known run, on which a memory is put to the test before it judges any.
+"""A known run that a memory must reproduce before it judges other runs.
 
-What computes another one must not judge runs. The arithmetic of a process can be spoiled from outside: by how a
-compiler is set up, by what other code does to the processor's modes, by machine code that is not ours. A level with
-every kind of object and most shapes of tiles, played eight times with other keys, costs some milliseconds and shows it.
+Other software can spoil the arithmetic of a process: by settings of a compiler, by modes of the processor, by foreign
+machine code. A level with every kind of object and most shapes of tiles, played eight times with different keys, shows
+that in some milliseconds.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 
 DIGEST = "a9b523980fd14511af830676f2ff771f63e63377f06c53930c18638b709954e3"
-"""The digest of all runs, on every machine; `python3 tools/dev.py golden` writes it where a rule is meant to change."""
+"""The digest of all runs, on every machine. After a wanted change of a rule `python3 tools/dev.py golden` writes it."""
 
-RUNS = 8  # the last one by the box
-TICKS = 400  # of each, at most
+RUNS = 8  # number of runs; the last one uses the box
+TICKS = 400  # most ticks of a run
 
 _OBJECTS = (
     (5, 132, 156), (0, 468, 516), (0, 588, 180), (0, 228, 156), (1, 540, 396), (1, 636, 372), (1, 204, 204),
@@ -33,7 +33,7 @@ _OBJECTS = (
     (9, 684, 156, 1, 0, 18, 8, 1, 0, 0), (10, 468, 396), (11, 492, 372, 180, 372), (11, 228, 396, 708, 276),
     (12, 396, 228), (12, 228, 84),
 )  # fmt: skip
-"""Kind and values of each."""
+"""Kind and values of the objects."""
 
 
 @cache
@@ -43,24 +43,24 @@ def known_level() -> Level:
 
 
 class SelfTestError(NinjaGameError):
-    """The known run ends otherwise: nothing that this process computes can be trusted."""
+    """The known run ends differently: no result of this process can be trusted."""
 
 
 def check_self_test(open_world: Callable[[Level, bool], Worlds], memory: str) -> None:
-    """Raises SelfTestError unless the known run ends as it must.
+    """Raise SelfTestError unless the known run ends as it must.
 
-    ``open_world``: a new world in a level, with the box or not; ``memory``: what messages call it.
+    ``open_world``: makes a new world in a level, with the box or not; ``memory``: the memory's name in messages.
     """
-    found = self_test_digest(open_world)
-    if found != DIGEST:
+    digest = self_test_digest(open_world)
+    if digest != DIGEST:
         raise SelfTestError(
             f"the {memory} memory does not compute the world of N here, so nothing is judged: a known run gives "
-            f"{found[:12]}…, expected {DIGEST[:12]}…; empty the folder of compiled code, or choose another --memory"
+            f"{digest[:12]}…, expected {DIGEST[:12]}…; empty the folder of compiled code, or choose another --memory"
         )
 
 
 def self_test_digest(open_world: Callable[[Level, bool], Worlds]) -> str:
-    """The digest of the known runs: of the ninja's places, and of all that the worlds show at the end."""
+    """Hash the known runs: the ninja's places, and all that the worlds show at the end."""
     digest = sha256()
     for number in range(RUNS):
         world = open_world(known_level(), number == RUNS - 1)
@@ -71,7 +71,7 @@ def self_test_digest(open_world: Callable[[Level, bool], Worlds]) -> str:
 
 
 def known_keys(number: int) -> bytes:
-    """The keys of a run: all sorts, each held for 1 to 20 ticks."""
+    """Make the keys of a run: all combinations, each held for 1 to 20 ticks."""
     keys = bytearray()
     while len(keys) < TICKS:
         number = (number * 1103515245 + 12345) % 2**31

@@ -1,4 +1,4 @@
-"""What the plain and the compiled memory have in common: worlds in levels, one or thousands."""
+"""The common interface of the plain and the compiled memory: worlds in levels, one or thousands."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ class RunPath(NamedTuple):
 
 TRACED_FLOATS = ("x", "y", "prev_x", "prev_y", "wall_x", "floor_x", "floor_y")
 TRACED_INTS = ("state", "gold", "jump_timer", "in_air", "near_wall", "floor_contacts", "outcome")
-"""What a trace records of the ninja and the run: the schema's fields, seven of each sort.
+"""The fields of the ninja and the run that a trace records, seven floats and seven ints.
 
 ``trace_world`` writes them in this order.
 """
 
 
 class TraceArrays(NamedTuple):
-    """What a trace recorded, in flat buffers as ``trace_world`` has them.
+    """The recording of a trace, in flat buffers as ``trace_world`` fills them.
 
     ``ninja``, ``places``: float64; ``numbers``, ``statuses``: int32; ``switched``, ``events``: uint8.
     """
@@ -46,14 +46,14 @@ class TraceArrays(NamedTuple):
 
 
 class Worlds(ABC):
-    """``count`` worlds in some levels, world i at first in level i modulo the number of levels.
+    """``count`` worlds in some levels; at first world i is in level i modulo the number of levels.
 
-    Methods of a single world take its ``index``; those of several take ``indices``, an array or list of which.
-    ``name``: "plain" or "compiled". ``level_of`` (count,): which of ``levels`` each world plays, a buffer to be read.
-    ``maps``, ``worlds``, ``fresh``: the levels, the worlds, and a new world in each level, which nobody changes, as
-    kernels take them: arrays of records, or lists of plain objects.
+    Methods of a single world take its ``index``, those of several worlds ``indices``, an array or list. ``name``:
+    "plain" or "compiled". ``level_of`` (count,): the level of each world, as a buffer to be read. ``maps``, ``worlds``,
+    ``fresh``: the levels, the worlds, and a new world per level, which must never change, as kernels take them: arrays
+    of records, or lists of plain objects.
 
-    Copies and pickles are worlds of their own: equal, events and all, and going on alike.
+    Copies and pickles are independent worlds: equal, with their events, and going on alike.
     """
 
     name: MemoryName
@@ -75,13 +75,13 @@ class Worlds(ABC):
 
     @abstractmethod
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:
-        """The form of a kernel that takes maps and worlds: its compiled twin, or itself."""
+        """Give the form of a kernel that takes maps and worlds: its compiled twin, or itself."""
 
     # --- one world ---
 
     @abstractmethod
     def number(self, field: str, index: int = 0) -> int:
-        """A number of a world, by its field in the schema: tick, outcome, gold or id_count."""
+        """Give a number of a world by its name in the schema: tick, outcome, gold or id_count."""
 
     def tick(self, index: int = 0) -> int:
         """Ticks run."""
@@ -97,11 +97,11 @@ class Worlds(ABC):
 
     @abstractmethod
     def jump_held(self, index: int = 0) -> int:
-        """Whether the jump key was down in the last sampled tick."""
+        """Whether the jump key was down in the last tick that read the keys."""
 
     @abstractmethod
     def step(self, keys: int, index: int = 0) -> None:
-        """One tick. ``keys``: a sum of ``Input`` flags, not checked."""
+        """Run one tick. ``keys``: a sum of ``Input`` flags, not checked."""
 
     @abstractmethod
     def kill(self, cause: int, dx: float, dy: float, index: int = 0) -> None:
@@ -109,53 +109,53 @@ class Worlds(ABC):
 
     @abstractmethod
     def run(self, inputs: bytes, index: int = 0) -> RunPath:
-        """Run until the tick of the first exit contact or death, or to the end of ``inputs``."""
+        """Run to the tick of the first exit contact or death, or to the end of ``inputs``."""
 
     @abstractmethod
     def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool, index: int = 0) -> TraceArrays:
-        """Run all of ``inputs`` and record the ninja, the objects in ``slots`` and, if asked for, the events."""
+        """Run all of ``inputs`` and record the ninja, the objects in ``slots`` and, on request, the events."""
 
     @abstractmethod
     def save(self, index: int = 0) -> Any:
-        """The state, unchanged by what happens later; without the events of the last tick."""
+        """Save the state, without the events of the last tick; later ticks do not change it."""
 
     @abstractmethod
     def restore(self, state: Any, index: int = 0) -> None:
-        """Go back to a state that ``save`` gave in the same level; nothing has happened in its last tick."""
+        """Restore a state that ``save`` gave in the same level; afterwards there are no events."""
 
     @abstractmethod
     def ninja(self, index: int = 0) -> Any:
-        """The ninja, with the fields of the schema; to be read at once, it may change with the next tick."""
+        """The ninja, with the fields of the schema. Read it at once: the next tick may change it."""
 
     @abstractmethod
     def events(self, index: int = 0) -> Sequence[Any]:
-        """The events of the last tick, with the fields of the schema; to be read at once."""
+        """The events of the last tick, with the fields of the schema. Read them at once."""
 
     @abstractmethod
     def objects(self, index: int = 0) -> Sequence[Any]:
-        """The objects by slot, with the fields of the schema; to be read at once."""
+        """The objects by slot, with the fields of the schema. Read them at once."""
 
     @abstractmethod
     def observe(self, slot: int, index: int = 0) -> tuple[int, float, float, int]:
-        """Kind, x, y (px) and status of the object in a slot, as traces show them."""
+        """Give kind, x, y (px) and status of the object in a slot, as traces show them."""
 
     @abstractmethod
     def world(self, index: int = 0) -> World:
-        """The whole state as plain objects: of the plain memory the world itself, of the compiled one a copy."""
+        """The whole state as plain objects: in the plain memory the world itself, in the compiled one a copy."""
 
     # --- several worlds ---
 
     @abstractmethod
     def load(self, indices: Any, levels: Any) -> None:
-        """Start worlds afresh, each in the level of that number."""
+        """Start worlds afresh, in the levels of these numbers."""
 
     @abstractmethod
     def save_many(self, indices: Any) -> Any:
-        """The states of worlds, unchanged by what happens later; without events."""
+        """Save the states of worlds, without events; later ticks do not change them."""
 
     @abstractmethod
     def restore_many(self, states: Any, indices: Any, levels: Any) -> None:
-        """Put worlds back to states that ``save_many`` gave for as many, in the levels that those had."""
+        """Restore states that ``save_many`` gave for as many worlds, in the levels that these had."""
 
     @abstractmethod
     def run_batch(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:

@@ -1,1 +1,1 @@
-"""Many worlds stepped at once."""
+"""Many worlds in one block of memory, stepped together."""

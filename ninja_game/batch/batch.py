@@ -46,15 +46,15 @@ __all__ = ["OBJECT_FIELDS", "OUTCOME_NAMES", "Batch", "BatchState"]
 Indices = NDArray[np.intp]  # indices of worlds or levels
 
 WorldChoice: TypeAlias = int | slice | Sequence[int] | Sequence[bool] | NDArray[np.intp] | NDArray[np.bool_] | None
-"""Worlds: by number, a slice of numbers, or one truth value for each world; None: all of them."""
+"""Worlds: by number, a slice of numbers, or one truth value per world; None: all of them."""
 
 OBJECT_FIELDS = {kind.name: tuple(field.name for field in fields_of(kind.fields)) for kind in KINDS}
-"""Which fields of ``Batch.objects`` mean something, by the name of the kind; kinds share memory for the others."""
+"""The fields of ``Batch.objects`` that a kind has, by its name; the other fields hold data of other kinds."""
 
 
 @dataclass(frozen=True, eq=False)
 class BatchState:
-    """Saved worlds of a batch: only good for batches of equal levels, body and memory. ``levels``: their levels."""
+    """Saved worlds, for batches of equal levels, body and memory. ``levels``: their levels."""
 
     levels: Indices
     states: Any = field(repr=False)
@@ -64,8 +64,8 @@ class BatchState:
 class Batch:
     """``count`` worlds, world i in level i modulo the number of levels.
 
-    ``levels``: what to play, one level or several. ``memory``: "compiled", "plain" (slow, needs no Numba) or "auto".
-    ``threads``: how many may run at once, by default as many as there are cores; results never depend on it.
+    ``levels``: one level or several. ``memory``: "compiled", "plain" (slow, needs no Numba) or "auto". ``threads``:
+    most threads at once, by default one per core; results never depend on it.
 
     Observations are read-only views, not copies: they show the worlds as they are now. Shapes, dtypes, units:
 
@@ -137,24 +137,24 @@ class Batch:
         self.places = pairs(self.objects["x"])
 
     def velocities(self) -> NDArray[np.float64]:
-        """Velocities of the ninjas, (count, 2), px/tick: a new array."""
+        """Velocities of the ninjas, (count, 2), px/tick, as a new array."""
         return np.subtract(self.positions, self.previous)
 
     # --- time ---
 
     def step(self, inputs: ArrayLike, *, press: bool = False) -> None:
-        """One tick of every world; ``inputs`` (count,): a sum of ``Input`` flags for each (``press``: as in run)."""
+        """Run one tick of every world; ``inputs`` (count,): sums of ``Input`` flags (``press``: as in ``run``)."""
         row = np.asarray(inputs)
         if row.shape != (self.count,):
             raise ArgumentError(f"inputs are of shape {row.shape}; expected ({self.count},), the keys of each world")
         self.run(row[np.newaxis], press=press)
 
     def run(self, inputs: ArrayLike, *, stop: bool = False, press: bool = False) -> int:
-        """Many ticks of every world, ``inputs`` (ticks, count); the number of ticks run, over all worlds.
+        """Run many ticks of every world, ``inputs`` (ticks, count); gives the number of ticks run, over all worlds.
 
-        ``stop``: worlds whose exit contact or death has been stand still; else they go on, as single worlds do.
-        ``press``: jump is pressed, as at a keyboard, where it is held and was not in the tick before; else a jump needs
-        both ``Input.JUMP_HELD`` and ``Input.JUMP_PRESSED``. Raises ArgumentError for other shapes and other numbers.
+        ``stop``: a world stops after its exit contact or death; else it goes on, as single worlds do. ``press``: jump
+        is pressed, as on a keyboard, in a tick in which it is held and was not held before; else a jump needs both
+        ``Input.JUMP_HELD`` and ``Input.JUMP_PRESSED``. Raises ArgumentError for other shapes and other numbers.
         """
         rows = np.asarray(inputs)
         if (
@@ -166,11 +166,11 @@ class Batch:
             raise ArgumentError(f"inputs are {found}; expected integers, {self.count} a tick")
         if rows.size and not 0 <= rows.min() <= rows.max() <= ALL_KEYS:
             raise ArgumentError(f"inputs are {rows.min()} to {rows.max()}; expected sums of Input, 0 to {ALL_KEYS}")
-        # Writable, since a kernel is compiled again for arrays that can only be read.
+        # Writable, since Numba would compile a kernel again for read-only arrays.
         keys = np.require(rows, np.uint8, ["C", "W"])
         keys = self._pressed(keys) if press else keys
         worlds, ticks = self._worlds, 0
-        # Python threads share one lock; and Ctrl-C is handled only between two calls of a kernel.
+        # Python threads share one lock, so the plain memory uses one; Ctrl-C is only handled between kernel calls.
         pool = thread_pool(self.threads if self.memory == "compiled" else 1)
         at_once = max(1, 8 * SLICE // (worlds.slots * self.count))
         for begin in range(0, len(keys), at_once):
@@ -180,7 +180,7 @@ class Batch:
         return ticks
 
     def _pressed(self, keys: Keys) -> Keys:
-        """The keys with JUMP_PRESSED in every tick in which the jump key goes down, and in no other."""
+        """Set JUMP_PRESSED in every tick in which the jump key goes down, and clear it in all others."""
         held = keys & JUMP_HELD
         before = np.vstack([self.records["ninja"]["jump_held"].astype(np.uint8) * JUMP_HELD, held[:-1]])
         pressed: NDArray[np.uint8] = np.where(held > before, np.uint8(JUMP_PRESSED), np.uint8(0))
@@ -189,7 +189,7 @@ class Batch:
     # --- single worlds ---
 
     def reset(self, worlds: WorldChoice = None, levels: WorldChoice = None) -> None:
-        """Start worlds afresh, in the levels that they have or in those given."""
+        """Start worlds afresh, in their present levels or in the given ones."""
         numbers = numbers_of(worlds, self.count, "worlds")
         chosen = self.levels_now[numbers] if levels is None else numbers_of(levels, len(self.levels), "levels")
         if len(chosen) not in (1, len(numbers)):
@@ -197,31 +197,31 @@ class Batch:
         self._worlds.load(numbers.tolist(), np.broadcast_to(chosen, numbers.shape).tolist())
 
     def save(self, worlds: WorldChoice = None) -> BatchState:
-        """The states of worlds, to come back to."""
+        """Save the states of worlds, for ``restore``."""
         numbers = numbers_of(worlds, self.count, "worlds")
         return BatchState(self.levels_now[numbers], self._worlds.save_many(numbers), self._owner())
 
     def restore(self, state: BatchState, worlds: WorldChoice = None) -> None:
-        """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit."""
+        """Put as many saved states into worlds, the same or others. Raises ArgumentError if they do not fit."""
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):
             raise ArgumentError(f"{len(state.levels)} saved worlds do not fit {len(numbers)} of this batch")
         self._worlds.restore_many(state.states, numbers, state.levels)
 
     def copy(self, sources: WorldChoice, targets: WorldChoice) -> None:
-        """Make worlds ``targets`` what worlds ``sources`` are, as many."""
+        """Copy the states of worlds ``sources`` into as many worlds ``targets``."""
         self.restore(self.save(sources), targets)
 
     def world(self, index: int) -> World:
-        """One world as plain objects, for looking at it."""
+        """Copy one world to plain objects, to read its fields."""
         return self._worlds.world(index)
 
     def digest(self, index: int) -> str:
-        """Sha256 (hex) of one world in canonical form, as ``Simulation.digest``."""
+        """Give the sha256 (hex) of one world in canonical form, as ``Simulation.digest``."""
         return world_digest(self.world(index))
 
     def state_digests(self, worlds: WorldChoice = None) -> list[str]:
-        """The sha256 (hex) of each world's state (``state_digest``), computed once for equal worlds."""
+        """Give the sha256 (hex) of the worlds' states (``state_digest``), computed once for equal worlds."""
         known: dict[bytes, str] = {}
         digests = []
         for index in numbers_of(worlds, self.count, "worlds").tolist():
@@ -236,7 +236,7 @@ class Batch:
 
 
 def numbers_of(choice: WorldChoice, count: int, what: str) -> Indices:
-    """Chosen indices below ``count``, intp. Raises ArgumentError for an invalid choice."""
+    """Give the chosen indices below ``count``, intp. Raises ArgumentError for an invalid choice."""
     everyone = np.arange(count, dtype=np.intp)
     if choice is None:
         return everyone
@@ -256,5 +256,5 @@ def numbers_of(choice: WorldChoice, count: int, what: str) -> Indices:
 
 
 def pairs(first: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A view of the numbers and of those that lie 8 bytes behind them in memory: x and y."""
+    """View these numbers and those 8 bytes behind them in memory, as pairs: x and y."""
     return np.lib.stride_tricks.as_strided(first, (*first.shape, 2), (*first.strides, 8), writeable=False)

@@ -1,4 +1,4 @@
-"""How hard a level is: a number from play by noisy versions of a run through it (docs/making-levels.md)."""
+"""The difficulty of a level, measured by playing noisy versions of a run through it (docs/making-levels.md)."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_RUNNING
 
-SPACING = TICKS_PER_SECOND  # ticks between the save-states from which the tries begin
+SPACING = TICKS_PER_SECOND  # ticks between the save-states from which tries begin
 LENGTH = 3 * TICKS_PER_SECOND // 2  # ticks of a try
-SHIFT = 3  # ticks by which a key may come early or late
+SHIFT = 3  # most ticks by which a key comes early or late
 TRIES = 256  # tries from each save-state
-LOST = 3 * CELL  # px from the run beyond which a try counts as failed although the ninja lives
+LOST = 3 * CELL  # px from the run beyond which a try counts as lost although the ninja lives
 LOST_WEIGHT = 0.25
-"""What a try that has lost the run counts for, a death being 1: mostly it only costs time. Not tuned: a guess."""
+"""Weight of a try that has lost the run; a death has 1. Such a try mostly just takes longer. Not tuned: a guess."""
 
 
 def difficulty(level: Level, inputs: bytes, *, seed: int = 0, tries: int = TRIES, memory: str = "auto") -> float:
-    """The number for a level and a run to its exit, ``inputs`` one byte per tick; 0 where nothing can go wrong.
+    """Measure a level by a run to its exit, ``inputs`` one byte per tick; 0 if nothing can go wrong.
 
-    From a save-state in every second of the run ``tries`` tries go on for a second and a half with the run's keys, each
-    press and release of which comes up to ``SHIFT`` ticks early or late. A second fails by its share of deaths, and by
-    a quarter of the share that ends ``LOST`` px or more from the run. The number is -log2 of the chance that no second
-    fails: 3 means that one try in eight goes through, if each second begins on the run. The same seed gives the same
-    number, on both memories.
+    Save-states are taken in every second of the run. From each, ``tries`` tries go on for a second and a half with the
+    run's keys, but presses and releases come up to ``SHIFT`` ticks early or late. The chance to fail in a second is the
+    share of deaths plus a quarter of the share that ends ``LOST`` px or more from the run. The difficulty is -log2 of
+    the chance to fail in no second: 3 means that one try in eight gets through, if it begins every second on the run.
+    The same seed gives the same number, on both memories.
     """
     rng = np.random.default_rng(seed)
     batch = Batch(level, 1 + tries, memory=memory)
@@ -49,7 +49,7 @@ def difficulty(level: Level, inputs: bytes, *, seed: int = 0, tries: int = TRIES
 
 
 def _failing(batch: Batch, noisy: slice) -> float:
-    """The share of tries that fail, never quite 1."""
+    """Give the share of tries that fail, always below 1."""
     dead = batch.outcomes[noisy] == OUTCOME_DEAD
     away = np.abs(batch.positions[noisy] - batch.positions[0]).max(axis=1) >= LOST
     lost = (batch.outcomes[noisy] == OUTCOME_RUNNING) & away
@@ -58,7 +58,7 @@ def _failing(batch: Batch, noisy: slice) -> float:
 
 
 def _shifted(inputs: bytes, start: int, tries: int, rng: np.random.Generator) -> NDArray[np.uint8]:
-    """The keys of ``tries`` tries from a tick on, (LENGTH, tries), each change of a key shifted."""
+    """Give the keys of ``tries`` tries from a tick on, (LENGTH, tries), with every change of a key shifted."""
     ticks = np.arange(LENGTH)[:, np.newaxis]
     keys = np.zeros((LENGTH, tries), np.uint8)
     for key in (KEY_LEFT, KEY_RIGHT, JUMP_HELD):
@@ -68,7 +68,7 @@ def _shifted(inputs: bytes, start: int, tries: int, rng: np.random.Generator) ->
         for tick in range(start, min(start + LENGTH + SHIFT, len(inputs))):
             if bool(inputs[tick] & key) != held:
                 held = not held
-                # Changes of a key keep their order, whatever the shifts are.
+                # Shifts never reorder the changes of a key.
                 before = np.maximum(before, tick - start + rng.integers(-SHIFT, SHIFT, tries, endpoint=True))
                 down = np.where(ticks >= before, held, down)
         keys |= np.where(down, np.uint8(key), np.uint8(0))

@@ -1,7 +1,7 @@
-"""Threads that share out a range of work, for compiled code that runs without the interpreter's lock.
+"""Threads that share a range of work, for compiled code that runs without the interpreter's lock.
 
-Chunks are handed out one by one, so that a thread that wakes late, or has slow worlds, takes fewer of them. A call
-costs some ten microseconds; `concurrent.futures` costs several times that.
+A thread takes one chunk at a time, so a thread that wakes late or has slow worlds takes fewer. A call costs some ten
+microseconds; `concurrent.futures` costs several times that.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ Work: TypeAlias = Callable[[int, int], int]  # processes items first … last - 
 
 CHUNKS_PER_THREAD = 8
 SMALL_CHUNK = 2048
-"""Least ticks of a chunk, unless each thread gets only one: handing out a chunk costs its thread a wait."""
+"""Least ticks of a chunk, unless a thread gets only one: a thread waits when it takes a chunk."""
 
-HEAD_START = 128  # ticks that the caller does while the others wake up
+HEAD_START = 128  # ticks that the caller runs while the others wake up
 
 TOO_SMALL = 800  # ticks that are not worth waking another thread for: about 80 us
 
 
 def chunks(count: int, ticks: int, threads: int) -> list[tuple[int, int]]:
-    """Items 0 … ``count`` - 1, of ``ticks`` each, cut into ranges, in the order in which threads should take them."""
+    """Cut items 0 … ``count`` - 1, of ``ticks`` each, into ranges, in the order in which threads should take them."""
     small = -(-SMALL_CHUNK // max(ticks, 1))
     if threads == 1 or count * ticks < TOO_SMALL:
         return [(0, count)]
@@ -43,7 +43,7 @@ def chunks(count: int, ticks: int, threads: int) -> list[tuple[int, int]]:
 
 
 def whole_number(name: str, number: object, least: int = 1, most: int = 2**63 - 1) -> int:
-    """A number as Python's own. Raises ArgumentError for anything but a whole number of that range."""
+    """Give a number as a Python int. Raises ArgumentError for anything but a whole number of that range."""
     if isinstance(number, bool) or not isinstance(number, SupportsIndex) or not least <= index(number) <= most:
         expected = f"at least {least}" if most == 2**63 - 1 else f"{least} to {most}"
         raise ArgumentError(f"{name} is {number!r:.60}; expected a whole number, {expected}")
@@ -51,22 +51,22 @@ def whole_number(name: str, number: object, least: int = 1, most: int = 2**63 - 
 
 
 def thread_count(threads: int | None) -> int:
-    """The number of threads; None: as many as cores."""
+    """Give the number of threads; None: one per core."""
     return cores() if threads is None else whole_number("threads", threads)
 
 
 class _ParallelCall:
-    """One call of ``ThreadPool.share``: whoever is free takes the next range."""
+    """One call of ``ThreadPool.share``: a free thread takes the next range."""
 
     def __init__(self, work: Work, ranges: list[tuple[int, int]]) -> None:
         self.work = work
         self.count = len(ranges)
-        # A built-in iterator hands out its next item under the interpreter's lock: to one thread only.
+        # A built-in iterator gives an item to one thread only: next() holds the interpreter's lock.
         self.ranges: Iterator[tuple[int, int]] = iter(ranges)
         self.done: SimpleQueue[tuple[int, int] | BaseException] = SimpleQueue()
 
     def run(self) -> None:
-        """Take ranges until there are none left; report how many they were and the sum of what the work returns."""
+        """Take ranges until none is left; report their number and the sum of the results of the work."""
         ranges = total = 0
         try:
             for first, last in self.ranges:
@@ -98,9 +98,9 @@ class ThreadPool:
             Thread(target=_serve, args=(queue,), name="ninja-game worker", daemon=True).start()
 
     def share(self, work: Work, count: int, ticks: int = SMALL_CHUNK) -> int:
-        """Do items 0 … ``count`` - 1, of ``ticks`` each, on all threads; the sum of what ``work`` returns.
+        """Do items 0 … ``count`` - 1, of ``ticks`` each, on all threads; gives the sum of the results of ``work``.
 
-        The first exception of ``work`` is raised.
+        Raises the first exception of ``work``.
         """
         ranges = chunks(count, ticks, self.threads) if self.threads > 1 else []
         if len(ranges) <= 1:

@@ -1,1 +1,1 @@
-"""Text in and out: ASCII levels, N level strings and level files, demos, replays."""
+"""Readers and writers of text: ASCII levels, N level strings and level files, demos, replays."""

@@ -1,4 +1,4 @@
-"""Links that carry everything: a level, a pack or replays as compressed text behind the # of an address.
+"""Links that contain a whole level, pack or replays as compressed text after the # of an address.
 
 ``#level=1.…``, ``#pack=1.…``, ``#replay=1.…`` (`docs/links.md`).
 """
@@ -38,33 +38,33 @@ LinkKind = Literal["level", "pack", "replay"]
 LINK_KINDS: tuple[LinkKind, ...] = ("level", "pack", "replay")
 
 VERSION = 1
-"""Raw deflate (RFC 1951) of the text in UTF-8 behind four bytes of CRC-32, in base64url without padding."""
+"""The format: four bytes of CRC-32, then the raw deflate (RFC 1951) of the UTF-8 text, in base64url without padding."""
 
 MAX_CHARACTERS = 2 * 2**20  # length of a link: what browsers take
 
 MAX_BYTES = 4 * 2**20  # size of its text when unpacked
 
-MAX_TEXTS = 9  # in a link of replays: the watched one, and as many ghosts as the viewer shows
+MAX_TEXTS = 9  # most texts in a link of replays: the watched one, and as many ghosts as the viewer shows
 
 _PART = re.compile(r"(level|pack|replay)=([0-9]{1,4})\.([A-Za-z0-9_-]*)")
 _STEM = re.compile(r"([0-9a-f]{16})(?:-([0-9]))?")
 _ADDRESS = re.compile(r"[a-z]{2}:/", re.IGNORECASE)
 _AROUND = "\0 \t\r\n.,;:!?)>]}\"'"
-"""Characters that people and programs write behind a link."""
+"""Characters that people and programs write after a link."""
 
 
 @dataclass(frozen=True)
 class Link:
-    """The content of a link: one text, or several of replays, as untrusted as any file."""
+    """The content of a link: one text, or several of replays. Trust it as little as any file."""
 
     kind: LinkKind
     texts: tuple[str, ...]
 
 
 def link_kind(text: str | Path) -> LinkKind | None:
-    """The kind of link that a text, or a path made of it, looks like, sound or broken; None for any other text.
+    """Tell which kind of link a text, or a path made of it, looks like, valid or not; None for any other text.
 
-    A link begins with its # or holds an address before it: a file may have any other name.
+    A link begins with its #, or with an address before it; a file may have any other name.
 
     >>> link_kind("https://example.org/game/#pack=1.abc"), link_kind("levels/a#level=1.txt")
     ('pack', None)
@@ -77,12 +77,12 @@ def link_kind(text: str | Path) -> LinkKind | None:
 
 
 def is_link(text: str | Path) -> bool:
-    """Whether a text, or a path made of it, looks like one of our links."""
+    """Tell whether a text, or a path made of it, looks like a link of this project."""
     return link_kind(text) is not None
 
 
 def write_link(kind: LinkKind, texts: Sequence[str]) -> str:
-    """The fragment, from the # on. Raises LinkError for more than a link can carry.
+    """Give the fragment, from the # on. Raises LinkError for more than a link can hold.
 
     >>> write_link("level", ["a text"])
     '#level=1.qWQqg0tUKEmtKAEA'
@@ -105,10 +105,10 @@ def _packed(text: str) -> str:
 
 
 def read_link(text: str | Path) -> Link:
-    """The content of a link; text before its # is ignored, and so are blanks and line breaks in it.
+    """Read a link; text before its # is ignored, and so are blanks and line breaks in it.
 
-    Raises LinkError for anything that is not a whole and sound link, FileError for what is not text, in a time and
-    memory that its length bounds.
+    Raises LinkError for anything but a complete and valid link, FileError for content that is not text. The length of
+    the link limits time and memory.
 
     >>> read_link("https://example.org/#level=1.qWQqg0tUKEmtKAEA")
     Link(kind='level', texts=('a text',))
@@ -118,11 +118,11 @@ def read_link(text: str | Path) -> Link:
         raise LinkError("the link is too long", LINK, expected=f"at most {MAX_CHARACTERS:,} characters")
     _, mark, fragment = "".join(whole.split()).strip(_AROUND).partition("#")
     parts = unquote(fragment).split("&")
-    found = [_PART.fullmatch(part) for part in parts[: MAX_TEXTS + 1]]
-    if not mark or None in found:
+    candidates = [_PART.fullmatch(part) for part in parts[: MAX_TEXTS + 1]]
+    if not mark or None in candidates:
         hint = "copy it again, whole"
         raise LinkError("not a link of a level, pack or replay", LINK, found=repr(fragment[:40]), hint=hint)
-    matches = [match for match in found if match]
+    matches = [match for match in candidates if match]
     kind = next(kind for kind in LINK_KINDS if kind == matches[0][1])
     if len(matches) > (MAX_TEXTS if kind == "replay" else 1) or any(match[1] != kind for match in matches):
         raise LinkError("a link of too many things", LINK, expected=f"a level, a pack, or up to {MAX_TEXTS} replays")
@@ -138,7 +138,7 @@ def read_link(text: str | Path) -> Link:
 
 
 def _unpacked(packed: str, most: int) -> str:
-    """The text in the characters of a link, of ``most`` bytes at most. Raises LinkError."""
+    """Unpack the characters of a link to a text of at most ``most`` bytes. Raises LinkError."""
     hint = "it was truncated or changed on the way: copy all of it again"
     try:
         data = urlsafe_b64decode(packed + "=" * (-len(packed) % 4))
@@ -154,7 +154,7 @@ def _unpacked(packed: str, most: int) -> str:
 
 
 def write_watch(files: Sequence[str]) -> str:
-    """The fragment that lets a page beside the folder ``replays`` watch these files of it, by their names' stems.
+    """The fragment with which a page beside the folder ``replays`` shows these files of it, named without suffix.
 
     >>> write_watch(["0123456789abcdef"])
     '#watch=0123456789abcdef'
@@ -163,9 +163,9 @@ def write_watch(files: Sequence[str]) -> str:
 
 
 def watched(fragment: str) -> list[str]:
-    """The files that a fragment of ``write_watch`` names, relative to the page; none for any other fragment.
+    """The files that a fragment of ``write_watch`` names, relative to the page; empty for any other fragment.
 
-    Raises LinkError for names that the board does not give: nothing else is ever fetched.
+    Raises LinkError for names that no board gives, so that a page fetches nothing else.
 
     >>> watched("#watch=0123456789abcdef")
     ['replays/0123456789abcdef.txt']
@@ -178,7 +178,7 @@ def watched(fragment: str) -> list[str]:
 
 
 def watched_colours(fragment: str) -> list[int]:
-    """The numbers of the runs' colours in a picture that a fragment of ``watched`` may have, one for each run.
+    """The numbers of the runs' colours, which a fragment of ``watched`` may have, one per run.
 
     >>> watched_colours("#watch=0123456789abcdef-2,fedcba9876543210-0"), watched_colours("#watch=0123456789abcdef")
     ([2, 0], [])
@@ -186,20 +186,20 @@ def watched_colours(fragment: str) -> list[int]:
     return [int(match[2]) for match in _STEM.finditer(fragment) if match[2]]
 
 
-_NAME_LIMIT = 100  # characters of the name of a file in a pack
+_NAME_LIMIT = 100  # most characters of the name of a file in a pack
 _LEFT_OUT = re.compile(r"^(?:waypoints|level-data):\n(?:(?: .*)?\n)*", re.MULTILINE)
-"""Left out of certificates in links of packs: the pack has the levels, and the digest replaces the waypoints."""
+"""Removed from certificates in links of packs: the pack has the levels, and the digest replaces the waypoints."""
 
 
 def level_link(level: Level, **headers: Any) -> str:
-    """The link of a level, from the # on. ``headers``: as ``write_ascii_level`` has them. Raises LinkError."""
+    """The link of a level, from the # on. ``headers``: as for ``write_ascii_level``. Raises LinkError."""
     return write_link("level", [write_ascii_level(level, **headers)])
 
 
 def replay_text(replay: Replay, level: Level | None = None) -> str:
-    """The text that a link of a replay carries: level inside, waypoints left out, since the digest says the same.
+    """The text of a replay in a link: with its level, without waypoints, since the digest replaces them.
 
-    ``level``: of a replay that does not hold its own. Raises LinkError where there is none.
+    ``level``: the level of a replay that does not contain its own. Raises LinkError if there is none.
     """
     level = replay.level or level
     if level is None:
@@ -209,14 +209,14 @@ def replay_text(replay: Replay, level: Level | None = None) -> str:
 
 
 def replay_link(replays: Iterable[Replay]) -> str:
-    """The link of replays with their levels inside; behind the first the others are its ghosts. Raises LinkError."""
+    """The link of replays with their levels; the replays after the first are its ghosts. Raises LinkError."""
     return write_link("replay", [replay_text(replay) for replay in replays])
 
 
 def recording_link(recordings: Iterable[Recording]) -> str:
-    """A link of recordings of any format; one of N stays N's record.
+    """A link of recordings of any format; a record of N stays a record of N.
 
-    Raises LinkError; LevelError or DemoError for what N's record cannot hold.
+    Raises LinkError; LevelError or DemoError for content that N's record cannot hold.
     """
     return write_link("replay", [_recording_text(recording) for recording in recordings])
 
@@ -228,7 +228,7 @@ def _recording_text(recording: Recording) -> str:
 
 
 def pack_link(texts: dict[str, str]) -> str:
-    """The link of a pack from its files by name: index, levels, par times, certificates as short as they can be.
+    """The link of a pack from its files by name: index, levels, par times, shortened certificates.
 
     Raises LinkError.
     """
@@ -238,7 +238,7 @@ def pack_link(texts: dict[str, str]) -> str:
 
 
 def whole_certificate(text: str, level: NamedLevel) -> str:
-    """A certificate from a link with its level inside again; any other text as it is."""
+    """Put the level back into a certificate from a link; any other text stays the same."""
     with suppress(FormatError):
         replay = parse_replay(text) if is_replay(text) else None
         if replay and replay.level is None and replay.level_digest == level_digest(level.level):
@@ -263,14 +263,14 @@ def pack_texts(link: str | Path) -> dict[str, str]:
 
 
 def _is_plain(name: str) -> bool:
-    """Whether a name is that of a file in a pack, or of a certificate: no other path, nothing hidden."""
+    """Tell whether a name is that of a file in a pack, or of a certificate: no other path, no hidden file."""
     name = name.removeprefix("certificates/")
     plain = name.isprintable() and not set(name) & set("/\\:") and not name.startswith(".")
     return plain and 0 < len(name) <= _NAME_LIMIT
 
 
 def linked_texts(link: str | Path, *kinds: LinkKind) -> tuple[str, ...]:
-    """The texts in a link of one of some kinds, as a file would hold them. Raises LinkError."""
+    """The texts in a link of one of these kinds, as files would contain them. Raises LinkError."""
     content: Link = read_link(link)
     if content.kind not in kinds:
         raise LinkError(f"a link of a {content.kind}", LINK, expected=f"one of a {' or '.join(kinds)}")
@@ -278,7 +278,7 @@ def linked_texts(link: str | Path, *kinds: LinkKind) -> tuple[str, ...]:
 
 
 def recordings_of(texts: Iterable[str]) -> list[Recording]:
-    """The recordings in texts from elsewhere, which hold their levels. Raises LinkError, ReplayError, LevelError."""
+    """The recordings in untrusted texts that contain their levels. Raises LinkError, ReplayError, LevelError."""
     recordings = []
     for text in texts:
         recordings += parse_replays(_whole(text), file=LINK)
@@ -286,9 +286,9 @@ def recordings_of(texts: Iterable[str]) -> list[Recording]:
 
 
 def _whole(text: str) -> str:
-    """An untrusted text; replays in a form without paths to files. Raises LinkError, ReplayError.
+    """Make an untrusted text safe: replays lose their paths to files. Raises LinkError, ReplayError.
 
-    Without the name of a file its inputs include no other files, and with its level inside no path is tried.
+    Without a file name its inputs cannot include other files, and with its level inside no path is followed.
     """
     episode = is_episode(text)
     if not episode and not is_replay(text):

@@ -17,9 +17,9 @@ __all__ = ["NamedLevel", "Recording", "load_level", "load_levels", "load_replays
 
 
 def texts_of(path: Path | str, *, named: bool = True) -> Iterator[tuple[str, str]]:
-    """The name and the text of a file, of each file in a folder, or of what a link of levels or replays carries.
+    """The name and text of a file, of each file in a folder, or of the levels or replays in a link.
 
-    ``named``: by a person, who may mean a link; a file that was found is one, whatever its name.
+    ``named``: a person gave the path, which may be a link; a path that was found is always a file.
 
     Raises FileError, LinkError; OSError for a file that cannot be opened.
     """
@@ -30,9 +30,9 @@ def texts_of(path: Path | str, *, named: bool = True) -> Iterator[tuple[str, str
 
 
 def load_levels(path: Path | str) -> list[NamedLevel]:
-    """All levels of a file, folder or link: our ASCII levels, N level files, in-game strings, levels of recordings.
+    """Load all levels of a file, folder or link: ASCII levels, N level files, in-game strings, levels of recordings.
 
-    Of a pack, a folder or zip with ``pack.toml``, its level files only.
+    Of a pack (a folder or zip with ``pack.toml``) only its level files.
 
     Raises LevelError (or ReplayError for a broken replay) naming the file; OSError for a file that cannot be opened.
     """
@@ -69,10 +69,10 @@ def _one(levels: Sequence[NamedLevel], record: int, file: str) -> Level:
 
 
 def load_replays(path: Path | str, *, level: Level | None = None, changed: bool = False) -> list[Recording]:
-    """All recordings of a file, folder or link: our replays and ``$name#author#comment#level#demo#`` records.
+    """Load all recordings of a file, folder or link: replays and ``$name#author#comment#level#demo#`` records.
 
-    ``level``: what recordings that do not hold their level are played on. ``changed``: also those whose level was
-    changed after the recording, on the level as it is now.
+    ``level``: the level of recordings that do not contain their own. ``changed``: also load recordings whose level was
+    changed afterwards, with the level as it is now.
 
     Raises ReplayError, DemoError or LevelError naming file and line; OSError for a file that cannot be opened.
     """

@@ -1,4 +1,4 @@
-"""Messages of a level to the player: the header `says` of our ASCII format (docs/level-format.md)."""
+"""Messages of a level to the player: the header `says` of the ASCII format (docs/level-format.md)."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from ninja_game.sim.rules import CELL
 
 MAX_MESSAGES, MAX_LETTERS = 4, 120
 NEAR = 2.5 * CELL
-"""px from the middle of its cell, along both axes, within which a text with a place is shown."""
+"""Range, px along both axes, from the middle of its cell, within which a text with a place is shown."""
 BAR = "|"
-"""Between two texts."""
+"""Separates two texts."""
 
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 """Actions whose key a text may name: {jump} becomes the player's key or button."""
 
 TARGETS = ("switch", "exit")
-"""Things that a text may name in the same way: an arrow points to each."""
+"""Objects that a text may name in the same way: an arrow points to each of them."""
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _DEATH = re.compile(r"death ([1-9][0-9]?)")
@@ -31,7 +31,7 @@ _WHEN = f"{', '.join(_EVENTS)}, 'death 3' or 'at 12,5'"
 
 
 class LevelMessage(NamedTuple):
-    """``when``: of _EVENTS, "death" or "at"; ``deaths``: after how many; ``cell``: column and row."""
+    """``when``: a name of _EVENTS, "death" or "at"; ``deaths``: after how many deaths; ``cell``: column and row."""
 
     when: str
     text: str
@@ -40,12 +40,12 @@ class LevelMessage(NamedTuple):
 
     @property
     def place(self) -> tuple[float, float] | None:
-        """The middle of the cell near which it is shown, px; None for every other moment."""
+        """The middle of the cell near which it is shown, px; None for other moments."""
         return middle_of(self.cell) if self.when == "at" else None
 
 
 def parse_messages(value: str) -> tuple[LevelMessage, ...]:
-    """The texts in a header's value, parted by bars. Raises LevelError.
+    """The texts in a header's value, separated by bars. Raises LevelError.
 
     >>> parse_messages("start: {jump} jumps | death 3: Wait for the drone")[1]
     LevelMessage(when='death', text='Wait for the drone', deaths=3, cell=(0, 0))
@@ -57,14 +57,14 @@ def parse_messages(value: str) -> tuple[LevelMessage, ...]:
 
 
 def unknown_words(text: str) -> list[str]:
-    """Words in braces that are neither of KEYS nor of TARGETS."""
+    """Words in braces that are neither in KEYS nor in TARGETS."""
     return [name for name in _KEY.findall(text) if name not in KEYS + TARGETS]
 
 
 def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
     """The targets of arrows in a level with these texts: both TARGETS if any text names one, else none.
 
-    Both, since a newcomer who reads only of the exit looks for its switch.
+    Both, since a newcomer who reads only about the exit would look for its switch.
 
     >>> arrow_targets(["Go", "Now the {exit} is open"]), arrow_targets(["Go"])
     (('switch', 'exit'), ())
@@ -102,7 +102,7 @@ def _read(part: str) -> LevelMessage:
 
 
 def named_keys(text: str, name: Callable[[str], str]) -> str:
-    """A text with the player's names of its keys, and with its things. ``name``: gives the key of an action.
+    """Replace actions by the player's names of their keys, and targets by their names. ``name``: gives an action's key.
 
     >>> named_keys("{jump} jumps", {"jump": "Z"}.__getitem__)
     'Z jumps'

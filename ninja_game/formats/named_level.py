@@ -1,4 +1,4 @@
-"""Levels with the other contents of their file. A text's format is recognised whatever the file's name."""
+"""Levels with the other contents of their file. The text decides its format, not the file's name."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from ninja_game.formats.replay.text import Replay, is_episode, is_replay, parse_
 from ninja_game.sim.level import TILES, Level
 
 TextFormat = Literal["replay", "episode", "ascii", "file", "demo", "inputs", "string"]
-"""A replay of ours, several that are an episode, a readable level of ours, a file of N's records, a demo of N alone,
-inputs in another tool's notation, in-game strings of levels or anything else."""
+"""A replay, an episode of replays, an ASCII level, a file of N's records, a demo of N alone, inputs in another tool's
+notation, in-game strings of levels or anything else."""
 
 
 def format_of(text: str) -> TextFormat:
-    """The format of a text, sound or not.
+    """Recognise the format of a text, valid or not.
 
     >>> [format_of(text) for text in ("ninja-game level 1", "$hill#us##0|5^60,540#", "3:12|0|1", "0|5^60,540")]
     ['ascii', 'file', 'demo', 'string']
@@ -38,7 +38,7 @@ def format_of(text: str) -> TextFormat:
         return "ascii"
     if MARKER in text or ("#" in text and "$" in text):
         return "file"
-    # Labels and comments of CelesteTAS begin with # too; N's own texts have | in them.
+    # Labels and comments of CelesteTAS begin with # too; only N's own texts contain |.
     if text.lstrip().startswith("#") and ("|" in text or not is_tas_text(text)):
         return "file"
     if is_demo("".join(text.split())):
@@ -53,9 +53,9 @@ _TILE = re.compile(r"[0-Q]")
 
 @dataclass(frozen=True)
 class NamedLevel:
-    """A level with the other contents of its file; only our readable files have ``teaches`` and ``says``.
+    """A level with the other contents of its file; only ASCII levels have ``teaches`` and ``says``.
 
-    ``form``: the format it was found in; ``record`` (from 0) and ``line`` (from 1): its place in ``file``.
+    ``form``: the format of its file; ``record`` (from 0) and ``line`` (from 1): its place in ``file``.
     """
 
     name: str
@@ -71,12 +71,12 @@ class NamedLevel:
 
     @property
     def ascii(self) -> bool:
-        """Whether the file is one of our readable ones."""
+        """Whether the file is in the ASCII format."""
         return self.form == "ascii"
 
 
 def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
-    """All levels in a text of any format. Raises LevelError or ReplayError."""
+    """Read all levels in a text of any format. Raises LevelError or ReplayError."""
     form = format_of(text)
     if form in ("replay", "episode"):
         replays = [parse_replay(text, file=file)] if form == "replay" else parse_episode(text, file=file)
@@ -105,7 +105,7 @@ def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
 
 
 def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
-    """Line and text of the in-game strings in a text: one a line, or one wrapped over all lines."""
+    """Line and text of the in-game strings in a text: one per line, or one wrapped over all lines."""
     lines = list(numbered_lines(text))
     if len(lines) > 1 and not all(len(line.partition("|")[0]) >= TILES for _, line in lines):
         lines = [(lines[0][0], tidy_level_string(text))]
@@ -122,7 +122,7 @@ def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
 
 
 def _is_level_string(text: str) -> bool:
-    """Whether a line may be an in-game string: most of its first half are tiles, its second half is objects."""
+    """Tell whether a line may be an in-game string: tiles make up most of its first half, objects its second half."""
     tiles, bar, objects = text.partition("|")
     if not bar or 2 * len(_TILE.findall(tiles[:TILES])) < min(len(tiles), TILES):
         return False
@@ -130,9 +130,9 @@ def _is_level_string(text: str) -> bool:
 
 
 def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, changed: bool = False) -> Level:
-    """The level that a replay was recorded on: its own, the one its path leads to, or else the given one.
+    """Give the level on which a replay was recorded: its own, the one at its path, or else the given one.
 
-    Raises ReplayError if there is none, or, unless ``changed``, if it is not the one that was recorded.
+    Raises ReplayError if there is none, or if it differs from the recorded one, unless ``changed``.
     """
     if replay.level is not None:
         return replay.level

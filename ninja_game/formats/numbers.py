@@ -1,7 +1,7 @@
-"""Flash's number rule: how the decimals of level strings and demos become float64, and how they are written.
+"""Flash's number rule: it turns the decimals of level strings and demos into float64, and back into text.
 
-They are *not* rounded correctly, and positions depend on it (game.md §5.2): the value is the running sum of the digits'
-own values, each made by repeated squaring. Nothing here may be "repaired" with ``float``.
+The numbers are *not* rounded correctly, and positions depend on that (game.md §5.2): a value is the running sum of the
+values of its digits, each made by repeated squaring. Never "repair" this with ``float``.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ import sys
 from decimal import Decimal
 from functools import cache, lru_cache
 
-NAN = math.nan  # the one NaN that reading gives; being one object, it makes equal texts equal tuples
+NAN = math.nan  # the only NaN that reading gives; as one object it makes equal texts equal tuples
 
 _PLAIN = re.compile(r"0|[1-9][0-9]{0,14}")
 _DECIMAL = re.compile(r"[ \t\r\n]*([+-]?)([0-9]*)(?:\.([0-9]*))?(?:[eE]([+-]?[0-9]+))?")
 _HEX = re.compile(r"0[xX]([0-9a-fA-F]+)")
 _OCTAL = re.compile(r"([+-]?)(0[0-7]+)")
 
-# From this power on, squaring has made the factor infinite: a digit is worth infinity, a zero NaN (0 times infinity).
+# From this power on the squared factor is infinite: a digit is worth infinity, a zero NaN (0 times infinity).
 _INFINITE_POWER = 512
 # Below this power every digit is worth 0.
 _MIN_POWER = -330
@@ -28,10 +28,11 @@ _SMALLEST = math.ulp(0.0)
 
 
 def parse_number(text: str) -> float:
-    """The float64 that Flash reads from ``text``; NaN when it is not a number (game.md §5.2).
+    """Read ``text`` as Flash does; NaN if it is not a number (game.md §5.2).
 
-    Blanks, a sign, digits with an optional point, an optional exponent; nothing may follow. ``0x1F`` without a sign is
-    hexadecimal and digits 0-7 after a leading 0 are octal, both as wrapping 32-bit integers. A zero has no sign.
+    A number has blanks, a sign, digits with an optional point, an optional exponent; nothing may follow. ``0x1F``
+    without a sign is hexadecimal, and digits 0-7 after a leading 0 are octal, both as wrapping 32-bit integers.
+    A zero has no sign.
 
     >>> parse_number("408.15"), parse_number("0.707106781186547"), parse_number("685 ")
     (408.15000000000003, 0.7071067811865468, nan)
@@ -57,24 +58,24 @@ def parse_number(text: str) -> float:
 
 
 def _signed(value: float, sign: str) -> float:
-    """The value with its sign; 0.0 for either zero."""
+    """Apply the sign; 0.0 for either zero."""
     return (-value if sign == "-" else value) or 0.0
 
 
 def _wrapped(value: int) -> float:
-    """The 32-bit signed integer with these low bits, as float64."""
+    """Give the 32-bit signed integer with these low bits, as float64."""
     return float(((value & 0xFFFFFFFF) ^ 0x80000000) - 0x80000000)
 
 
 def _bounded_exponent(text: str) -> int:
-    """The exponent, cut to where it no longer matters for any text of sane length (``int`` refuses endless ones)."""
+    """The exponent, limited to the range that matters for any text of sane length (``int`` refuses endless ones)."""
     size = text.lstrip("+-").lstrip("0")
     value = min(int(size[:9] or "0"), _EXPONENT_LIMIT)
     return -value if text.startswith("-") else value
 
 
 def _digit_sum(digits: str, power: int) -> float:
-    """The sum of S(z, e) over the digits from the left, e falling from ``power``."""
+    """The sum of S(z, e) over the digits from the left; e decreases from ``power``."""
     if power >= _INFINITE_POWER:
         return NAN if "0" in digits[: power - _INFINITE_POWER + 1] else math.inf
     total = 0.0
@@ -100,10 +101,10 @@ def _digit_value(digit: str, power: int) -> float:
 
 
 def format_number(value: float) -> str:
-    """The shortest decimal with at most 15 significant digits; ``NaN`` for NaN (game.md §5.3).
+    """Write the shortest decimal with at most 15 significant digits; ``NaN`` for NaN (game.md §5.3).
 
-    What was read from a decimal of up to 15 digits is written so that it reads back the same; other values are rounded.
-    Infinity, which the game cannot write, becomes ``1e999``.
+    A value that was read from a decimal of up to 15 digits reads back the same; other values are rounded. Infinity,
+    which the game cannot write, becomes ``1e999``.
 
     >>> format_number(0.7071067811865468), format_number(-24.0), format_number(0.1 + 0.2)
     ('0.707106781186547', '-24', '0.3')
@@ -111,11 +112,11 @@ def format_number(value: float) -> str:
     return _odd_text(value) or _shortest_text(value, 15) or _plain(Decimal(f"{value:.15g}"))
 
 
-@lru_cache(maxsize=2**17)  # all numbers of a level at its limit of objects, which is written and then compared
+@lru_cache(maxsize=2**17)  # all numbers of a level with the most objects, which is written and then compared
 def format_exact(value: float) -> str:
-    """The shortest decimal that ``parse_number`` reads as exactly this value; the nearest one if there is none.
+    """Write the shortest decimal that ``parse_number`` reads as exactly this value; the nearest one if there is none.
 
-    The digit sum never gives some float64: 1.13 and 1.15 are two of them, hardly any other coordinate is.
+    Digit sums miss some float64 values, such as 1.13 and 1.15, but hardly any coordinate.
     """
     return _odd_text(value) or _shortest_text(value, 20) or _plain(Decimal(f"{value:.17g}"))
 
@@ -130,14 +131,14 @@ def _odd_text(value: float) -> str:
 
 
 def _shortest_text(value: float, digits: int) -> str:
-    """The shortest decimal of at most ``digits`` significant digits that reads as ``value``, '' if there is none.
+    """Give the shortest decimal of at most ``digits`` significant digits that reads as ``value``, '' if there is none.
 
-    Looks at all texts: digit by digit, it keeps every sum that the digits behind can still make the value.
+    The search covers all texts: digit by digit, it keeps every sum that further digits can complete to the value.
     """
     size = abs(value)
     unit = math.ulp(size)
     first = Decimal(size).adjusted() + 1
-    # Less than half a unit of the sum, which may lie just below a power of two, changes nothing.
+    # A digit worth less than half a unit of the sum, which may be just below a power of two, changes nothing.
     last = max(first - digits, Decimal(unit).adjusted() - 1)
     power, sums = _first_sums(size, first)
     while size not in sums and power > last:
@@ -147,9 +148,9 @@ def _shortest_text(value: float, digits: int) -> str:
 
 
 def _first_sums(size: float, first: int) -> tuple[int, dict[float, str]]:
-    """Sums and their digits down to a power of ten, which is given too: of all texts that may read as ``size``.
+    """Give the power of ten of the last digits, and sums with their digits, of all texts that may read as ``size``.
 
-    If a unit of the sum is far below the 13th digit, these can only be the nearest 13 and those one less.
+    If a unit of the sum is far below the 13th digit, they can only be the nearest 13 digits and those one less.
     """
     if not sys.float_info.min <= size < 1e308:
         return min(first, sys.float_info.max_10_exp) + 1, {0.0: ""}
@@ -161,13 +162,13 @@ def _first_sums(size: float, first: int) -> tuple[int, dict[float, str]]:
 
 
 def _longer_sums(sums: dict[float, str], size: float, power: int, roundings: float) -> dict[float, str]:
-    """Sums and their digits, each with one more digit, as far as the digits behind can make them ``size``.
+    """Give sums and their digits with one more digit, if further digits can complete them to ``size``.
 
-    ``roundings``: the most that these sums and those behind are rounded by.
+    ``roundings``: the most that rounding can change these sums and the following ones.
     """
     worth = _digit_values(power)
     one = worth[1]
-    slack = roundings + one * 2.0**-46 + 2 * _SMALLEST  # more than the roundings of the digits too
+    slack = roundings + one * 2.0**-46 + 2 * _SMALLEST  # more than the roundings of the digits, too
     longer: dict[float, str] = {}
     for total, text in sums.items():
         rest = size - total
@@ -187,7 +188,7 @@ def _digit_values(power: int) -> tuple[float, ...]:
 
 
 def _plain(number: Decimal) -> str:
-    """A decimal without superfluous zeros, without exponent unless it is very large or very small."""
+    """Write a decimal without superfluous zeros, and without exponent unless it is very large or very small."""
     number = number.normalize()
     if -7 <= number.adjusted() < 21:
         return f"{number:f}"

@@ -1,4 +1,4 @@
-"""Recordings, inputs with the level they were made on, from a text of any format."""
+"""Recordings (inputs and their level) from a text of any format."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import LIFETIME
 
 MAX_LEGACY_TICKS = 20_000_000
-"""Ticks of one file of demos of an older version, in which each character can be 400 ticks."""
+"""Most ticks in one file of demos of an older version, in which a character can mean 400 ticks."""
 
 
 @dataclass(frozen=True)
 class Recording:
-    """A replay with the level that it is played on, and its place in a file.
+    """A replay with its level, and its place in a file.
 
-    ``replay``: its text's content; demos of N and other tools' inputs are replays without claims. ``level``: the one
-    inside, beside it, or given. ``record`` (from 0) and ``line`` (from 1): in ``file``, '' for one from no file.
-    ``episode``: of a run in an episode, that one's key; ``lifetime``: ticks at its start.
+    ``replay``: the content of its text; demos of N and other tools' inputs are replays without claims. ``level``: the
+    level inside the text, at its path, or given by the caller. ``record`` (from 0) and ``line`` (from 1): place in
+    ``file``, '' if there is no file. ``episode``: the key of its episode, if any; ``lifetime``: ticks at its start.
     """
 
     level: Level
@@ -47,30 +47,30 @@ class Recording:
 
     @property
     def of_n(self) -> bool:
-        """Whether it is a record of N's own, with its level in the same record."""
+        """Whether it is a record of N itself that contains its level."""
         return self.form == "file"
 
     @property
     def name(self) -> str:
-        """As its text says; of a replay without a name that of its file."""
+        """The name in its text; for a replay without a name that of its file."""
         return self.replay.name or ("" if self.of_n else Path(self.file).stem)
 
     @property
     def author(self) -> str:
-        """As its text says; a record of N has one name for its level and its run."""
+        """The author in its text; in a record of N the level and the run have the same one."""
         return self.replay.author
 
     @property
     def player(self) -> str:
-        """The player, "" if unknown; the name in a record of N is its level's author.
+        """The player, "" if unknown; the name in a record of N is that of its level's author.
 
-        A replay that says how its run was made was written by this program, which puts the player's name there.
+        A replay that says how its run was made comes from this program, which writes the player's name.
         """
         return self.author if not self.of_n or self.replay.made.assisted is not None else ""
 
     @property
     def begun_by(self) -> str:
-        """The author whom a run that starts from this one names; of a run found by commands, that of its own start."""
+        """The author whom a run that starts from this one names; for a run found by commands, the one that it names."""
         made, file = self.replay.made, Path(self.file).name or self.name
         searched = made.searches and not (made.played or made.edits)
         return self.player or (made.begun_by if searched else f"unknown ({file_stem(file, 'no file')})")
@@ -82,17 +82,17 @@ class Recording:
 
     @property
     def place(self) -> str:
-        """The name of its file, and its record if the file holds several."""
+        """The name of its file, with the record's number if the file has several."""
         return Path(self.file).name.removesuffix(REPLAY_SUFFIX) + f" {self.record}" * (self.record > 0)
 
     @property
     def whose(self) -> str:
-        """Its name in a list of runs: its player, or if unknown its file."""
+        """Its name in a list of runs: its player, or its file if the player is unknown."""
         return self.player or self.place or self.name
 
     @property
     def credit(self) -> str:
-        """The player, and how the run was made, as ``Replay.credit``; for a record of N the level's author."""
+        """The player and how the run was made, as in ``Replay.credit``; for a record of N the level's author."""
         return replace(self.replay, author=self.player).credit
 
     @property
@@ -108,25 +108,25 @@ class Recording:
 
     @property
     def ticks(self) -> int:
-        """The greatest number of ticks to run; N + 1 of a demo of length N."""
+        """The most ticks that it runs; N + 1 for a demo of length N."""
         return self.replay.ticks
 
     @cached_property
     def inputs(self) -> bytes:
-        """The input of each of its ticks, one byte per tick."""
+        """The inputs of its ticks, one byte per tick."""
         return self.replay.playback(self.ticks)
 
     @property
     def missing(self) -> int:
-        """How many inputs its demo claims that its text does not hold; no key is down in them."""
+        """Number of inputs that its demo claims but its text lacks; no key is down in them."""
         inputs, length = self.replay.inputs, self.replay.demo_length
         return 0 if length is None else Demo(inputs, length).end - len(inputs)
 
 
 def record_of(recording: Recording) -> LevelRecord:
-    """The record of N, ``$name#author#comment#level#demo#``, that holds a recording and its level.
+    """Make the record of N, ``$name#author#comment#level#demo#``, of a recording and its level.
 
-    Raises LevelError, DemoError or ReplayError for what such a record cannot hold.
+    Raises LevelError, DemoError or ReplayError for content that such a record cannot hold.
     """
     replay, inputs = recording.replay, recording.inputs
     if recording.body != "circle":
@@ -143,13 +143,13 @@ def record_of(recording: Recording) -> LevelRecord:
 
 
 def holds_recordings(text: str) -> bool:
-    """Whether there are recordings in a text, readable or not. Raises LevelError for a broken level file."""
+    """Tell whether a text contains recordings, valid or not. Raises LevelError for a broken level file."""
     form = format_of(text)
     return any(record.demo for record in read_level_file(text)) if form == "file" else form not in {"ascii", "string"}
 
 
 def parse_replays(text: str, *, file: str = "", level: Level | None = None, changed: bool = False) -> list[Recording]:
-    """All recordings in a text of any format. ``changed``: also a replay whose level is not as it was recorded.
+    """Read all recordings in a text of any format. ``changed``: accept replays whose level has changed since.
 
     Raises ReplayError, DemoError or LevelError.
     """
@@ -179,7 +179,7 @@ def parse_replays(text: str, *, file: str = "", level: Level | None = None, chan
 
 
 def _recording_of_lines(text: str, file: str, level: Level | None) -> Recording:
-    """Inputs in the notation of another tool. Raises ReplayError."""
+    """Read inputs in the notation of another tool. Raises ReplayError."""
     if level is None:
         raise ReplayError("inputs without a level", file, hint="give it with --level")
     read = read_inputs(in_our_notation(text, file), file=file, include=include_reader(file))
@@ -188,7 +188,7 @@ def _recording_of_lines(text: str, file: str, level: Level | None) -> Recording:
 
 
 def _read_recordings(records: Iterable[LevelRecord], file: str, level: Level | None) -> list[Recording]:
-    """The recordings in the records of a text; a level that several share is read once."""
+    """Read the recordings in the records of a text; a level that several records share is read once."""
     known: dict[str, Level] = {}
     recordings = []
     legacy_ticks = 0
@@ -205,7 +205,7 @@ def _read_recordings(records: Iterable[LevelRecord], file: str, level: Level | N
 
 
 def recording_of(record: LevelRecord, file: str, level: Level | None) -> Recording:
-    """A record with its demo read, on its level. Raises ReplayError or DemoError naming ``file`` and the record."""
+    """Read the demo of a record, on its level. Raises ReplayError or DemoError with ``file`` and the record."""
     if not record.demo:
         found = repr(record.note[:40]) if record.note else ""
         what, expected = f"record {record.number} has no demo", "$name#author#comment#level#demo#"
@@ -226,6 +226,6 @@ def recording_of(record: LevelRecord, file: str, level: Level | None) -> Recordi
 
 
 def demo_replay(demo: Demo, level: Level, name: str = "", author: str = "") -> Replay:
-    """A demo of N on its level as a replay without claims; the level has the same name."""
+    """Make a replay without claims from a demo of N and its level; both get the same name."""
     held = demo.inputs[: len(demo.inputs) - demo.missing]
     return Replay(held, demo.end, "", name=name, author=author, level=level, level_name=name, demo_length=demo.length)

@@ -1,4 +1,4 @@
-"""The score of a run, and its time in seconds: how all of the program shows it."""
+"""The score of a run, and its time in seconds, as the whole program shows them."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ def level_score(gold: int, exit_tick: int) -> int:
 
 
 def seconds_text(ticks: int) -> str:
-    """Ticks as seconds with three decimals (game.md §1.3): every time of a run.
+    """Ticks as seconds with three decimals (game.md §1.3), for all times of runs.
 
-    The time of a run, and its length in ticks, is the tick of the exit contact or the death; of one that has neither
-    all ticks that were run. So it is 90 s and two for each piece of gold less the score.
+    The time of a run, and its length in ticks, is the tick of the exit contact or death; without either, all ticks that
+    were run. So it is 90 s, plus 2 s per piece of gold, minus the score.
 
     >>> seconds_text(3600), seconds_text(1), seconds_text(10176)
     ('90.000', '0.025', '254.400')

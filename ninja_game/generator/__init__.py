@@ -1,1 +1,1 @@
-"""Makes levels by rules of composition, and keeps those that the solver can pass."""
+"""Composes levels by rules, and keeps those that the solver can pass."""

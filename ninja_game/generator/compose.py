@@ -1,4 +1,4 @@
-"""One attempt at a level: a ground plan, tiles, the way, gold as bait, hazards round it - or nothing."""
+"""One attempt at a level: a ground plan, its tiles, the route, gold as bait, hazards around it. It may fail."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from ninja_game.sim.inputs import Input
 from ninja_game.sim.level import TILES, Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
-CHOICES = 96  # routes of which the best is taken
-CLOSE_CELLS = 4.0  # at least between any two of ninja, switches and exit
-BESIDE_CELLS = 5.0, 11.0  # best between start and exit: near, but not beside each other
+CHOICES = 96  # number of routes from which the best is taken
+CLOSE_CELLS = 4.0  # least distance between any two of ninja, switches and exit
+BESIDE_CELLS = 5.0, 11.0  # best distance between start and exit: near, but not beside each other
 
 
 def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: float) -> Scene | None:
-    """A scene with ninja, exit and doors, the way over all switches about ``far`` cells long; None if it cannot be.
+    """Make a scene with ninja, exit and doors, the way over all switches about ``far`` cells long; None if impossible.
 
-    The exit is in the vault behind one or two locked doors, or the vault has the switch and the exit is near the start.
+    The exit is in the vault behind one or two locked doors; or the switch is in the vault and the exit near the start.
     """
     bare = Scene(board, tiles, board.heart[0])
     inner = flood(board.heart[0], bare.empty - set(board.gate))
@@ -44,7 +44,7 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
     best: tuple[float, list[Cell]] | None = None
     for _ in range(CHOICES):
         key = rng.choice(floor)
-        # What is far apart is in the same place on both sides, if it can be.
+        # The second place is the mirror image of the first, if the ninja can stand there.
         errands = [key, *([mirrored(key)] if mirrored(key) in floor else []), *rng.sample(floor, 3)]
         stops = [rng.choice(floor), *errands[: locks + hidden], vault, *([] if hidden else [rng.choice(floor)])]
         score = _route_score(stops, steps, far)
@@ -55,7 +55,7 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
     start, *keys, exit_ = best[1]
     switch = keys.pop()
     scene = Scene(board, tiles, start)
-    # Now and then one has to jump for a switch.
+    # Sometimes the ninja must jump to reach a switch.
     places = [f"{c},{r - 1 if rng.random() < 0.3 else r}" for c, r in (switch, *keys)]
     scene.key = [object_of(f"ninja {start[0]},{start[1]}"), object_of(f"exit {exit_[0]},{exit_[1]} switch {places[0]}")]
     for number, place in enumerate(places[1:]):
@@ -65,9 +65,10 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
 
 
 def _route_score(stops: Sequence[Cell], steps: Callable[[Cell], Mapping[Cell, int]], far: float) -> float | None:
-    """How well a route would do; None for one that cannot be walked, or with things too close together.
+    """Rate a route; None if the ninja cannot walk it, or if its places are too close together.
 
-    ``steps``: from a cell to those that can be reached; it is asked for every second stop, both ways are as long.
+    ``steps``: gives the distances from a cell to all cells in reach; it is asked for every second stop, since a way is
+    as long in both directions.
     """
     spread = min(dist(a, b) for number, a in enumerate(stops) for b in stops[:number])
     if spread < CLOSE_CELLS:
@@ -89,13 +90,13 @@ def _route_score(stops: Sequence[Cell], steps: Callable[[Cell], Mapping[Cell, in
 SOLID = 0.13, 0.64
 SHAPES = 20, 190
 OBJECTS = 50, MAX_OBJECTS
-"""What levels keep to: shares of the cells, tiles with a shape, objects."""
+"""Limits of a level: shares of the cells, tiles with a shape, objects."""
 ENEMIES, MINES = (6, 7, 8), (20, 24, 28)
-"""Of which one is how many are tried for; a hard level has up to two enemies more."""
+"""Numbers to choose from; a hard level has up to two enemies more."""
 
 
 def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
-    """A level of a ground plan that keeps to all marks and has nothing odd; None if this attempt does not."""
+    """Make a level of a ground plan that keeps to all limits and has no oddities; None if this attempt fails."""
     board = RockBoard(rng.choice((1, 2, 2, 3)))
     LAYOUTS[layout](board, rng)
     if rng.random() < 0.5:
@@ -124,6 +125,6 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
 
 
 def _fair(level: Level) -> bool:
-    """Whether who stands still for ten seconds, or runs a second to either side, is alive."""
+    """Tell whether a ninja lives that stands still for ten seconds, or runs for a second to either side."""
     openings = bytes(10 * TICKS_PER_SECOND), *(bytes([key] * TICKS_PER_SECOND) for key in (Input.LEFT, Input.RIGHT))
     return all(run_level(level, inputs, memory="plain").outcome != "dead" for inputs in openings)

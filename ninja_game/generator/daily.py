@@ -1,7 +1,7 @@
-"""The level of a day, kept as a pack in the player's folder of levels.
+"""The level of a day, stored as a pack in the player's folder of levels.
 
-Those of a hundred weeks come with the game (``generator.packed``), nobody waits for them; later ones are generated from
-the date.
+The levels of the first hundred weeks come with the game (``generator.packed``), so that nobody waits for them; later
+ones are generated from the date.
 """
 
 from __future__ import annotations
@@ -24,21 +24,21 @@ from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.generator.packed import AUTHOR, PACKED, generated_levels
 
 FIRST = date(2026, 11, 23)
-"""The Monday from which on the packed levels are taken in turn, each week's seven of seven difficulties."""
+"""The Monday of the first packed level; a week has seven levels of seven difficulties."""
 
 _INDEX = f'name = "Daily levels"\nauthor = "{AUTHOR}"\ncomment = "A level a day, from the date"\n'
 _MONDAY = 2
-_OTHER_SEEDS = 9  # more seeds that are tried for a day
-_NEXT_SEED = 10**8  # how far apart they are: no date is as high a number
+_OTHER_SEEDS = 9  # number of further seeds that are tried for a day
+_NEXT_SEED = 10**8  # distance between these seeds: greater than any date as a number
 
 
 def daily_file(levels: Path, day: date) -> Path:
-    """Where the level of a day is kept, below the player's folder of levels."""
+    """The file of a day's level, in the player's folder of levels."""
     return levels / DAILY / f"{day.isoformat()}.txt"
 
 
 def daily_difficulty(day: date) -> int:
-    """How hard the level of a day is to be: 2 on a Monday, 8 on a Sunday."""
+    """The difficulty wanted for a day: 2 on a Monday, 8 on a Sunday."""
     return _MONDAY + day.weekday()
 
 
@@ -48,18 +48,18 @@ def daily_seed(day: date) -> int:
 
 
 def take_packed(levels: Path, day: date) -> bool:
-    """Keep the level of a day, as ``make_daily`` does, if it came with the game; whether it did.
+    """Store the level of a day as ``make_daily`` does, if it came with the game; tells whether it did.
 
-    Raises NinjaGameError or OSError where it cannot be kept.
+    Raises NinjaGameError or OSError if it cannot be stored.
     """
     week = (day - FIRST).days // 7
-    # A page is without them: they would be a sixth of what a visitor loads.
+    # Pages do not have them: they would be a sixth of the download.
     if week < 0 or not (data_folder("assets") / PACKED).exists():
         return False
     levels_of_day = generated_levels(daily_difficulty(day))
     if week >= len(levels_of_day):
         return False
-    from ninja_game.search.certificate import verified_run  # a page has no search
+    from ninja_game.search.certificate import verified_run  # pages have no search
 
     packed = levels_of_day[week]
     run = verified_run(packed.level, packed.inputs)
@@ -68,11 +68,11 @@ def take_packed(levels: Path, day: date) -> bool:
 
 
 def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: Event) -> bool:
-    """Generate the level of a day and keep it, its certificate, par times and difficulty; False if it was stopped.
+    """Generate the level of a day and store it with certificate, par times and difficulty; False if it was stopped.
 
-    Raises MemoryUnavailableError without Numba, another NinjaGameError or OSError where it cannot be kept.
+    Raises MemoryUnavailableError without Numba, another NinjaGameError or OSError if it cannot be stored.
     """
-    # Imports NumPy, which a packed level does not need.
+    # Imported here since it needs NumPy, and a packed level does not.
     from ninja_game.generator.generate import generate
 
     for turn in range(_OTHER_SEEDS + 1):
@@ -87,7 +87,7 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
 
 
 def _keep(file: Path, named: NamedLevel, run: Replay, difficulty: float) -> None:
-    """Write a level into the pack, whose table of pars grows by a line."""
+    """Write a level into the pack and add a line to its table of pars."""
     from ninja_game.runs.verify import verify_recording
     from ninja_game.search.certificate import named_replay
 
@@ -102,5 +102,5 @@ def _keep(file: Path, named: NamedLevel, run: Replay, difficulty: float) -> None
     table = pack / PARS
     lines = parse_pars(read_text(table), file=str(table)) if table.exists() else {}
     tree.write(PARS, write_pars({**lines, file.name: pars}))
-    # Last of all, so that the rest of it is there.
+    # The level is written last: where it exists, the rest is complete.
     tree.write(file.name, write_ascii_level(named.level, **headers_of(named)))

@@ -1,6 +1,6 @@
-"""Generate a level: compose, let the solver pass it, measure, add or remove hazards, until it is as hard as wanted.
+"""Generate a level: compose it, let the solver pass it, measure it, change hazards until it is as hard as wanted.
 
-The same seed, difficulty and version give the same level on every machine: all work is counted in ticks, never timed.
+The same seed, difficulty and version give the same level on every machine: work is counted in ticks, never in time.
 """
 
 from __future__ import annotations
@@ -32,17 +32,17 @@ EASIEST = 1
 HARDEST = 10
 
 FIND_TICKS = 1_500_000  # work of the solver on one attempt
-SHORTEN_TICKS = 1_000_000  # on its changed hazards
-ATTEMPTS = 3  # attempts that the solver looks at; of those it passes the nearest to what is wanted is taken
+SHORTEN_TICKS = 1_000_000  # work on the attempt after its hazards were changed
+ATTEMPTS = 3  # attempts for the solver; of those that it passes, the nearest to the wanted difficulty is taken
 MORE_ATTEMPTS = 4
-"""How many times as many are looked at while none is about as hard as wanted; its square while none is passed."""
-ROUNDS = 22  # changes of the hazards of one attempt
+"""Factor of ATTEMPTS while none is about as hard as wanted; its square while none is passed."""
+ROUNDS = 22  # most changes of the hazards of an attempt
 TRIES_TO_COMPOSE = 400
 
 
 @dataclass(frozen=True)
 class Generated:
-    """A level with its certificate. ``difficulty``: measured."""
+    """A level with its certificate. ``difficulty``: the measured one."""
 
     named: NamedLevel
     run: Replay
@@ -51,7 +51,7 @@ class Generated:
 
 @dataclass(frozen=True)
 class Effort:
-    """How much work is done: see the constants; ``tries`` as ``difficulty`` has them."""
+    """Amounts of work: see the constants; ``tries`` as in ``difficulty``."""
 
     find: int = FIND_TICKS
     shorten: int = SHORTEN_TICKS
@@ -61,7 +61,7 @@ class Effort:
 
 
 DEFAULT = Effort()
-"""What is done where a caller says nothing."""
+"""The amounts of work by default."""
 
 
 def generate(
@@ -72,7 +72,7 @@ def generate(
     report: Callable[[str], None] = lambda _: None,
     stop: Event | None = None,
 ) -> Generated | None:
-    """The level of a seed that is about ``wanted`` hard, None if no attempt of the seed can be passed or if stopped.
+    """Generate the level of a seed, about ``wanted`` hard; None if stopped, or if no attempt of the seed can be passed.
 
     ``report`` gets a line now and then. Raises MemoryUnavailableError without Numba.
     """
@@ -108,18 +108,18 @@ def generate(
 
 
 def plan_of(seed: int | str, rng: Random) -> str:
-    """The ground plan of an attempt: another one for each of fifteen seeds that follow each other."""
+    """Choose the ground plan of an attempt: fifteen seeds in a row have fifteen plans."""
     layouts = list(LAYOUTS)
     return layouts[seed % len(layouts)] if isinstance(seed, int) else rng.choice(layouts)
 
 
 def _near(measured: float, difficulty: int, times: int = 1) -> bool:
-    """Whether a measured difficulty is what was asked for, or so many times as far from it as that allows."""
+    """Tell whether a measured difficulty is close enough to the wanted one; ``times`` widens the tolerance."""
     return abs(measured - difficulty) <= times * max(0.5, 0.15 * difficulty)
 
 
 def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Event) -> tuple[Replay, float] | None:
-    """A run through a scene whose hazards are changed until it is as hard as wanted, and how hard it is then."""
+    """Change the hazards of a scene until it is as hard as wanted; gives a run through it and its difficulty."""
     run = solve(Task(scene.level, work=effort.find), stop=stop)
     if run is None:
         return None
@@ -149,7 +149,7 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
             scene.hazards = before
             continue
         then = difficulty(scene.level, changed.inputs, tries=effort.tries)
-        # A change that overshoots, so that the level is farther off than before, is undone.
+        # Undo a change that overshoots so far that the level is farther from the wanted difficulty than before.
         if abs(then - wanted) > abs(measured - wanted) and (then > measured) == (measured < wanted):
             scene.hazards = before
             continue
@@ -162,5 +162,5 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
 
 
 def path_of(level: Level, run: Replay) -> Sequence[Point]:
-    """Where the ninja is in each tick of a run, px."""
+    """Give the place of the ninja in each tick of a run, px."""
     return [(x, y) for x, y in run_level(level, run.inputs).positions.tolist()]

@@ -1,4 +1,4 @@
-"""Gold is bait and draws the movement: round stones, along walls, in bows from ledge to ledge, a hoard in the heart."""
+"""Gold is bait and suggests movements: around stones, along walls, in bows between ledges, a hoard in the vault."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from ninja_game.formats.ascii.places import Point, cell_of, middle_of
 from ninja_game.generator.scene import Scene, object_of
 from ninja_game.sim.rules import CELL
 
-MIN_PIECES = 26  # pieces in a level
-MAX_PIECES = 38  # a last group may bring more
-APART = 12.0  # px between pieces
+MIN_PIECES = 26  # least pieces in a level
+MAX_PIECES = 38  # most pieces; a last group may exceed this
+APART = 12.0  # px between two pieces
 FROM_KEY = 26.0  # px from ninja, exit and switches
 BETWEEN = 3.5 * CELL  # px between the middles of two groups
 OFF = 14.0  # px from the rock
@@ -22,7 +22,7 @@ Pattern = Callable[[Scene, Random], Iterator[list[Point]]]
 
 
 def round_stones(scene: Scene, _: Random) -> Iterator[list[Point]]:
-    """Round a small stone, or over and beside it."""
+    """Around a small stone, or over it and beside it."""
     small = [stone for stone in scene.stones() if len(stone) <= 25]
     for chain in scene.surfaces:
         inside = {cell_of(*face.off(-4.0)) for face in chain}
@@ -41,7 +41,7 @@ def along_walls(scene: Scene, rng: Random) -> Iterator[list[Point]]:
 
 
 def bows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
-    """The flight from one ledge to another."""
+    """Along the flight from one ledge to another."""
     ends = [middle_of((run.column + k, run.row)) for run in scene.runs() for k in {0, run.length - 1}]
     rng.shuffle(ends)
     for x0, y0 in ends[:12]:
@@ -71,7 +71,7 @@ def _walled(scene: Scene, column: int, row: int) -> bool:
 
 
 def hoard(scene: Scene, rng: Random) -> list[Point]:
-    """A row or an arch on the floor of the vault, or nothing: the exit or the switch there is enough."""
+    """A row or an arch on the floor of the vault, or nothing, since the exit or switch there is enough."""
     (left, y), (right, _) = (middle_of(cell) for cell in sorted({scene.board.heart[0], scene.board.heart[-1]}))
     count, high = rng.choice((0, 0, 5, 6, 7)), rng.choice((0, 0, 34))
     wide = min((right - left) / 2, 12.0 * count)
@@ -80,7 +80,7 @@ def hoard(scene: Scene, rng: Random) -> list[Point]:
 
 
 def rows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
-    """A few pieces on a floor, small ones first: what a guard, a thwump or a mine has to watch."""
+    """A few pieces on a floor, the smallest floors first: for a guard, thwump or mine to watch."""
     floors = sorted(scene.runs(), key=lambda run: (run.length > 6) + rng.random())
     for run in floors:
         count = min(run.length, 4)
@@ -90,7 +90,7 @@ def rows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
 
 
 def dangers(scene: Scene, rng: Random) -> Iterator[list[Point]]:
-    """At the spots of the plan, then in open air out of sight of the start, round a danger in the middle."""
+    """At the spots of the plan, then in open air out of sight of the start, with a danger in the middle."""
     size, start = rng.choice((34, 40, 46)), middle_of(scene.start)
     form = rng.choice((ring, bowl, bowl, cross, sides, sides))
     reach = range(-2, 3)
@@ -110,13 +110,13 @@ def dangers(scene: Scene, rng: Random) -> Iterator[list[Point]]:
 
 
 def ring(x: float, y: float, size: float) -> list[Point]:
-    """Points of a circle, more of them on a greater one."""
+    """Give points of a circle, more of them on a larger one."""
     count = round(size / 4) + 2
     return [(x + size * cos(k * tau / count), y + size * sin(k * tau / count)) for k in range(count)]
 
 
 def bowl(x: float, y: float, size: float) -> list[Point]:
-    """The lower half of a circle."""
+    """Give points of the lower half of a circle."""
     return [(x + size * cos(k * tau / 14), y + size * sin(k * tau / 14)) for k in range(8)]
 
 
@@ -131,20 +131,20 @@ def sides(x: float, y: float, size: float) -> list[Point]:
 
 
 def along(line: list[Point], step: float) -> list[Point]:
-    """Points on a line, so many px apart."""
+    """Give points on a line, ``step`` px apart."""
     points, last = [line[0]], line[0]
     for point in line[1:]:
         while (far := dist(last, point)) >= step:
             last = last[0] + (point[0] - last[0]) * step / far, last[1] + (point[1] - last[1]) * step / far
             points.append(last)
-    # Round a stone the last one comes to the first again.
+    # Around a stone the last point meets the first one again.
     while len(points) > 2 and dist(points[-1], points[0]) < step * 0.75:
         points.pop()
     return points
 
 
 def lay_gold(scene: Scene, rng: Random) -> bool:
-    """Put a few groups of gold into a scene: in the vault, round dangers, then of other sorts; whether it is enough."""
+    """Put a few groups of gold into a scene: in the vault, around dangers, then others; tells whether it is enough."""
     count = rng.randint(MIN_PIECES + 2, MAX_PIECES)
     _lay(scene, hoard(scene, rng), count)
     first = (dangers, min(rng.choice((0, 1, 1, 2)), len(scene.board.spots) or 1)), (bows, 1)
@@ -165,7 +165,7 @@ PATTERNS: tuple[Pattern, ...] = (round_stones, along_walls, bows, falls, rows)
 
 
 def _lay(scene: Scene, points: list[Point], count: int) -> bool:
-    """Put a group where all of it has room, away from other groups; whether it could be."""
+    """Put a group where all of it has room, away from other groups; tells whether there was such a place."""
     if len(scene.gold) >= count or len(points) < 2 or not all(_fits(scene, point) for point in points):
         return False
     centre = sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
@@ -177,13 +177,13 @@ def _lay(scene: Scene, points: list[Point], count: int) -> bool:
 
 
 def lay_about(scene: Scene, place: Point, rng: Random) -> bool:
-    """Put a small group round a place; whether it could be."""
+    """Put a small group around a place; tells whether there was room."""
     form, size = rng.choice((bowl, cross, sides)), rng.choice((26, 32))
     return _lay(scene, form(*place, size), MAX_PIECES + 8) or _lay(scene, sides(*place, 24), MAX_PIECES + 8)
 
 
 def lay_trails(scene: Scene, run: Sequence[Point], rng: Random) -> None:
-    """Up to three more groups along flights of a run that passes."""
+    """Put up to three more groups along flights of a run that passes the level."""
     for _ in range(20):
         first = rng.randrange(40, max(41, len(run) - 60))
         points = along(list(run[first : first + rng.randint(30, 50)]), 23.0)

@@ -1,4 +1,4 @@
-"""Ground plans, each one picture over the whole screen with a vault whose only way in can be locked; names for them.
+"""Ground plans: pictures over the whole screen, with a vault whose only way in can be locked; and their names.
 
 They are painted in cells: columns 1 to 32, rows 1 to 24, the middle at ``MID``.
 """
@@ -17,7 +17,7 @@ MID = 16.5
 
 
 def dome(x: float, y: float, wide: float, high: float) -> Ink:
-    """A roof with a flat underside: half its width, its height."""
+    """A roof with a flat underside; ``wide``: half its width, ``high``: its height."""
     return disc(x, round(y), wide, high) & box(1, 1, 32, round(y))
 
 
@@ -148,7 +148,7 @@ def umbrellas(board: RockBoard, rng: Random) -> None:
 
 
 def skull(board: RockBoard, rng: Random) -> None:
-    """A skull: great eyes, teeth, and what it thinks of behind its forehead."""
+    """A skull: great eyes, teeth, and a vault behind its forehead."""
     board.air(disc(MID, 10.5, 15, 8.8), poly((7, 16), (9, 23.4), (24, 23.4), (26, 16)))
     size = rng.choice((2.4, 2.8))
     board.rock(disc(9, 12, size + 0.7, size), poly((MID, 12.4), (14.8, 16), (18.2, 16)), box(1, 23, 32, 24))

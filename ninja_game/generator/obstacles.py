@@ -1,4 +1,4 @@
-"""Enemies and lines of mines round gold, exit and switches, never on the ninja; what hinders without harm."""
+"""Enemies and lines of mines around gold, exit and switches, never at the start; fixtures that hinder without harm."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ from ninja_game.sim.rules import CELL, PAD_RADIUS
 
 MAX_MINES = 34
 MAX_OBJECTS = 110
-MAX_HARDENING = 28  # mines and objects beyond those that may be added when a level turns out too easy
+MAX_HARDENING = 28  # most mines and objects that are added when a level turns out too easy
 SAFE = 150.0  # px around the ninja's start without any danger
-BESIDE_PX = 110.0  # from gold, exit and switches, within which enemies are placed first
-AT_BAIT = 120.0  # px from the middle of a group of gold in which mines guard it
-FROM_RUN = 17.0  # px from a certified run at which a mine leaves it alone: their radii, and a little
-CLOSE_PX = 48.0  # from a certified run, within which hazards are put when a level turns out too easy
-IN_SIGHT = 200.0  # as CLOSE_PX, of what shoots
+BESIDE_PX = 110.0  # distance from gold, exit and switches within which enemies are placed first
+AT_BAIT = 120.0  # px from the middle of a group of gold within which mines guard it
+FROM_RUN = 17.0  # least px from a certified run to a mine: the sum of the radii, and a little
+CLOSE_PX = 48.0  # px from a certified run within which hazards are added when a level turns out too easy
+IN_SIGHT = 200.0  # the same for enemies that shoot
 MAX_ENEMIES = 11
-MAX_ADDED = 15  # of them, and lines of mines, when a level turns out too easy
-ENEMY_TRIES = 14  # how often a place for one more enemy is looked for
-FEW_SOURCES = 6  # after so many of these tries among all sources
-# The same columns on both sides, so that a level looks made.
+MAX_ADDED = 15  # most enemies and lines of mines that are added when a level turns out too easy
+ENEMY_TRIES = 14  # how often the program looks for a place for one more enemy
+FEW_SOURCES = 6  # number of these tries after which all sources are used
+# The same columns on both sides, so that a level looks designed.
 TURRET_COLUMNS = (5, 8, 11, MIDDLE, 21, 24, 27)
 LAUNCHER_COLUMNS = (2, 3, MIDDLE, 29, 30)
-MAX_VOIDS = 4  # empty places that are furnished
-VOID = 4.2 * CELL  # px around such a place in which nothing is
+MAX_VOIDS = 4  # most empty places that get something
+VOID = 4.2 * CELL  # px around such a place without any object
 STEP = 28.0  # px between the mines of a line
 ON_ROCK = 6.0  # px from the rock to the middle of a mine
 GATE = 20.0  # px from the run to either mine of a gate
@@ -44,7 +44,7 @@ Source = Callable[[Scene, Random], Iterator[ObjectSpec]]
 
 
 def guards(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
-    """On floors that are long enough to run on."""
+    """On floors that are long enough for a guard to run."""
     for run in scene.runs():
         if run.length >= 5:
             yield object_of(f"floor guard {run.column + rng.randint(1, run.length - 2)},{run.row}")
@@ -98,11 +98,11 @@ def launchers(scene: Scene, _: Random) -> Iterator[ObjectSpec]:
 SOURCES: dict[Source, tuple[int, float]] = {
     guards: (1, 3.0), zaps: (1, 5.0), thwumps: (1, 1.8), patrols: (2, 1.5), turrets: (3, 0.8), launchers: (5, 1.5),
 }  # fmt: skip
-"""Where enemies come from: the least difficulty for them, and how often they are taken."""
+"""Sources of enemies: their least difficulty, and how often they are chosen."""
 
 
 def place_enemies(scene: Scene, rng: Random, count: int, difficulty: int) -> bool:
-    """Put about so many enemies of two or three sources into a scene; whether there are at least three."""
+    """Put about ``count`` enemies of two or three sources into a scene; tells whether there are at least three."""
     for x, y in scene.rings:
         turret = difficulty >= SOURCES[turrets][0] and _enemy(scene, object_of(f"gauss turret {x:g},{y:g}px"), 4 * CELL)
         scene.hazards.append([turret or object_of(f"mine {x:g},{y:g}px")])
@@ -117,7 +117,7 @@ def place_enemies(scene: Scene, rng: Random, count: int, difficulty: int) -> boo
             break
         offered = list(source(scene, rng))
         rng.shuffle(offered)
-        # The first three guard the group of gold together, each further one another place.
+        # The first three guard the same group of gold; every further one guards another place.
         together = len(scene.hazards) < 3
         offered.sort(key=partial(_from_hoard if together else _guards_nothing, scene))
         apart = (2 if together else 4) * CELL
@@ -132,7 +132,7 @@ def place_enemies(scene: Scene, rng: Random, count: int, difficulty: int) -> boo
 
 
 def _guards_nothing(scene: Scene, enemy: ObjectSpec) -> bool:
-    """Whether an enemy is far from all that one wants or has to touch."""
+    """Tell whether an enemy is far from everything that the player wants or has to touch."""
     return all(dist(enemy.values[:2], point) > BESIDE_PX for point in scene.wanted())
 
 
@@ -141,7 +141,7 @@ def _from_hoard(scene: Scene, enemy: ObjectSpec) -> float:
 
 
 def _enemy(scene: Scene, spec: ObjectSpec, apart: float) -> ObjectSpec | None:
-    """An enemy, if it has room, ``apart`` px to others, and does not close on the start."""
+    """Give an enemy if it has room, is ``apart`` px from others, and does not move towards the start."""
     start = middle_of(scene.start)
     point = (spec.values[0], spec.values[1])
     enemies = [other for other in scene.objects if other.kind in ENEMIES]
@@ -156,7 +156,7 @@ _SHOOTERS = (kinds.TURRET, kinds.LAUNCHER)
 
 
 def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
-    """Where nothing is far around: a few pieces of gold about a drone that goes to and fro, a turret or a mine."""
+    """Fill large empty places with a few pieces of gold around a moving drone, a turret or a mine."""
     air = [middle_of(cell) for cell in sorted(scene.steps)]
     for _ in range(MAX_VOIDS):
         taken = np.array([point for spec in scene.objects for point in places(spec)])
@@ -179,7 +179,7 @@ def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
 
 
 def place_mines(scene: Scene, rng: Random, count: int) -> None:
-    """Mines line the rock near what is wanted: under ceilings, up walls, over edges, on the floor of a pit."""
+    """Put mines on the rock near gold, exit and switches: under ceilings, up walls, over edges, in a pit."""
     rock = [face.off(ON_ROCK) for chain in scene.surfaces for face in chain]
     wanted_places = scene.wanted()
     near_first = [
@@ -199,7 +199,7 @@ def place_mines(scene: Scene, rng: Random, count: int) -> None:
 
 
 def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[list[Point]]:
-    """Lines along the rock, hardly any on a floor but on that of a pit; ``floors``: short ones on them too."""
+    """Give lines along the rock, on hardly any floors except those of pits; ``floors``: short ones there, too."""
     lines = list[list[Point]]()
     for chain in scene.surfaces:
         for first in range(0, len(chain) - 2, 3):
@@ -213,16 +213,16 @@ def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[l
 
 
 def _mines(scene: Scene, points: Sequence[Point]) -> list[ObjectSpec]:
-    """Mines at those of the points that have room."""
+    """Make mines at the points that have room."""
     start = middle_of(scene.start)
     fit = [p for p in points if scene.clear_of(p, key=44.0, other=14.0) and dist(p, start) >= SAFE / 2]
     return [object_of(f"mine {round(x)},{round(y)}px") for x, y in dict.fromkeys(fit)]
 
 
 def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random) -> list[ObjectSpec]:
-    """An enemy, or a line of mines on the rock, close to a run that passes; perhaps none.
+    """Make an enemy, or a line of mines on the rock, close to a run that passes the level; perhaps none.
 
-    No mine is less than ``FROM_RUN`` px from the run; whether it still passes an enemy is to be tried.
+    No mine is less than ``FROM_RUN`` px from the run. The caller must test whether the run still passes an enemy.
     """
     if scene.count(*ENEMIES) < MAX_ADDED and rng.random() < 0.4:
         source = rng.choices(list(SOURCES), [often * (difficulty >= least) for least, often in SOURCES.values()])[0]
@@ -243,13 +243,13 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
         group = [spec for away, spec in far if away >= FROM_RUN][:8]
         if len(group) >= 2 and min(away for away, _ in far) < CLOSE_PX:
             groups.append((sum(away < CLOSE_PX for away, _ in far), group))
-    # Of those with the most mines close to the run, one.
+    # Choose one of the groups with the most mines close to the run.
     groups.sort(key=lambda pair: -pair[0])
     return rng.choice(groups[:6])[1] if groups else []
 
 
 def _gate(scene: Scene, run: Sequence[Point], rng: Random) -> list[ObjectSpec]:
-    """A mine on either side of a run in the air; perhaps none."""
+    """Make a mine on either side of a run in the air; perhaps none."""
     for _ in range(20 if len(run) > 50 else 0):
         tick = rng.randint(40, len(run) - 3)
         (x0, y0), (x, y) = run[tick - 1], run[tick]
@@ -263,7 +263,7 @@ def _gate(scene: Scene, run: Sequence[Point], rng: Random) -> list[ObjectSpec]:
 
 
 def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
-    """Number of the group of hazards that is nearest to a run and that can go; None if none can."""
+    """Give the number of the group of hazards nearest to a run that can be removed; None if none can."""
     enemies = scene.count(*ENEMIES)
     spare = [
         (min(dist(spec.values[:2], at) for spec in group for at in run), number)
@@ -304,7 +304,7 @@ def one_ways(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
 
 
 def blocks(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
-    """Bounce blocks in open air, in pairs or like steps, some the same on both sides."""
+    """Bounce blocks in open air, in pairs or like steps, some mirrored on both sides."""
     air = [
         (c, r)
         for c, r in sorted(scene.steps)
@@ -318,7 +318,7 @@ def blocks(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
 
 
 def place_fixtures(scene: Scene, rng: Random) -> None:
-    """Put one or two sorts of fixtures into a scene."""
+    """Put one or two kinds of fixtures into a scene."""
     sorts = rng.sample((blocks, pads, one_ways), rng.choice((1, 2, 2)))
     for spec in (spec for sort in sorts for spec in sort(scene, rng)):
         # A pad lies on the edge of its cell.

@@ -1,4 +1,4 @@
-"""The generated levels that come with the game: a thousand, made once by tools/generated_levels.py; nobody waits.
+"""The thousand generated levels that come with the game, made by tools/generated_levels.py: nobody waits for them.
 
 >>> first = generated_levels(difficulty=3)[0]
 >>> first.seed, first.wanted, len(first.inputs) > 0
@@ -21,23 +21,23 @@ from ninja_game.formats.replay.notations import write_inputs
 from ninja_game.sim.level import Level
 
 AUTHOR = "ninja-game generate"  # who made the levels
-PACKED = "generated.tsv.xz"  # among the game's assets: a level a line, as PackedLevel.line writes it
+PACKED = "generated.tsv.xz"  # an asset of the game; a line per level, as PackedLevel.line writes it
 FROZEN = "bench.tsv.xz"
-"""Likewise, of an earlier generator: what the levels of the benchmark are made of. They never change."""
+"""The levels of an earlier generator, from which those of the benchmark are made. They never change."""
 MAX_BYTES = 8 * 2**20  # the largest size of the file, and of its text when unpacked
 MAX_MEMORY = 64 * 2**20  # bytes that unpacking may take
 
 
 def named_level(name: str, level: Level, seed: int | str, difficulty: int, measured: float) -> NamedLevel:
-    """A generated level as its file is to have it."""
+    """Give a generated level the name and other texts of its file."""
     return NamedLevel(name, AUTHOR, f"seed {seed}, difficulty {difficulty}: measured {measured:.1f}", level, "")
 
 
 class PackedLevel(NamedTuple):
-    """A generated level. ``wanted``: the difficulty asked for, 1 to 10; ``difficulty``: as measured.
+    """A generated level. ``wanted``: the difficulty asked for, 1 to 10; ``difficulty``: the measured one.
 
-    ``inputs``: of a run that passes it, a byte a tick. `ninja-game generate --seed SEED --difficulty WANTED` makes it
-    again, as long as generator and solver are those of the version that made it.
+    ``inputs``: of a run that passes it, one byte per tick. `ninja-game generate --seed SEED --difficulty WANTED` makes
+    it again, as long as generator and solver have not changed.
     """
 
     seed: int
@@ -59,7 +59,7 @@ class PackedLevel(NamedTuple):
 
 
 def read_line(line: str) -> PackedLevel:
-    """The level of a line. Raises FileError for one that is none, or what its parts raise."""
+    """Read the level of a line. Raises FileError for a broken line, and the errors of its parts."""
     fields = line.split("\t")
     if len(fields) != 6:
         raise FileError("a line of the generated levels is broken", PACKED, found=f"{len(fields)} fields", expected="6")
@@ -69,22 +69,22 @@ def read_line(line: str) -> PackedLevel:
 
 
 def generated_levels(difficulty: int | None = None) -> list[PackedLevel]:
-    """The generated levels that come with the game, in the order of their seeds: of a ``difficulty``, 1 to 10, or all.
+    """Read the generated levels that come with the game, by seed: those of a ``difficulty``, 1 to 10, or all.
 
-    Raises FileError where they are not there, as in a page.
+    Raises FileError if they are missing, as in a page.
     """
     lines = _lines(data_folder("assets") / PACKED)
     return [read_line(line) for line in lines if difficulty is None or line.split("\t")[1] == str(difficulty)]
 
 
 def frozen_level(place: int) -> PackedLevel:
-    """One of those of ``FROZEN``, by its place, from 0 on; the others are not read. Raises FileError likewise."""
+    """Read one level of ``FROZEN``, by its place from 0 on, without the others. Raises FileError if it is missing."""
     return read_line(_lines(data_folder("assets") / FROZEN)[place])
 
 
 @cache
 def _lines(path: Path) -> tuple[str, ...]:
-    import lzma  # not in every Python, nor in a page
+    import lzma  # not in every Python, and not in a page
 
     reader = lzma.LZMADecompressor(memlimit=MAX_MEMORY)
     try:
@@ -97,7 +97,7 @@ def _lines(path: Path) -> tuple[str, ...]:
 
 
 def pack(lines: list[str]) -> bytes:
-    """Lines as the file has them: the same lines are the same bytes."""
+    """Pack lines into the bytes of the file; the same lines give the same bytes."""
     import lzma
 
     return lzma.compress("".join(f"{line}\n" for line in lines).encode("utf-8"), preset=6)

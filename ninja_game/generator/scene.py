@@ -1,4 +1,4 @@
-"""A level that is being furnished: its tiles, what is open and where one can stand, and the objects placed so far."""
+"""A level in the making: its tiles, its open cells, the places to stand, and the objects so far."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ def mirrored(cell: Cell) -> Cell:
 
 
 Y, X = (1 + (np.indices((ROWS * FINE, COLUMNS * FINE)) + 0.5) / FINE).astype(float)
-"""Row and column of each sample, in cells."""
+"""Row and column of the samples, in cells."""
 
 
 def disc(x: float, y: float, wide: float, high: float) -> Ink:
-    """An ellipse about a point: half its width and height."""
+    """An ellipse around a point; ``wide``, ``high``: half its width and height."""
     shape: Ink = ((X - x) / wide) ** 2 + ((Y - y) / high) ** 2 <= 1
     return shape
 
@@ -61,7 +61,7 @@ def path(width: float, *points: Point) -> Ink:
 
 
 def dish(x: float, y: float, wide: float, high: float) -> Ink:
-    """An island with a flat top: half its width, its depth."""
+    """An island with a flat top; ``wide``: half its width, ``high``: its depth."""
     return disc(x, round(y), wide, high) & box(1, round(y), 32, 24)
 
 
@@ -73,14 +73,14 @@ STONES: tuple[Callable[[float, float, float], Ink], ...] = (
     lambda x, y, size: poly((x - size, y + 1), (x + size, y + 1), (x + size, y - size / 2)),
     lambda x, y, size: poly((x + size, y + 1), (x - size, y + 1), (x - size, y - size / 2)),
 )
-"""Small stones about a point, by half their width: islands, slabs, diamonds, pillars, ramps."""
+"""Small stones around a point, by half their width: islands, slabs, diamonds, pillars, ramps."""
 
 
 class RockBoard:
-    """Painted rock, all solid at first. While it is ``even``, all is painted at the mirrored place too.
+    """Painted rock, all solid at first. While it is ``even``, everything is also painted at the mirrored place.
 
-    ``heart``: the floor of the vault. ``gate``: the only way into it, cells for two locks, each of ``doors`` doors.
-    ``spots``: where a group of gold round a danger would be in its place, in cells.
+    ``heart``: the floor of the vault. ``gate``: the only way into it, cells for two locks of ``doors`` doors each.
+    ``spots``: places for a group of gold around a danger, in cells.
     """
 
     def __init__(self, doors: int = 1) -> None:
@@ -90,7 +90,7 @@ class RockBoard:
         self.heart: list[Cell] = []
         self.gate: list[Cell] = []
         self.spots: list[Point] = []
-        self.side = "right"  #: of the gate's cells, where a door is
+        self.side = "right"  #: side of the gate's cells with the door
 
     def rock(self, *shapes: Ink) -> None:
         """Paint shapes solid."""
@@ -103,7 +103,7 @@ class RockBoard:
             self.ink &= ~(shape | shape[:, ::-1] if self.even else shape)
 
     def vault(self, first: int, last: int, row: int, gate: int) -> None:
-        """A flat floor from column to column, and a way out to the right from the column ``gate`` on."""
+        """Dig a flat floor from column to column, and a way out to the right from the column ``gate`` on."""
         top = row + 1 - self.doors
         self.ink |= box(first, row + 1, last + 1, row + 2)
         self.ink |= box(gate, top - 1, gate + 2, row + 2)
@@ -112,7 +112,7 @@ class RockBoard:
         self.gate = [(gate + lock, row - k) for lock in (0, 1) for k in range(self.doors)]
 
     def holds(self, cell: Cell) -> bool:
-        """Whether the middle of a cell is rock, or of the border."""
+        """Tell whether the middle of a cell is rock, or the cell belongs to the border."""
         return not is_inside(cell) or bool(self.ink[cell[1] * FINE - FINE // 2, cell[0] * FINE - FINE // 2])
 
     def unroof(self, rng: Random) -> None:
@@ -130,7 +130,7 @@ class RockBoard:
         self.gate = [(column + k, high + lock) for lock in (0, 1) for k in (-1, 0, 1)]
 
     def fill(self, rng: Random) -> None:
-        """Stones of one or two sorts in what is too wide and open, some of them on one side only."""
+        """Put stones of one or two kinds into spaces that are too wide and open, some of them on one side only."""
         for row in self.ink:  # Rock close to the border is extended to it.
             row[:FINE], row[-FINE:] = row[FINE], row[-FINE - 1]
         self.ink[:FINE] = self.ink[FINE]
@@ -148,19 +148,19 @@ class RockBoard:
         self.even &= even
 
     def flip(self) -> None:
-        """Turn left and right round."""
+        """Swap left and right."""
         self.ink, self.side = self.ink[:, ::-1], "left" if self.side == "right" else "right"
         self.heart, self.gate = [list(map(mirrored, cells)) for cells in (self.heart, self.gate)]
         self.spots = [(COLUMNS + 2 - x, y) for x, y in self.spots]
 
 
 def flood(first: Cell, within: set[Cell]) -> set[Cell]:
-    """The cells of a set that are connected with one of them by their sides."""
+    """Give the cells of a set that are connected with ``first`` by their sides."""
     return set(steps_from(first, within))
 
 
 def steps_from(first: Cell, within: set[Cell]) -> dict[Cell, int]:
-    """How many steps from cell to cell of a set lead from one of them to each that can be reached."""
+    """Give the number of steps, from cell to cell of a set, from ``first`` to every cell in reach."""
     steps, front = {first: 0}, [first]
     for cell in front:
         for there in neighbours(cell):
@@ -176,7 +176,7 @@ def neighbours(cell: Cell) -> tuple[Cell, ...]:
 
 
 class FloorRun(NamedTuple):
-    """Cells in a row that one can stand in: ``length`` of them from ``column`` on."""
+    """Cells in a row that the ninja can stand in: ``length`` of them from ``column`` on."""
 
     column: int
     row: int
@@ -189,7 +189,7 @@ class FloorRun(NamedTuple):
 
 
 class Face(NamedTuple):
-    """A side of a cell, or a slope in it, px: its middle, and the direction that leads away from the rock."""
+    """A side of a cell, or a slope in it, px: its middle, and the direction away from the rock."""
 
     x: float
     y: float
@@ -197,11 +197,11 @@ class Face(NamedTuple):
     away_y: float
 
     def off(self, far: float) -> Point:
-        """The point that is so many px away from the rock."""
+        """Give the point ``far`` px away from the rock."""
         return self.x + far * self.away_x, self.y + far * self.away_y
 
     def joins(self, other: Face) -> bool:
-        """Whether two faces lie beside each other on one piece of rock."""
+        """Tell whether two faces are neighbours on one piece of rock."""
         return (
             dist(self[:2], other[:2]) < 1.45 * CELL and self.away_x * other.away_x + self.away_y * other.away_y > -0.5
         )
@@ -212,11 +212,11 @@ _LEANS = {
     for tiles, way in (("ajJdDgG", (1, -1)), ("skKfFhH", (-1, -1)), ("wiIrRyY", (-1, 1)), ("quUeEtT", (1, 1)))
     for tile in tiles
 }
-"""Where the open side of a tile with a shape is."""
+"""The side on which a tile with a shape is open."""
 
 
 def object_of(line: str) -> ObjectSpec:
-    """The object of a line, as in the list of an ASCII level."""
+    """Make the object of a line of the list of an ASCII level."""
     (listed,) = read_object_line(line)
     assert isinstance(listed, ListedObject)  # noqa: S101 - lines of this package place objects
     return listed.spec
@@ -225,8 +225,8 @@ def object_of(line: str) -> ObjectSpec:
 class Scene:
     """A level in the making.
 
-    ``key``: what every route needs (ninja, exit, doors). ``fixtures``: harmless. ``hazards``: groups of objects
-    that belong together: an enemy, or a line of mines.
+    ``key``: objects that every route needs (ninja, exit, doors). ``fixtures``: harmless objects. ``hazards``: groups of
+    objects that belong together: an enemy, or a line of mines.
     """
 
     def __init__(self, board: RockBoard, tiles: dict[Cell, str], start: Cell) -> None:
@@ -239,7 +239,7 @@ class Scene:
         self.fixtures: list[ObjectSpec] = []
         self.gold: list[ObjectSpec] = []
         self.baits: list[Point] = []  #: the middles of groups of gold
-        self.rings: list[Point] = []  #: of which these are rings of gold with room for a danger in them
+        self.rings: list[Point] = []  #: those of rings of gold with room for a danger inside
         self.hazards: list[list[ObjectSpec]] = []
 
     @property
@@ -252,11 +252,11 @@ class Scene:
         return Level(tuple(TILE_OF_CHAR[self.tiles.get(cell, ".")] for cell in cells), tuple(self.objects))
 
     def count(self, *which: int) -> int:
-        """How many objects of these kinds there are."""
+        """Count the objects of these kinds."""
         return sum(spec.kind in which for spec in self.objects)
 
     def stones(self) -> list[set[Cell]]:
-        """The connected groups of cells with a tile that do not touch the border."""
+        """Give the connected groups of cells with a tile that do not touch the border."""
         left, groups = set(self.tiles), []
         while left:
             groups.append(flood(min(left), left))
@@ -264,16 +264,16 @@ class Scene:
         return [stone for stone in groups if all(1 < c < COLUMNS and 1 < r < ROWS for c, r in stone)]
 
     def full(self, cell: Cell) -> bool:
-        """Whether a cell is a full tile or of the border."""
+        """Tell whether a cell is a full tile or belongs to the border."""
         return self.tiles.get(cell) == "#" or not is_inside(cell)
 
     def stands(self, cell: Cell) -> bool:
-        """Whether one can come to a cell and stand in it."""
+        """Tell whether the ninja can reach a cell and stand in it."""
         column, row = cell
         return cell in self.steps and (column, row - 1) in self.empty and self.full((column, row + 1))
 
     def runs(self) -> list[FloorRun]:
-        """Where one can stand, in reading order."""
+        """Give the floors in reach, in reading order."""
         floors: list[FloorRun] = []
         for row in range(1, ROWS + 1):
             for column in range(1, COLUMNS + 1):
@@ -287,7 +287,7 @@ class Scene:
 
     @cached_property
     def surfaces(self) -> list[list[Face]]:
-        """The rock's surface where one can come to: chains of faces, each beside the one before."""
+        """Give the rock's surface in reach: chains of neighbouring faces."""
         faces = list[Face]()
         for cell in sorted(self.steps):
             for there in neighbours(cell):
@@ -303,7 +303,7 @@ class Scene:
             if first in left:
                 chain = [first]
                 del left[first]
-                for end in (-1, 0):  # on to both sides
+                for end in (-1, 0):  # extend the chain at both ends
                     while near := [face for face in left if face.joins(chain[end])]:
                         following = min(near, key=lambda face: dist(face[:2], chain[end][:2]))
                         del left[following]
@@ -312,15 +312,15 @@ class Scene:
         return chains
 
     def wanted(self) -> list[Point]:
-        """What one wants or has to touch, px: the middles of groups of gold, exit, doors and switches."""
+        """Give the places that a player wants or has to touch, px: groups of gold (middle), exit, doors, switches."""
         return [*self.baits, *(point for spec in self.key[1:] for point in places(spec))]
 
     def twin(self, points: list[Point]) -> list[Point]:
-        """The same points on the other side of the middle column."""
+        """Mirror the points at the middle column."""
         return [(2 * middle_of((MIDDLE, 0))[0] - x, y) for x, y in points]
 
     def clear_of(self, point: Point, *, key: float, other: float) -> bool:
-        """Whether a point is in a cell that can be reached, and this many px from all that is there."""
+        """Tell whether a point is in a cell in reach, ``key`` px from key objects and ``other`` px from others."""
         ok = cell_of(*point) in self.steps
         return ok and all(
             dist(point, place) >= (key if spec.kind in _KEY else max(other, _CLEARANCE.get(spec.kind, 0.0)))
@@ -329,7 +329,7 @@ class Scene:
         )
 
     def sees(self, a: Point, b: Point) -> bool:
-        """Whether no tile is between two points, as far as cells can tell."""
+        """Tell whether no tile is between two points, as far as cells can tell."""
         count = int(hypot(b[0] - a[0], b[1] - a[1]) // 8) + 1
         line = ((a[0] + (b[0] - a[0]) * k / count, a[1] + (b[1] - a[1]) * k / count) for k in range(count + 1))
         return all(cell_of(*point) not in self.tiles for point in line)
@@ -337,11 +337,11 @@ class Scene:
 
 _KEY = (kinds.NINJA, kinds.EXIT, kinds.DOOR)
 _CLEARANCE = {kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0, kinds.BOUNCE_BLOCK: 22.0}
-"""px that stay free around fixtures."""
+"""px around fixtures that stay free."""
 
 
 def places(spec: ObjectSpec) -> Iterator[Point]:
-    """Where an object and its switch are."""
+    """Give the place of an object, and that of its switch."""
     x, y, *more = spec.values
     yield x, y
     if spec.kind == kinds.EXIT:

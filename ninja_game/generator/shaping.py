@@ -1,4 +1,4 @@
-"""Tiles for painted rock: of each cell the tile that covers it best and agrees with those beside it."""
+"""Tiles for painted rock: for each cell the tile that covers the paint best and fits the tiles beside it."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import CELL, STRIDE
 
-FINE = 8  # samples of a cell in a row and in a column
+FINE = 8  # samples per cell, across and down
 FULL = TILE_CHARS.index("#")
 COSTS = np.array([2 * (tile in '_]"[') + 3 * (tile in "jkiuJKIU") + 1 * (tile not in ".#") for tile in TILE_CHARS])
-"""What each tile costs, in samples of a cell that it covers wrongly."""
+"""Extra cost of each tile, in samples of a cell that it covers wrongly."""
 AGREE = 1  # cost of a sample of a side that differs from the tile beside it
 ROUNDS = 12  # passes over all cells
 
-Ink = NDArray[np.bool_]  # painted rock: a sample each, (rows * FINE, columns * FINE)
+Ink = NDArray[np.bool_]  # painted rock, one value per sample: (rows * FINE, columns * FINE)
 
 
 @cache
 def masks() -> Ink:
-    """The samples of a cell that each tile covers: (tile, row, column)."""
+    """Give the samples of a cell that each tile covers: (tile, row, column)."""
     at, tiles, grids = [(k + 0.5) * CELL / FINE for k in range(FINE)], TileMap(), []
     for tiles.tiles[STRIDE + 1] in range(len(TILE_CHARS)):
         grids.append([[solid_at(tiles, x, y) for x in at] for y in at])
@@ -34,7 +34,7 @@ def masks() -> Ink:
 
 @cache
 def _costs() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Samples that differ where one tile is above, or to the left of, another: (this one, the other)."""
+    """Count samples that differ if one tile is above, or to the left of, another: (this one, the other)."""
     mask = masks()
     below = np.abs(mask[:, None, -1].astype(int) - mask[None, :, 0]).sum(2)
     right = np.abs(mask[:, None, :, -1].astype(int) - mask[None, :, :, 0]).sum(2)
@@ -42,7 +42,7 @@ def _costs() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 
 
 def fitted(ink: Ink, *, even: bool) -> NDArray[np.int64]:
-    """The number of the tile of each cell, (rows, columns); ``even``: both sides of the middle column are alike."""
+    """Give the number of the tile of each cell, (rows, columns); ``even``: mirrored at the middle column."""
     cells = ink.reshape(ROWS, FINE, COLUMNS, FINE).swapaxes(1, 2)[:, :, None]
     own = (cells != masks()).sum((3, 4)) + COSTS
     own[:, COLUMNS // 2, even * (masks() != masks()[:, :, ::-1]).any((1, 2))] += FINE * FINE
@@ -50,7 +50,7 @@ def fitted(ink: Ink, *, even: bool) -> NDArray[np.int64]:
     best = np.full((ROWS + 2, COLUMNS + 2), FULL)
     best[1:-1, 1:-1] = own.argmin(2)
     odd = np.indices((ROWS, COLUMNS)).sum(0) % 2
-    for number in range(ROUNDS):  # in turn, like the squares of a chessboard
+    for number in range(ROUNDS):  # alternating, like the squares of a chessboard
         sides = below[best[:-2, 1:-1]] + below.T[best[2:, 1:-1]]
         sides += right[best[1:-1, :-2]] + right.T[best[1:-1, 2:]]
         best[1:-1, 1:-1] = np.where(odd == number % 2, (own + sides).argmin(2), best[1:-1, 1:-1])
@@ -58,7 +58,7 @@ def fitted(ink: Ink, *, even: bool) -> NDArray[np.int64]:
 
 
 def shaped(ink: Ink, *, even: bool) -> dict[tuple[int, int], str]:
-    """The tile of every cell that is not empty; what is painted the same on both sides is so."""
+    """Give the tile of every cell that is not empty; paint that is mirrored gives mirrored tiles."""
     tiles, other = fitted(ink, even=even), fitted(ink[:, ::-1], even=even)
     turned = [next(k for k, mask in enumerate(masks()) if (mask == grid[:, ::-1]).all()) for grid in masks()]
     half = COLUMNS // 2 + 1

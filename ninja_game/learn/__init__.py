@@ -1,6 +1,6 @@
-"""The worlds as Gymnasium environments, single and vector, with what learning needs around them (docs/learning.md).
+"""The worlds as Gymnasium environments, single and vector, and the tools of learning around them (docs/learning.md).
 
-Its import registers their ids.
+Importing this package registers their ids.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ ENVIRONMENTS: dict[str, dict[str, Any]] = {
     "NinjaBench-Pixels-v1": {**_BENCH, "observation": "image"},
     "NinjaBench-Rays-v1": {**_BENCH, "observation": ["state", "tiles", "rays"], "flat": True},
 }
-"""The registered ids and what they set besides the defaults; docs/learning.md tells what their version fixes."""
+"""The registered ids with their settings besides the defaults; docs/learning.md explains their versions."""
 
 for _name, _settings in ENVIRONMENTS.items():
     if _name not in registration.registry:

@@ -1,4 +1,4 @@
-"""Actions: which keys of the game are down during a step."""
+"""Actions: the keys of the game that are down during a step."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ACTION_NAMES = ("left", "none", "right", "left+jump", "jump", "right+jump")
 """The discrete actions, by number: 3 * jump + (0 left, 1 none, 2 right)."""
 
 DISCRETE_KEYS = np.array([jump + side for jump in (0, JUMP_HELD) for side in (KEY_LEFT, 0, KEY_RIGHT)], np.uint8)
-"""The keys of each."""
+"""The keys of each discrete action, by number."""
 BUTTON_KEYS = np.array([KEY_LEFT, KEY_RIGHT, JUMP_HELD], np.uint8)  # the key of each button: left, right, jump
 
 
@@ -42,14 +42,14 @@ class Actions:
         self._shape: tuple[int, ...] = self.space.shape or ()
 
     def key(self, action: Any) -> Keys:
-        """The keys of one world, uint8 (1,): as ``keys``, and for a number in a tenth of the time."""
+        """The keys of one world, uint8 (1,): like ``keys``, but ten times as fast for a number."""
         number = int(action) if isinstance(action, np.integer) else action
         if self.kind == "discrete" and type(number) is int and 0 <= number < self._choices:
             return DISCRETE_KEYS[number : number + 1]
         return self.keys([action], 1)
 
     def keys(self, actions: Any, count: int) -> Keys:
-        """The keys down in each of ``count`` worlds, uint8 (count,). Raises InvalidAction for what is not an action."""
+        """The keys of ``count`` worlds, uint8 (count,). Raises InvalidAction for invalid actions."""
         try:
             actions_array = np.asarray(actions)
         except ValueError:

@@ -1,4 +1,4 @@
-"""Demonstrations: recordings as what an environment shows, gets and pays, for learning from them.
+"""Demonstrations: the observations, actions and rewards that recordings give in an environment.
 
 >>> from ninja_game import load_replays
 >>> episode = demonstration(load_replays("levels/certificates/00-0-first-steps.exit.replay.txt")[0])
@@ -38,20 +38,20 @@ _BOTH = KEY_LEFT + KEY_RIGHT
 _ACTION_OF_KEYS = np.array(
     [DISCRETE_KEYS.tolist().index(keys & JUMP_HELD if keys & _BOTH == _BOTH else keys) for keys in range(KEYS_DOWN + 1)]
 )
-"""The discrete action of keys that are down; left and right together are as none (ninja.md §3)."""
+"""The discrete action for each sum of keys; left and right together count as none (ninja.md §3)."""
 
 
 class UnplayableRecordingError(NinjaGameError):
-    """A recording that no agent could have made in an environment; says why."""
+    """A recording that no agent could have made in an environment; the message says why."""
 
 
 @dataclass(frozen=True, eq=False)
 class Demonstration:
     """A recording of T ticks as T steps of an environment with frame skip 1.
 
-    ``observations``: (T + 1, …), from the first reset to after the last step, or a dict of such arrays. ``actions``:
-    (T,) int64, of buttons (T, 3) int8. ``rewards``: (T,) float64. ``terminations``, ``truncations``: (T,) bool; what
-    ends before the exit or death ends truncated. ``name``, ``level``, ``body``: of the recording.
+    ``observations``: (T + 1, …), from the first reset to the last step, or a dict of such arrays. ``actions``: (T,)
+    int64, for buttons (T, 3) int8. ``rewards``: (T,) float64. ``terminations``, ``truncations``: (T,) bool; a recording
+    that ends before the exit or death ends truncated. ``name``, ``level``, ``body``: those of the recording.
     """
 
     name: str
@@ -74,13 +74,12 @@ def demonstration(
     most_bytes: int = DATASET_MIB * 2**20,
     **settings: Unpack[TaskSettings],
 ) -> Demonstration:
-    """What an environment makes of a recording, by ``NinjaEnv`` with its level and body.
+    """Play a recording in a ``NinjaEnv`` with its level and body.
 
-    ``time_limit``: ticks (``TimeLeft`` tells them); None: those of the recording. ``settings``: of ``NinjaEnv``.
+    ``time_limit``: ticks (``TimeLeft`` shows them); None: those of the recording. ``settings``: of ``NinjaEnv``.
 
-    An environment presses jump when its key goes down; N also has recordings that press it again while it is down. If
-    that makes another run of a recording, it is an UnplayableRecordingError. Raises BudgetError for more than
-    ``most_bytes`` of observations.
+    An environment presses jump when the jump key goes down; recordings of N can also press it again while it is down.
+    Raises UnplayableRecordingError if that changes the run, BudgetError for more than ``most_bytes`` of observations.
     """
     keys = recording.inputs
     limit = time_limit or len(keys)
@@ -128,10 +127,10 @@ def _stacked(seen: Sequence[Any]) -> Observed:
 
 
 def arrays(episodes: Sequence[Demonstration]) -> dict[str, NDArray[Any]]:
-    """Episodes one after the other, N steps in all, under the names that Minari gives its arrays.
+    """Join episodes, N steps in all, into arrays with the names that Minari uses.
 
-    ``observations`` (N, …) before and ``next_observations`` after each step (of several parts: "observations/NAME"),
-    ``actions``, ``rewards``, ``terminations``, ``truncations`` (N,), ``episode_ids`` (N,): which episode a step is of,
+    ``observations`` (N, …) before and ``next_observations`` after each step (for several parts: "observations/NAME"),
+    ``actions``, ``rewards``, ``terminations``, ``truncations`` (N,), ``episode_ids`` (N,): the episode of each step,
     ``names`` (episodes,). Raises ArgumentError without episodes.
     """
     if not episodes:
@@ -161,14 +160,14 @@ def require_minari() -> None:
 
 
 def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: Any) -> Any:
-    """Write episodes as the data set ``dataset`` of Minari ("name-v0"), where Minari keeps its sets; the set.
+    """Write episodes as the data set ``dataset`` of Minari ("name-v0"), in Minari's own place; gives the data set.
 
-    ``settings``: those of the demonstrations, in words and numbers. The environment that the set recovers has the
-    levels of all episodes; the metadata of an episode have the ``options`` with which it is reset for that one, and
-    ``level_digest``, ``frame_skip`` and the ``name`` of the recording.
+    ``settings``: those of the demonstrations, as words and numbers. The environment that the set recovers has the
+    levels of all episodes. The metadata of an episode have the ``options`` of its reset, ``level_digest``,
+    ``frame_skip`` and the ``name`` of the recording.
 
     Raises MissingExtraError without Minari; ArgumentError without episodes, for episodes of different bodies, or for a
-    name that Minari does not take.
+    name that Minari refuses.
     """
     require_minari()
     import minari
@@ -196,7 +195,7 @@ def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: An
     env = gymnasium.make("ninja_game:Ninja-v0", **{**own, **settings})
     try:
         with env, warnings.catch_warnings():
-            # Minari warns of a missing author's address, link and scores, which recordings do not have.
+            # Minari warns about a missing address of the author, link and scores, which recordings do not have.
             warnings.simplefilter("ignore", UserWarning)
             written = minari.create_dataset_from_buffers(
                 dataset,

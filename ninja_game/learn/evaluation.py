@@ -1,7 +1,7 @@
-"""Evaluation: how often an agent passes each of some levels, as a table.
+"""Evaluation: a table of how often an agent passes some levels.
 
-A policy looks at observations and is tried in many episodes that differ by sticky actions and a start that waits; a
-planner gives the actions for a level, and is believed only what an environment says of them.
+A policy reacts to observations; it plays many episodes that differ by sticky actions and a random wait at the start. A
+planner gives all actions for a level; the environment decides what they achieve.
 """
 
 from __future__ import annotations
@@ -25,36 +25,36 @@ ActionStream: TypeAlias = Iterator[NDArray[np.integer]]
 
 
 class Agent(Protocol):
-    """``settings``: the keywords of the environment that an agent is made for."""
+    """``settings``: the keywords of the agent's environment."""
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Keywords of ``NinjaEnv``, but level and body; the actions are discrete."""
+        """Keywords of ``NinjaEnv`` without level and body; the actions must be discrete."""
 
 
 class Policy(Agent, Protocol):
-    """An agent that looks and acts."""
+    """An agent that reacts to observations."""
 
     def reset(self, count: int, seed: int) -> None:
-        """Begin with this many worlds."""
+        """Begin with ``count`` worlds."""
 
     def act(self, observations: Any) -> NDArray[np.integer]:
-        """The action of each world, (n,), by the observations of all."""
+        """The actions of all worlds, (n,), by their observations."""
 
 
 @runtime_checkable
 class Planner(Agent, Protocol):
-    """An agent that finds all actions for a level before it plays."""
+    """An agent that chooses all actions of a level before it plays."""
 
     def plan(self, level: Level, seed: int) -> NDArray[np.integer]:
-        """The actions, one a step."""
+        """The actions, one per step."""
 
 
 @dataclass(frozen=True)
 class LevelResult:
-    """Episodes in one level: how many were passed, ended by death, by the time; and what was reached.
+    """Episodes in one level: how many ended at the exit, by death or by the time limit; and their results.
 
-    ``ticks``: the median of those that were passed, NaN without any; ``gold``, ``reward``: means of all.
+    ``ticks``: median over the passed episodes, NaN without any; ``gold``, ``reward``: means over all episodes.
     """
 
     level: str
@@ -74,7 +74,7 @@ class LevelResult:
 
 @dataclass(frozen=True)
 class Evaluation:
-    """What an agent reached. ``levels_sha256``: of the levels themselves; equal evaluations have equal ones."""
+    """The result of an agent. ``levels_sha256``: of the levels; evaluations are only comparable if it is equal."""
 
     agent: str
     levels_sha256: str
@@ -85,7 +85,7 @@ class Evaluation:
     results: list[LevelResult]
 
     def count_passed(self, rate: float = 0.9) -> int:
-        """How many levels were passed in that share of their episodes or more."""
+        """Count the levels that were passed in at least this share of their episodes."""
         return sum(result.rate >= rate for result in self.results)
 
 
@@ -101,10 +101,10 @@ def evaluate(
     time_limit: int = TIME_LIMIT,
     memory: str = "auto",
 ) -> Evaluation:
-    """The table of an agent on levels.
+    """Evaluate an agent on levels.
 
-    ``episodes``: of a policy in each level; of a planner's one. ``seed``: equal seeds give equal tables; a level's row
-    does not depend on the other levels: its episode i is the first of an environment of the same settings after
+    ``episodes``: of a policy in each level; a planner plays one. ``seed``: equal seeds give equal tables. A level's row
+    does not depend on the other levels: its episode i is the first of an environment with these settings after
     ``reset(seed=first_seed(level, seed) + i)``. ``repeat``, ``longest_wait``: of ``EnvWorlds``, for policies.
     """
     source = level_source(levels)
@@ -137,7 +137,7 @@ def policy_actions(agent: Policy, worlds: EnvWorlds, seed: int) -> ActionStream:
 
 
 class EpisodeEnds(NamedTuple):
-    """How the episode of each world has ended, (n,): outcome, 0 for one that was late, ticks, gold, reward."""
+    """The ends of the episodes of all worlds, (n,): outcome (0: time limit), ticks, gold, reward."""
 
     outcomes: NDArray[np.int64]
     ticks: NDArray[np.int64]
@@ -146,7 +146,7 @@ class EpisodeEnds(NamedTuple):
 
 
 def play_episodes(worlds: EnvWorlds, actions: ActionStream) -> EpisodeEnds:
-    """One episode in every world; where the actions come to an end, what runs still is late."""
+    """Play one episode in every world; an episode that runs when the actions end counts as out of time."""
     outcomes, ticks, gold = np.zeros((3, worlds.count), np.int64)
     ends = EpisodeEnds(outcomes, ticks, gold, np.zeros(worlds.count))
     running = np.ones(worlds.count, np.bool_)

@@ -1,7 +1,7 @@
-"""How far each world's ninja is from the exit, in ticks, by the solver's distance fields.
+"""Distance of the ninjas from the exit, in ticks, by the solver's distance fields.
 
-A level has one field for each *switch state*: which exits are open and which doors are switched. It is made when a
-world first reaches that state, and kept. The fields know walls, mines and doors, not jumps: an estimate, no promise.
+A level has one field per *switch state*: which exits are open and which doors are switched. A field is made when a
+world first reaches its state, and then kept. Fields know walls, mines and doors, not jumps: they only estimate.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import fast, kernel
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
 
-SPARE_FIELDS = 1024  # fields that are kept although no world is in their state; 53 KB each, once made
+SPARE_FIELDS = 1024  # fields that are kept although no world is in their state; 53 KB each
 
 NO_STATE = NO_ROW = -1
 
@@ -27,8 +27,8 @@ NO_STATE = NO_ROW = -1
 class GoalDistance:
     """Ticks to the exit of ``count`` worlds.
 
-    ``ticks`` (n,) float64; ``states`` (n,) int64: the switch states, a bit for each of ``Heuristics.switches``;
-    ``start`` (n,) float64: ticks at the episode's start; ``fields`` (rows, POINTS) float32 and ``rows`` (n,): the field
+    ``ticks`` (n,) float64; ``states`` (n,) int64: the switch states, one bit per entry of ``Heuristics.switches``;
+    ``start`` (n,) float64: ticks at the episode's start; ``fields`` (rows, POINTS) float32 and ``rows`` (n,): the row
     of each world's switch state.
     """
 
@@ -47,20 +47,20 @@ class GoalDistance:
         self._switches = context.rows(lambda number: [(slot,) for slot in self._heuristics(number).slots.tolist()], 1)
 
     def _heuristics(self, number: int) -> Heuristics:
-        """The fields of a level, which any memory makes alike: the fastest does."""
+        """The fields of a level. Both memories make equal ones, so the faster memory is used."""
         if number not in self._made:
             alone = open_worlds("auto", self._levels[number], box=False)
             self._made[number] = Heuristics(alone.maps, alone.records)
         return self._made[number]
 
     def begin(self, level_of: Indices, indices: Indices) -> None:
-        """Measure worlds that were reset or restored; their old switch states are forgotten."""
+        """Measure worlds that were reset or restored, and forget their old switch states."""
         self.states[indices] = NO_STATE
         self.measure(level_of, indices, 0, len(indices))
         self.settle(level_of)
 
     def measure(self, level_of: Indices, indices: Indices, first: int, last: int) -> None:
-        """Look how far the worlds ``indices[first:last]`` are now; not yet those whose switch state is another."""
+        """Measure the worlds ``indices[first:last]``, except those with a new switch state (``settle``)."""
         worlds = self._worlds
         self._kernel(
             worlds.maps, level_of, worlds.worlds, indices, first, last,
@@ -68,7 +68,7 @@ class GoalDistance:
         )  # fmt: skip
 
     def settle(self, level_of: Indices) -> Indices:
-        """Give worlds whose switch state has changed its field, and measure them again; their indices (k,)."""
+        """Give worlds with a new switch state its field, and measure them again; returns their indices (k,)."""
         stale = np.flatnonzero(self._stale)
         if stale.size:
             self._stale[stale] = False
@@ -79,7 +79,7 @@ class GoalDistance:
         return stale
 
     def _row(self, level: int, state: int) -> int:
-        """The row of a field, made if it is not there."""
+        """Give the row of a field; make the field if it is missing."""
         key = (level, state)
         if key not in self._row_of:
             if not self._free:
@@ -94,7 +94,7 @@ class GoalDistance:
 
 @fast
 def point_within(x: float, y: float) -> int:
-    """The field's point nearest to a place; places outside the world count as at its rim, NaN as 0."""
+    """Index of the point nearest to a place; places outside the world count as at its border, NaN as 0."""
     return point_at(clamp(x, 0.0, WORLD_WIDTH), clamp(y, 0.0, WORLD_HEIGHT))
 
 
@@ -103,7 +103,7 @@ def measure_distance(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int,
     bounds: Any, switches: Any, states: Any, stale: Any, fields: Any, rows: Any, ticks: Any,
 ) -> None:  # fmt: skip
-    """Write the switch states of some worlds and their ``ticks`` to the exit; ``stale``: the state is another now."""
+    """Write the switch states of some worlds and their ``ticks`` to the exit; ``stale``: the state has changed."""
     for k in range(first, last):
         index = indices[k]
         level = level_of[index]

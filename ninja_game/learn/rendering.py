@@ -1,4 +1,4 @@
-"""The game's own picture of an episode: as an array, in a window, or as text."""
+"""The game's picture of an episode: as an array, in a window, or as text."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ninja_game.play.window import Window
 
 _MOVING = {kind.number for kind in KINDS if kind.moves and (kind.disc or kind.box)}
-"""What is drawn where it is; a turret and a launcher stay in their places, only their shots go."""
+"""Kinds that are drawn at their present place; a turret and a launcher stay, only their shots move."""
 _GONE_WHEN_0 = {GOLD, MINE}
 _NOWHERE = (0.0, 0.0)
 
@@ -26,7 +26,7 @@ MAX_PX = 8192  # longest side of a picture
 
 
 def checked_size(size: object) -> tuple[int, int]:
-    """Width and height of a picture, px. Raises ArgumentError for anything else."""
+    """Check width and height of a picture, px. Raises ArgumentError for anything else."""
     sides = list(size) if isinstance(size, tuple | list) else []
     if len(sides) != 2 or not all(isinstance(side, int) and 1 <= side <= MAX_PX for side in sides):
         raise ArgumentError(f"render_size is {size!r:.40}; expected width and height, 1 to {MAX_PX} px")
@@ -34,7 +34,7 @@ def checked_size(size: object) -> tuple[int, int]:
 
 
 class EpisodePicture:
-    """Draws a run as the game does, from ``begin`` on; or follows an episode by its inputs in a world of its own.
+    """Draws a run as the game does, from ``begin`` on; or follows an episode by its inputs in its own world.
 
     ``size``: px, width and height. ``window``: show every tick in a window, at the game's speed.
 
@@ -67,9 +67,9 @@ class EpisodePicture:
         self._show()
 
     def follow(self, inputs: bytes, shown: int) -> None:
-        """Go on to the moment after these inputs, one byte per tick from the start of the level.
+        """Go on to the state after these inputs, one byte per tick from the start of the level.
 
-        ``shown``: how many of the last ticks a window shows.
+        ``shown``: number of the last ticks that a window shows.
         """
         played = self._simulation.inputs
         if not inputs.startswith(played):
@@ -83,7 +83,7 @@ class EpisodePicture:
                 self._show()
 
     def _show(self) -> None:
-        """Show the present tick in the window, and wait until it is over; a window that is closed stays away."""
+        """Show the present tick in the window and wait for its end; a closed window stays closed."""
         if self._window is None:
             return
         pygame = self._pygame
@@ -97,7 +97,7 @@ class EpisodePicture:
         self._clock.tick(TICKS_PER_SECOND)
 
     def rgb(self) -> NDArray[np.uint8]:
-        """The picture, (height, width, 3): a new array."""
+        """The picture as a new array, (height, width, 3)."""
         self._view.draw(self._surface)
         return self._pygame.surfarray.array3d(self._surface).swapaxes(0, 1).copy()
 
@@ -108,10 +108,9 @@ class EpisodePicture:
 
 
 def episode_text(level: Level, body: Body, inputs: bytes) -> str:
-    """The moment after these inputs as text: the level by quarter blocks and the legend's characters, then a line.
+    """Show the state after these inputs as text: the level by quarter blocks and the legend's characters, then a line.
 
-    Gold that was taken and mines that exploded are gone, what moves is where it is now; of an open exit the switch is
-    gone.
+    Gold taken, exploded mines and the switch of an open exit are left out; moving objects are at their present places.
     """
     run = Simulation(level, body=body)
     for keys in inputs:
@@ -129,6 +128,6 @@ def episode_text(level: Level, body: Body, inputs: bytes) -> str:
             objects.append(ObjectSpec(EXIT, (*values[:2], *_NOWHERE)))
         elif status or spec.kind not in _GONE_WHEN_0:
             objects.append(spec)
-    # A later record covers an earlier one.
+    # Later records cover earlier ones.
     picture = level_picture(Level(level.tiles, tuple(objects + ninja))).plain
     return f"{picture}\ntick {run.tick}, {run.outcome}, {run.gold} gold"

@@ -1,4 +1,4 @@
-"""Rewards: terms that are added up, each with its weight.
+"""Rewards: a weighted sum of terms.
 
 >>> reward_terms("gold")
 [GoldReward(weight=0.01)]
@@ -51,13 +51,13 @@ class TimePenalty:
 class DistanceShaping:
     """``weight`` times (``discount`` Φ(s') - Φ(s)), where Φ(s) = 1 - ticks to the exit from s / ticks from the start.
 
-    The ticks are those of the solver's distance fields (`goal_distance.py`). Φ is 0 at the start, about 1 before the
-    exit, never below -1, and counts as 0 where the episode terminates; so a death takes back what was gained. Where a
-    level's start has no way to the exit, Φ is 0.
+    The ticks come from the solver's distance fields (`goal_distance.py`). Φ is 0 at the start, about 1 before the exit,
+    never below -1, and 0 where the episode terminates; so a death takes back all gains. Φ is always 0 in a level whose
+    start has no way to the exit.
 
-    It keeps the optimum: along any episode the discounted sum of these terms telescopes to -Φ(s₀) = 0 times ``weight``
-    at the terminal state, whatever was done, so every policy's return changes by the same constant (Ng, Harada, Russell
-    1999). This needs ``discount`` to be the one with which the agent learns, per step, not per tick.
+    It keeps the optimum: along any episode the discounted sum of these terms telescopes to ``weight`` times -Φ(s₀) = 0
+    at the terminal state, whatever the actions were, so every policy's return changes by the same constant (Ng, Harada,
+    Russell 1999). ``discount`` must be the one with which the agent learns, per step, not per tick.
     """
 
     weight: float = 1.0
@@ -73,7 +73,7 @@ REWARD_TERMS: dict[str, type[RewardTerm]] = {
 
 
 def reward_terms(reward: RewardLike | Sequence[RewardLike] | None) -> list[RewardTerm]:
-    """Resolve terms: one, several, or None for the sparse reward; names get their default weights.
+    """Resolve terms: one, several, or None for the sparse reward; names mean terms with default weights.
 
     Raises ArgumentError for anything else.
     """
@@ -88,25 +88,25 @@ def reward_terms(reward: RewardLike | Sequence[RewardLike] | None) -> list[Rewar
 
 
 def weights_of(terms: Sequence[RewardTerm]) -> list[float]:
-    """What an exit, a death, a piece of gold and a tick are worth to terms; shaping is none of these."""
+    """The rewards of an exit, a death, a piece of gold and a tick, summed over the terms, without shaping."""
     worth = dict.fromkeys(REWARD_TERMS.values(), 0.0)
     for term in terms:
         worth[type(term)] += term.weight
     return [worth[ExitReward], -worth[DeathPenalty], worth[GoldReward], -worth[TimePenalty]]
 
 
-MIN_POTENTIAL = -1.0  # the lowest Φ: twice as far as at the start, or farther
+MIN_POTENTIAL = -1.0  # the lowest Φ: at least twice as far from the exit as the start
 
 
 class Shaping:
-    """Adds the terms to the rewards of each step, and remembers Φ of every world from one step to the next."""
+    """Adds the shaping terms to the rewards of each step, and remembers Φ of every world for the next step."""
 
     def __init__(self, terms: Sequence[DistanceShaping], goal: GoalDistance) -> None:
         self._terms, self._goal = list(terms), goal
         self._potential = np.zeros(len(goal.ticks))
 
     def begin(self, indices: Indices) -> None:
-        """Forget the potentials of worlds that were reset or restored, which earns no reward."""
+        """Forget Φ of worlds that were reset or restored, since that earns no reward."""
         self._potential[indices] = self._measured(indices)
 
     def add(self, rewards: NDArray[np.float64], indices: Indices, terminated: NDArray[np.bool_]) -> None:

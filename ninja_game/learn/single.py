@@ -34,7 +34,7 @@ from ninja_game.simulation import Simulation
 
 @dataclass(frozen=True, eq=False)
 class SavedEpisode:
-    """A moment of an episode, from ``NinjaEnv.save``: only good for environments of equal levels and settings."""
+    """A saved state of an episode, from ``NinjaEnv.save``, for environments with equal levels and settings."""
 
     state: EnvState = field(repr=False)
     inputs: bytes = field(repr=False)
@@ -42,15 +42,15 @@ class SavedEpisode:
 
 
 class NinjaEnv(gymnasium.Env[Any, Any]):
-    """One world, an episode from its start to the exit or death (terminated), or to the time limit (truncated).
+    """One world; an episode ends at the exit or by death (terminated), or at the time limit (truncated).
 
     ``level``, ``observation``, ``flat``, ``reward``, ``frame_skip`` (ticks of a step), ``time_limit`` (ticks),
-    ``repeat``, ``longest_wait``, ``body``, ``memory``: as ``EnvWorlds`` takes them. ``actions``: "discrete" or
-    "buttons" (``Actions``). ``render_mode``: "human" (a window that shows every tick at the game's speed),
-    "rgb_array" or "ansi" (text); ``render_size``: px, width and height.
+    ``repeat``, ``longest_wait``, ``body``, ``memory``: as for ``EnvWorlds``. ``actions``: "discrete" or "buttons"
+    (``Actions``). ``render_mode``: "human" (a window that shows every tick at the game's speed), "rgb_array" or "ansi"
+    (text); ``render_size``: px, width and height.
 
-    ``info``: ``outcome`` ("running", "exit", "dead"), ``ticks`` and ``gold`` of the episode, ``events`` (the names of
-    what happened in the last step, of ``EVENT_NAMES``), ``level`` (its name).
+    ``info``: ``outcome`` ("running", "exit", "dead"), ``ticks`` and ``gold`` of the episode, ``events`` (names, of
+    ``EVENT_NAMES``, of the events of the last step), ``level`` (its name).
 
     Raises ArgumentError for wrong arguments, LevelError for a level that cannot be played, UnsupportedMode for another
     render mode. ``step`` and ``render`` raise ResetNeeded before the first reset, ``step`` also after the episode's
@@ -78,7 +78,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         self.action_space = self._actions.space
         self.worlds = EnvWorlds(level, 1, threads=1, **settings)
         self.observation_space = self.worlds.observation.space
-        # Recorders of films ask the environment itself how fast its steps are.
+        # Recorders of films read the rate of steps from the environment.
         self.metadata = {**self.metadata, "render_fps": TICKS_PER_SECOND / self.worlds.frame_skip}
         self._picture: EpisodePicture | None = None
         self._inputs = bytearray()
@@ -88,11 +88,11 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
     # --- episodes ---
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Begin an episode; its observation and info.
+        """Begin an episode; gives its observation and info.
 
         ``seed``: begin the sequence of levels of that seed. ``options``: ``{"level": …}``, this episode's level by its
-        name or number; or other levels, as ``level_source`` takes them, for this and all later episodes. Raises
-        ArgumentError for other options and seeds.
+        name or number; or other levels, as for ``level_source``, for this and all later episodes. Raises ArgumentError
+        for other options and seeds.
         """
         self._check_open()
         seed = None if seed is None else checked_seed(seed)
@@ -129,7 +129,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         return self._observation(), worlds.rewards.item(0), terminated, truncated, self._info()
 
     def __getstate__(self) -> dict[str, Any]:
-        """A copy makes its own picture."""
+        """Copies make their own picture."""
         return vars(self) | {"_picture": None}
 
     __copy__ = deepcopy
@@ -153,24 +153,24 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
 
     @property
     def level(self) -> Level:
-        """The level that is played now."""
+        """The present level."""
         level: Level = self.worlds.levels[self.worlds.levels_now[0]]
         return level
 
     @property
     def inputs(self) -> bytes:
-        """The inputs of this episode, one byte per tick: what ``record_replay`` takes."""
+        """The inputs of this episode, one byte per tick, for ``record_replay``."""
         return bytes(self._inputs)
 
     def save(self) -> SavedEpisode:
-        """This moment, to come back to; which levels later episodes play is not part of it."""
+        """Save the present state, for ``restore``; the levels of later episodes are not part of it."""
         self._check_started("save")
         return SavedEpisode(self.worlds.save(), self.inputs, self._running)
 
     def restore(self, saved: SavedEpisode) -> tuple[Any, dict[str, Any]]:
-        """Go back to a saved moment; its observation and info, without events.
+        """Go back to a saved state; gives its observation and info, without events.
 
-        Chance does not go back: with ``repeat`` what follows differs. Raises ArgumentError for one of other settings.
+        Random numbers do not go back: with ``repeat`` later steps differ. Raises ArgumentError for other settings.
         """
         self._check_started("restore")
         self.worlds.restore(saved.state)
@@ -184,7 +184,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
     # --- pictures ---
 
     def render(self) -> Any:
-        """The present moment: an array (height, width, 3) uint8, a text, or None where a window shows it already."""
+        """Show the present state: an array (height, width, 3) uint8, a text, or None if a window shows it already."""
         self._check_started("render")
         if self.render_mode is None:
             gymnasium.logger.warn("render() was called without a render mode: make the environment with render_mode=…")
@@ -200,7 +200,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
             self._followed(ticks)
 
     def _followed(self, ticks: int) -> EpisodePicture:
-        """The picture of the present moment; ``ticks``: how many of the last ticks a window shows."""
+        """The picture of the present state; ``ticks``: number of the last ticks that a window shows."""
         if self._picture is None:
             window = self.render_mode == "human"
             self._picture = EpisodePicture(self._size, window=window)
@@ -209,7 +209,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         return self._picture
 
     def close(self) -> None:
-        """Close the window. May be called again."""
+        """Close the window. A second call does nothing."""
         if self._picture is not None:
             self._picture.close()
         self._closed = True

@@ -1,4 +1,4 @@
-"""Thousands of worlds as one vector environment of Gymnasium.
+"""Many worlds, up to thousands, as one vector environment of Gymnasium.
 
 >>> envs = NinjaVectorEnv(3, level="00-0-first-steps")
 >>> observations, infos = envs.reset(seed=7)
@@ -36,14 +36,14 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
     """``num_envs`` worlds that step together in compiled code.
 
     ``level``, ``observation``, ``flat``, ``reward``, ``frame_skip``, ``time_limit``, ``repeat``, ``longest_wait``,
-    ``body``, ``memory``, ``threads``: as ``EnvWorlds`` takes them. ``actions``: "discrete" or "buttons".
-    ``autoreset_mode``: "NextStep" (a world that has ended begins a new episode in the next step, whose action it does
-    not see), "SameStep" (it begins it at once; what was is in ``infos["final_obs"]`` and ``["final_info"]``) or
-    "Disabled" (you reset it, by ``options={"reset_mask": …}``). ``copy``: whether observations are new arrays; else
-    they are one memory that the next call writes again.
+    ``body``, ``memory``, ``threads``: as for ``EnvWorlds``. ``actions``: "discrete" or "buttons". ``autoreset_mode``:
+    "NextStep" (a world that has ended ignores its next action and begins a new episode instead), "SameStep" (it begins
+    at once; ``infos["final_obs"]`` and ``["final_info"]`` have the old end) or "Disabled" (the caller resets it, by
+    ``options={"reset_mask": …}``). ``copy``: observations are new arrays; else they share memory that the next call
+    overwrites.
 
-    ``reset(seed=s)`` gives world i the seed s + i (modulo 2^64), ``seed=[…]`` each its own. ``options``:
-    ``"reset_mask"``, the worlds to reset; ``"level"``, the name or number of the level to play, or one for each.
+    ``reset(seed=s)`` gives world i the seed s + i (modulo 2^64), ``seed=[…]`` gives one seed per world. ``options``:
+    ``"reset_mask"``: the worlds to reset; ``"level"``: the name or number of the level to play, or one per world.
 
     ``infos`` has (num_envs,) arrays: ``outcome`` (0 running, 1 exit, 2 dead), ``ticks`` and ``gold`` of the episode,
     ``events`` of the step (bit k: event k of `sim/events.py`), ``level`` (its name; its number: ``worlds.levels_now``).
@@ -120,10 +120,10 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
         return mask
 
     def step(self, actions: Any) -> tuple[Observed, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], Infos]:
-        """One step of every world.
+        """Run one step of every world.
 
-        Raises InvalidAction for what are not actions, ResetNeeded before the first reset and, without autoreset, for
-        worlds that have ended.
+        Raises InvalidAction for invalid actions, ResetNeeded before the first reset and, without autoreset, for worlds
+        that have ended.
         """
         self._refuse_closed()
         if not self._reset_before:
@@ -144,7 +144,7 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
         return self._shown(), rewards, terminated, truncated, self._infos() | final
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
-        """A picture of each world as it is now; None without a render mode."""
+        """A picture of each world in its present state; None without a render mode."""
         self._refuse_closed()
         if self.render_mode is None:
             return None
@@ -158,13 +158,13 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
         return tuple(pictures)
 
     def __getstate__(self) -> dict[str, Any]:
-        """A copy makes its own picture."""
+        """Copies make their own picture."""
         return vars(self) | {"_picture": None}
 
     __copy__ = deepcopy
 
     def _final(self, ended: NDArray[np.intp], mask: NDArray[np.bool_]) -> Infos:
-        """What the worlds that have ended showed last."""
+        """The last observations and infos of the worlds that have ended."""
         seen = self.worlds.observations
         last = {name: part[ended] for name, part in seen.items()} if isinstance(seen, dict) else seen[ended]
         final_obs = np.full(self.num_envs, None, dtype=object)
@@ -179,7 +179,7 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
         return {name: part.copy() for name, part in seen.items()} if isinstance(seen, dict) else seen.copy()
 
     def _infos(self, mask: NDArray[np.bool_] | None = None) -> Infos:
-        """Infos of all worlds, or of those in ``mask`` and 0 for the others."""
+        """Infos of all worlds, or of the worlds in ``mask``, with 0 for the others."""
         worlds = self.worlds
         for index in np.flatnonzero(worlds.levels_now != self._named).tolist():
             self._named[index] = number = worlds.levels_now[index]

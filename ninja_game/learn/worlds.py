@@ -1,4 +1,4 @@
-"""Worlds as environments: n episodes side by side, for one world or thousands. Both Gymnasium classes use this.
+"""Worlds as environments: n episodes side by side, from one to thousands. Both Gymnasium classes use this.
 
 >>> import numpy as np
 >>> from ninja_game import Input, parse_level
@@ -45,11 +45,11 @@ from ninja_game.simulation import SaveState, Simulation
 
 EXIT_WEIGHT, DEATH_WEIGHT, GOLD_WEIGHT, TICK_WEIGHT = range(4)  # indices of ``weights``
 OUTCOME, TICKS, GOLD, EVENTS, ENDED, PLAYED, WAIT, RANDOM = range(8)
-"""Rows of ``facts``, a column for each world. PLAYED: the keys of its last tick. WAIT: steps left in which no key is
-pressed; RANDOM: state of the generator that decides whether keys are repeated (`protocol.py`)."""
-TERMINATED, TRUNCATED = 1, 2  # how an episode has ended; 0: it goes on
+"""Rows of ``facts``, a column per world. PLAYED: keys of its last tick. WAIT: remaining steps without keys; RANDOM:
+state of the generator that decides whether keys are repeated (`protocol.py`)."""
+TERMINATED, TRUNCATED = 1, 2  # how an episode has ended; 0: it has not
 CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
-"""Events after which objects that stay where they are look another way."""
+"""Events that change the looks of objects that never move."""
 
 
 @kernel
@@ -58,14 +58,14 @@ def advance_worlds(
     frame_skip: int, time_limit: int, repeat: int, weights: Any,
     rewards: Any, facts: Any, changed: Any, terminated: Any, truncated: Any,
 ) -> int:  # fmt: skip
-    """Run worlds ``indices[first:last]``, each with its ``keys`` for ``frame_skip`` ticks; the number of ticks run.
+    """Run worlds ``indices[first:last]`` with their ``keys`` for ``frame_skip`` ticks; gives the number of ticks run.
 
-    A world stops at its first exit contact or death, and at ``time_limit`` ticks. Jump is pressed, as at a keyboard,
-    where it is held and was not in the tick before. ``repeat`` of CHANCES: how often it plays the keys of the step
-    before; while it waits, none. ``weights`` (EXIT_WEIGHT to TICK_WEIGHT): what each is worth; ``rewards`` (worlds)
-    receives the sum. ``facts`` (OUTCOME to RANDOM x worlds): EVENTS are those of all ticks, as bits. ``changed``
-    (worlds): whether one of CHANGES happened; also set where the list of events was full. ``terminated``, ``truncated``
-    (worlds): what ENDED tells.
+    A world stops at its first exit contact or death, and at ``time_limit`` ticks. As on a keyboard, jump is pressed in
+    a tick in which it is held and was not held before. ``repeat`` of CHANCES: chance that a world repeats the keys of
+    the previous step; a waiting world gets no keys. ``weights`` (EXIT_WEIGHT to TICK_WEIGHT): rewards; ``rewards``
+    (worlds) gets their sum. ``facts`` (OUTCOME to RANDOM x worlds): EVENTS has those of all ticks, as bits. ``changed``
+    (worlds): set if one of CHANGES happened, and if the list of events was full. ``terminated``, ``truncated``
+    (worlds): the parts of ENDED.
     """
     total = 0
     for k in range(first, last):
@@ -114,12 +114,12 @@ def advance_worlds(
 
 NO_LEVEL = -1
 CHUNK_WORLDS = 512
-"""Worlds that are run and then observed before the next ones: so many stay in the processor's cache."""
+"""Worlds that are run and then observed before the next ones: their memory fits into the processor's cache."""
 
 
 @dataclass(frozen=True, eq=False)
 class EnvState:
-    """Saved worlds of an ``EnvWorlds``: only good for one with equal levels, body, memory and time limit."""
+    """Saved worlds of an ``EnvWorlds``, for one with equal levels, body, memory and time limit."""
 
     levels: Indices
     states: Any = field(repr=False)
@@ -129,7 +129,7 @@ class EnvState:
 
 
 class TaskSettings(TypedDict, total=False):
-    """Arguments of ``EnvWorlds``: what is shown and paid, and by which memory."""
+    """Arguments of ``EnvWorlds``: observations, rewards, and the memory."""
 
     observation: PartLike | Sequence[PartLike]
     flat: bool
@@ -149,14 +149,14 @@ class EnvSettings(TaskSettings, total=False):
 
 
 def refuse_unknown(settings: Mapping[str, object], *own: str) -> None:
-    """Raise ArgumentError for a name that no argument of an environment has; ``own``: further ones that it has."""
+    """Raise ArgumentError for a name that is not an argument of an environment; ``own``: its additional arguments."""
     for name in settings.keys() - EnvSettings.__optional_keys__:
         known = ", ".join(sorted({*own, *EnvSettings.__optional_keys__}))
         raise ArgumentError(f"an environment has no argument {name!r}; expected one of {known}")
 
 
 def checked_options(options: object, *known: str) -> dict[str, Any]:
-    """The options of a reset. Raises ArgumentError for others."""
+    """Check the options of a reset. Raises ArgumentError for unknown ones."""
     if options is not None and (not isinstance(options, dict) or options.keys() - {*known}):
         raise ArgumentError(f"options are {options!r:.60}; expected a dict of {', '.join(known)}, or none")
     return dict(options or {})
@@ -165,16 +165,16 @@ def checked_options(options: object, *known: str) -> dict[str, Any]:
 class EnvWorlds:
     """``count`` worlds as episodes, one after the other.
 
-    ``level``: where the levels come from, as ``level_source`` takes it. Each world has a seed of its own; which level
-    its e-th episode plays depends on that seed and on e alone (and on what the source has learned, if it learns).
-    ``observation``, ``flat``: as ``Observation`` takes them. ``reward``: a term or several (`rewards.py`).
-    ``frame_skip``: ticks of a step. ``time_limit``: ticks after which an episode is truncated. ``repeat``: the chance
-    that a step plays the keys of the step before once more; ``longest_wait``: steps at most that an episode begins with
-    no key down (`protocol.py`); what is drawn depends on the world's seed and the episode. ``goal_distance``: make
-    ``goal`` (``GoalDistance``: how far each world is from the exit) even if no reward and no part needs it. ``body``,
-    ``memory``, ``threads``: as of a ``Batch``; neither memory nor threads change a result.
+    ``level``: the origin of the levels, as for ``level_source``. Each world has its own seed; the level of its e-th
+    episode depends only on that seed and on e (and on what the source has learned, if it learns). ``observation``,
+    ``flat``: as for ``Observation``. ``reward``: a term or several (`rewards.py`). ``frame_skip``: ticks of a step.
+    ``time_limit``: ticks after which an episode is truncated. ``repeat``: chance that a step repeats the keys of the
+    previous step; ``longest_wait``: most steps without keys at the start of an episode (`protocol.py`); their number
+    depends on the world's seed and the episode. ``goal_distance``: make ``goal`` (``GoalDistance``: the distance of
+    each world from the exit) even if no reward and no part needs it. ``body``, ``memory``, ``threads``: as for a
+    ``Batch``; neither memory nor threads change a result.
 
-    The arrays below are overwritten by each call; copy what must last. n is the number of worlds.
+    Every call overwrites the arrays below; copy what must last. n is the number of worlds.
 
     ============  ====================  =======================================================================
     observations  (n, …), or a dict     what the parts of the observation say
@@ -250,7 +250,7 @@ class EnvWorlds:
         self._longest_wait = longest_wait
         self.terminated, self.truncated = np.zeros((2, count), np.bool_)
         weights = context.table(weights_of(terms), np.float64)
-        # What the kernels take, first and last.
+        # The first and last arguments of the kernels.
         self._places = (self._worlds.maps, level_of, self._worlds.worlds)
         chance = int(repeat * CHANCES)
         ends = self.terminated, self.truncated
@@ -276,9 +276,9 @@ class EnvWorlds:
     # --- time ---
 
     def step(self, keys: Keys, restart: Indices | None = None) -> int:
-        """One step of every world with its keys, uint8 (n,): sums of ``Input``; the number of ticks run.
+        """Run one step of every world with its keys, uint8 (n,): sums of ``Input``; gives the number of ticks run.
 
-        With ``repeat`` or ``longest_wait`` they may be others: ``played``.
+        With ``repeat`` or ``longest_wait`` a world may get other keys: ``played``.
 
         ``restart``: worlds that do not step but begin a new episode instead, without a reward.
         """
@@ -346,7 +346,7 @@ class EnvWorlds:
         self._look(numbers, None)
 
     def _enter(self, numbers: Indices, chosen: Indices) -> None:
-        """Start worlds of levels without end, of which each has a place for the one that it plays."""
+        """Start worlds in levels of a source without limit; each world has a place for its present level."""
         levels = [self.levels[number] for number in chosen.tolist()]
         put_levels(self._worlds, numbers, levels)
         for index, fresh in zip(numbers.tolist(), initial_levels(self._worlds, numbers.tolist()), strict=True):
@@ -355,7 +355,7 @@ class EnvWorlds:
         self.levels_now[numbers] = chosen
 
     def _look(self, numbers: Indices, starts: NDArray[np.float64] | None) -> None:
-        """After a restart or restore: measure again, no reward. ``starts``: of their episodes, None: here."""
+        """Measure worlds again after a restart or restore, without reward. ``starts``: ticks at starts, None: now."""
         self.rewards[numbers], self._changed[numbers] = 0.0, True
         if self.goal:
             self.goal.begin(self.levels_now, numbers)
@@ -365,16 +365,16 @@ class EnvWorlds:
         self._observe(numbers)
 
     def save(self, worlds: WorldChoice = None) -> EnvState:
-        """The states of worlds and of their episodes, to come back to."""
+        """Save the states of worlds and of their episodes, for ``restore``."""
         numbers = numbers_of(worlds, self.count, "worlds")
         starts = self.goal.start[numbers] if self.goal else np.zeros(len(numbers))
         saved = self._worlds.save_many(numbers), starts, self._facts[numbers]
         return EnvState(self.levels_now[numbers], *saved, self._owner())
 
     def restore(self, state: EnvState, worlds: WorldChoice = None) -> None:
-        """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit.
+        """Put as many saved states into worlds, the same or others. Raises ArgumentError if they do not fit.
 
-        They show that moment's observation, no reward and no events. Which keys are repeated from here on differs.
+        The worlds show the saved observation, no reward and no events. The random repetition of keys does not go back.
         """
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):
@@ -388,13 +388,13 @@ class EnvWorlds:
         self._look(numbers, state.starts)
 
     def simulation(self, index: int) -> Simulation:
-        """A run on the plain memory that stands where a world does, without its past: to look at it, or to go on."""
+        """Copy a world, without its past, to a run on the plain memory, to look at it or to go on."""
         run = Simulation(self.levels[self.levels_now[index]], body=self.body)
         run.restore(SaveState(run.level, run.body, run.memory, b"", save_plain(self.world(index))))
         return run
 
     def world(self, index: int) -> World:
-        """One world as plain objects, for looking at it."""
+        """Copy one world to plain objects, to read its fields."""
         return self._worlds.world(index)
 
     def digest(self, index: int) -> str:
@@ -406,5 +406,5 @@ class EnvWorlds:
 
 
 def _rebuilt(settings: dict[str, Any]) -> EnvWorlds:
-    """A function of its own, so that a copy has copies of the settings too: a source of levels may learn."""
+    """Rebuild worlds. A function, so that a copy also has copies of the settings: a source of levels may learn."""
     return EnvWorlds(**settings)

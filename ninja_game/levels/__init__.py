@@ -1,1 +1,1 @@
-"""What can be said of a level without playing it."""
+"""Facts about a level that need no play: episodes, findings, pictures."""

@@ -1,4 +1,4 @@
-"""Levels as players choose them: entries with their looks and par times, episodes, packs of episodes."""
+"""Levels in the lists of the game: entries with their looks and par times, episodes, packs of episodes."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import episode_key
 
 GAME, YOURS = "game", "yours"
-"""Sources of levels that are no names of packs: the game's own pack, files in the player's folder."""
+"""Sources of levels other than packs: the game's own pack, files in the player's folder."""
 
 _NUMBER = re.compile("[0-9]{1,2}-[0-9]")
 
-OURS = "ninja-game"  # in the name of every author that is part of the project
+OURS = "ninja-game"  # part of the name of every author who belongs to the project
 
 
 class Mood(NamedTuple):
-    """The look of a level: the column of its episode, and how many levels come before it in that column."""
+    """The look of a level: the column of its episode, and the number of levels before it in that column."""
 
     column: int = 0
     level: int = 0
@@ -32,9 +32,9 @@ class Mood(NamedTuple):
 
 @dataclass(frozen=True)
 class Entry:
-    """A level that can be played. ``source``: GAME, YOURS or the key of a pack; ``episode``: "03-1" if any.
+    """A level that can be played. ``source``: GAME, YOURS or the key of a pack; ``episode``: "03-1" or "".
 
-    ``pars``: its par times and difficulty, where its pack has them.
+    ``pars``: its par times and difficulty, if its pack has them.
     """
 
     named: NamedLevel
@@ -52,18 +52,18 @@ class Entry:
 
     @property
     def number(self) -> str:
-        """What players call it by: ``episode``, or a comment such as "18-2", as lists of N's levels have it; or ""."""
+        """The number that players use: ``episode``, or a comment such as "18-2", as in lists of N's levels; or ""."""
         return self.episode or self.named.comment * bool(_NUMBER.fullmatch(self.named.comment))
 
     @property
     def position(self) -> tuple[int, int] | None:
-        """Number of its episode, and its place there from 0; None for a level in no episode."""
+        """Number of its episode, and its place there from 0; None for a level outside of episodes."""
         episode, _, level = self.episode.partition("-")
         return (int(episode), int(level)) if level else None
 
     @property
     def place(self) -> str:
-        """Its place as players count it; "" for a level in no episode."""
+        """Its place as players count it; "" for a level outside of episodes."""
         return f"Episode {episode_code(self.position[0])}, level {self.position[1] + 1}" if self.position else ""
 
     @property
@@ -103,9 +103,9 @@ class Episode:
 
 
 class EpisodeSet(NamedTuple):
-    """A pack as it is played. ``key``: "" for the game's own, else its name; ``singles``: levels in no episode.
+    """A pack in the lists of the game. ``key``: "" for the game's own, else its name; ``singles``: other levels.
 
-    ``pack``: what it was read from, or None.
+    ``pack``: the pack that was read, or None.
     """
 
     key: str
@@ -125,12 +125,12 @@ class EpisodeSet(NamedTuple):
 
     @property
     def changeable(self) -> bool:
-        """Whether it is a folder of the player's own."""
+        """Whether it is a folder that belongs to the player."""
         return bool(self.key and self.path and self.path.is_dir())
 
     @property
     def received(self) -> bool:
-        """Whether it came by a link and is somebody else's."""
+        """Whether it came by a link and belongs to somebody else."""
         return bool(self.files and RECEIVED in self.files.names)
 
     @property
@@ -140,7 +140,7 @@ class EpisodeSet(NamedTuple):
 
 
 def episode_code(number: int) -> str:
-    """How players count an episode: its column and its place in it, from 1.
+    """Number an episode as players do: its column and its place in it, from 1.
 
     Files, documents and boards count from 0, in two digits.
 
@@ -161,9 +161,9 @@ def author_name(author: str) -> str:
 
 
 def episode_set(pack: Pack, key: str, name: str = "") -> EpisodeSet:
-    """A pack's episodes and single levels as they are played; ``name``: what it is called, if not by its own.
+    """Make the episodes and single levels of a pack; ``name``: the name to show instead of its own.
 
-    A level without an author is by that of the pack.
+    A level without an author gets the author of the pack.
     """
     source = key or GAME
 

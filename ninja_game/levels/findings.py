@@ -1,4 +1,4 @@
-"""Findings about levels, packs and runs, by code: text and hint (``assets/findings.toml``)."""
+"""Findings about levels, packs and runs: a code, and its text and hint from ``assets/findings.toml``."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from ninja_game.formats.ascii.places import Cell
 
 
 class Wording(NamedTuple):
-    """``text``: what is odd, with {values}; ``hint``: how to fix it. ``about_switch``: whether it is about a switch.
+    """``text``: the oddity, with {values}; ``hint``: how to fix it; ``about_switch``: whether a switch is odd.
 
-    ``expected``: what a file would have instead, for who edits it as text.
+    ``expected``: the right content of the file, for makers who edit it as text.
     """
 
     text: str
@@ -23,7 +23,7 @@ class Wording(NamedTuple):
 
 
 def _read_wordings() -> dict[str, dict[str, Wording]]:
-    """All wordings of the bundled file, by what is examined and by code."""
+    """Read all wordings of the bundled file, by the thing examined and by code."""
     tables = tomllib.loads(asset_text("findings.toml"))
     return {part: {code: Wording(**table) for code, table in wordings.items()} for part, wordings in tables.items()}
 
@@ -32,16 +32,16 @@ _WORDINGS = _read_wordings()
 LEVEL_WORDINGS, RUN_WORDINGS = _WORDINGS["level"], _WORDINGS["run"]
 
 PACK_WORDINGS = _WORDINGS["pack"]
-"""What may be odd about a pack; what is odd about its levels has the codes of levels."""
+"""Oddities of a pack as a whole; those of its levels have the codes of levels."""
 
 DESIGN_WORDINGS = _WORDINGS["design"]
-"""What good levels have and a level lacks (docs/good-levels.md): reported only where it is asked for."""
+"""Features of good levels that a level lacks (docs/good-levels.md): reported only on request."""
 
 
 class Finding(NamedTuple):
-    """Something odd. ``text``: what; ``records``: numbers of the records that it is about; ``cells``: of tiles, places.
+    """An oddity. ``text``: the oddity; ``records``: numbers of the odd records; ``cells``: of odd tiles and places.
 
-    ``names``: how a text calls what it is about, '' where ``text`` says it.
+    ``names``: the names of the odd objects in texts, '' if ``text`` has them.
     """
 
     code: str
@@ -57,25 +57,25 @@ class Finding(NamedTuple):
 
     @property
     def advice(self) -> str:
-        """What is odd and how to fix it, as sentences."""
+        """The oddity and its fix, as sentences."""
         return f"{self.sentence[0].upper()}{self.sentence[1:]}. {self.hint}"
 
     @property
     def hint(self) -> str:
-        """How to fix it, a sentence."""
+        """How to fix it, as a sentence."""
         return LEVEL_WORDINGS[self.code].hint
 
     @property
     def about_switch(self) -> bool:
-        """Whether it is about the objects' switches rather than about themselves."""
+        """Whether the switches of the objects are odd, not the objects."""
         return LEVEL_WORDINGS[self.code].about_switch
 
 
 class PackFinding(NamedTuple):
-    """Something odd about a pack. ``file``: which, "" for the pack as a whole; ``line``: of it, 0 where none is known.
+    """An oddity of a pack. ``file``: its file, "" for the whole pack; ``line``: line of the file, 0 if unknown.
 
-    ``values``: what its text names, files as the pack has them. ``odd``: the finding about the level that this is, or
-    what kept the solver from the run that is ``sought``. ``reason``: why its maker accepts it, "" for an open one.
+    ``values``: the values of its text, with files named as in the pack. ``odd``: the finding about a level that it
+    reports, or what kept the solver from the run that is ``sought``. ``reason``: why its maker accepts it, or "".
     """
 
     code: str
@@ -88,24 +88,24 @@ class PackFinding(NamedTuple):
 
     @property
     def place(self) -> str:
-        """The file, with the line where one is known."""
+        """The file, with the line if known."""
         return f"{self.file}:{self.line}" if self.line else self.file
 
     @property
     def text(self) -> str:
-        """What is odd, as its files have it."""
+        """The oddity, with the pack's names of files."""
         expected = "" if self.odd else self._wording.expected.format(**self.values)
         return self.text_with(self.values) + (f"; expected {expected}" if expected else "")
 
     def text_with(self, values: Mapping[str, object]) -> str:
-        """What is odd, with values in the words of its reader."""
+        """The oddity, with values in the words of its reader."""
         if self.odd:
             return f"the search found no {self.sought}: {self.odd.sentence}" if self.sought else self.odd.sentence
         return self._wording.text.format(**values)
 
     @property
     def hint(self) -> str:
-        """How to fix it, a sentence."""
+        """How to fix it, as a sentence."""
         return self.odd.hint if self.odd else self._wording.hint
 
     @property
@@ -114,7 +114,7 @@ class PackFinding(NamedTuple):
 
 
 class RunProblem(NamedTuple):
-    """Why a run is not what its file says, or not what is demanded of it."""
+    """Why a run does not match its file, or a demand on it."""
 
     code: str
     text: str
@@ -124,20 +124,20 @@ class RunProblem(NamedTuple):
 
     @property
     def hint(self) -> str:
-        """How to fix it, a sentence."""
+        """How to fix it, as a sentence."""
         return RUN_WORDINGS[self.code].hint
 
 
 def run_problem(code: str, **values: object) -> RunProblem:
-    """A problem of this code about a run; ``values``: what its text names."""
+    """Make a problem of a run; ``values``: the values of its text."""
     return RunProblem(code, RUN_WORDINGS[code].text.format(**values))
 
 
 def pack_finding(code: str, file: str = "", line: int = 0, **values: object) -> PackFinding:
-    """A finding of this code about a pack, or about what its level lacks; ``values``: what its text names."""
+    """Make a finding about a pack, or about a feature that its level lacks; ``values``: the values of its text."""
     return PackFinding(code, file, line, values)
 
 
 def level_finding(code: str, records: tuple[int, ...] = (), cells: tuple[Cell, ...] = (), **values: object) -> Finding:
-    """A finding of this code; ``values``: what its text names."""
+    """Make a finding about a level; ``values``: the values of its text."""
     return Finding(code, LEVEL_WORDINGS[code].text.format(**values), records, cells)

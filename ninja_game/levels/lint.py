@@ -1,6 +1,6 @@
-"""What is legal in a level but odd: each finding names the objects and says what the game will do.
+"""Legal but odd content of a level: a finding names the objects and says what the game will do.
 
-Where the ninja could ever get is a flood fill over cells that is generous, so that its "no" is certain.
+A flood fill over cells finds where the ninja could get. It is generous, so "cannot be reached" is certain.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from ninja_game.sim.objects.door import create_door
 from ninja_game.sim.states import LOCKED, TRAP
 
 Squares = dict[tuple[float, float], set[tuple[float, float]]]
-"""Places, px, by the square in which they lie: its column and row."""
+"""Places, px, by the square (column, row) that holds them."""
 
 
 def _made_door(world: World, spec: ObjectSpec) -> Object:
-    """The door that the game makes of a well-formed record."""
+    """Make the door of a well-formed record as the game does."""
     door = Object()
     door.kind, (door.x, door.y) = kinds.DOOR, spec.values[:2]
     create_door(world, door, spec.values)
@@ -39,16 +39,16 @@ def _made_door(world: World, spec: ObjectSpec) -> Object:
 
 
 def edges_of(door: Object) -> tuple[int, int]:
-    """The two edge indices that a door writes; 0 for one that does not exist (objects.md §8.6)."""
+    """Give the two edge indices that a door writes; 0 for one that does not exist (objects.md §8.6)."""
     return door.edge_1, door.edge_2
 
 
 class Ground:
     """The tiles and edges of a level, its doors, and the cells that the ninja's centre could reach.
 
-    Passable is every cell that is not full, across every side that no face closes; nothing is asked of jumps. A locked
-    door opens once its switch can be touched; automatic and trap doors never stop the fill. ``ends``: exits, switches
-    and the start, where they are, and which kinds are odd there.
+    Every cell that is not full can be passed, across every side that no face closes; jumps are not considered. A locked
+    door opens once its switch can be touched; automatic and trap doors never stop the fill. ``ends``: places of exits,
+    switches and the start, with the kinds that are odd there.
     """
 
     def __init__(self, level: Level) -> None:
@@ -70,7 +70,7 @@ class Ground:
             ("the exit's switch", _in_squares((values[2:] for values in exits), _HIDES), _BARRING),
             ("the ninja's start", _in_squares([ninjas[-1].values] if start else [], _HIDES), _DEADLY),
         ]
-        # A ninja that starts in a tile may be pushed out on any side: nothing is certain then.
+        # A ninja that starts in a tile may be pushed out on any side, so nothing is certain.
         self.certain = bool(start) and tiles.SHAPE[self.level.tiles[start]] == tiles.EMPTY
         self.cells: set[int] = set()
         if self.certain:
@@ -80,18 +80,18 @@ class Ground:
         return bool(tiles.SHAPE[self.level.tiles[cell]] == tiles.FULL)
 
     def touchable(self, x: float, y: float, radius: float) -> bool:
-        """Whether a ninja in a reached cell could touch a disc (radius at most 14 px); True if nothing is certain."""
+        """Tell whether a ninja in a reached cell could touch a disc (radius up to 14 px); True if uncertain."""
         near = (cell for cell in _around(cell_at(x, y)) if cell in self.cells)
         return not self.certain or any(_touches(cell, x, y, radius) for cell in near)
 
     def comes_near(self, x: float, y: float, reach: float) -> bool:
-        """Whether a ninja in a reached cell could be so near to a point, px, along both axes, as messages count it."""
+        """Tell whether a ninja in a reached cell could be within ``reach`` px of a point in x and in y."""
         far = reach + rules.CELL / 2
         centres = ((tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell]) for cell in self.cells)
         return not self.certain or any(max(abs(x - a), abs(y - b)) < far for a, b in centres)
 
     def is_in_wall(self, x: float, y: float, radius: float) -> bool:
-        """Whether only a ninja that sinks into tiles, a fast one, could touch a disc. Looks each 2 px, generously."""
+        """Tell whether only a fast ninja, which sinks into tiles, could touch a disc. Tests every 2 px, generously."""
         if not (cell_at(x, y) and solid_at(self.level, x, y)):
             return False
         reach = radius + rules.RADIUS + _BETWEEN
@@ -100,17 +100,17 @@ class Ground:
         return not any(self._fits_at(*place) for place in places)
 
     def _fits_at(self, x: float, y: float) -> bool:
-        """Whether the ninja's centre could be here with the ninja out of all tiles."""
+        """Tell whether the ninja's centre could be here with the ninja outside of all tiles."""
         reached = cell_at(x, y) in self.cells or not self.certain
         return reached and not any(solid_at(self.level, x + a, y + b) for a, b in _RIM)
 
     def _fill(self, start: int) -> None:
-        """Reach cell after cell. A locked door is looked at once for each cell around its switch, as it is reached."""
+        """Reach cell after cell. A locked door is tested whenever the fill reaches a cell around its switch."""
         locked = [door for door in self.doors.values() if door.mechanism == LOCKED]
         waiting: dict[int, list[Object]] = {}
         for door in locked:
             waiting.setdefault(cell_at(door.x, door.y), []).append(door)
-        # Where doors share a side, one that is open or opens counts for all.
+        # If doors share a side, one door that is open or opens is enough.
         closed = {edge for door in locked for edge in edges_of(door)}
         closed -= {edge for door in self.doors.values() if door.mechanism != LOCKED for edge in edges_of(door)}
         frontier = [start]
@@ -131,7 +131,7 @@ class Ground:
             frontier += new
 
     def _ways(self, cell: int, closed: set[int]) -> Iterator[int]:
-        """The cells beside one that can be reached from it, and were not before."""
+        """Give the neighbours of a cell that can be reached from it and are new."""
         for side, step in enumerate(tiles.NEIGHBOUR_OFFSET):
             there, here = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
             if tiles.EXISTS[cell + step] and cell + step not in self.cells and not self.is_full(cell + step):
@@ -140,7 +140,7 @@ class Ground:
                     yield cell + step
 
     def _gap(self, here: int, there: int) -> bool:
-        """Whether what is solid on both sides of a border leaves any of it open: two full faces are no edge."""
+        """Tell whether the solid faces on both sides of a border leave a gap: two full faces are no edge."""
         if tiles.EMPTY in (tiles.SHAPE[self.level.tiles[here]], tiles.SHAPE[self.level.tiles[there]]):
             return True
         x, y = ((at[here] + at[there]) / 2 for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
@@ -163,37 +163,37 @@ def _touches(cell: int, x: float, y: float, radius: float) -> bool:
 
 
 _BETWEEN = sqrt(2.0)
-"""As far, px, may the nearest of the places of ``is_in_wall`` be from where the ninja is."""
+"""Greatest distance, px, of the ninja from the nearest place that ``is_in_wall`` tests."""
 _INNER_RADIUS = rules.RADIUS - _BETWEEN
 _BESIDE = 0.01
-"""How far on both sides of a border its places are looked at, px."""
+"""Distance of the tested places from a border, on both sides, px."""
 _ALONG = [k - 11.5 for k in range(24)]
 _RIM = [(0.0, 0.0), *((_INNER_RADIUS * cos(pi * k / 8), _INNER_RADIUS * sin(pi * k / 8)) for k in range(16))]
 _FIXED = {kinds.LAUNCH_PAD, kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER}
 _BARRING, _DEADLY = _FIXED | {kinds.MINE}, _FIXED | {kinds.DRONE, kinds.FLOOR_GUARD}
-"""Kinds that nobody means to lie over an exit, which drones leave free, or over the start, where mines are deadly."""
+"""Kinds that are a mistake over an exit, which drones leave free, or over the start, where mines kill."""
 MANY_OBJECTS = 2000
 MANY_THINKERS = 30
-"""With more enemies than these that think in turn, one waits more than three seconds for its turn."""
+"""With more enemies that think in turn, one waits more than three seconds for its turn."""
 _NAMES_SHOWN = 3
 _OVER = 8.0
-"""Nearer than this, px, a mine covers a piece of gold."""
+"""A mine nearer than this, px, covers a piece of gold."""
 _HIDES = 12.5
-"""Likewise anything an exit, its switch or the start; a launch pad on the floor of their cell is 12 px away."""
+"""An object nearer than this, px, covers an exit, a switch or the start; a launch pad on their floor is 12 px away."""
 
 
 def level_warnings(level: Level, says: str = "") -> list[str]:
-    """What is legal but odd in a level and its messages, in words for its maker; empty for a proper level.
+    """Describe the oddities of a level and its messages, in words for its maker; empty for a proper level.
 
-    "Cannot be reached" is said only where it is certain: by cells and closed sides, whatever the ninja could jump.
+    "Cannot be reached" is only reported if it is certain: by cells and closed sides, whatever the ninja could jump.
     """
     return [finding.sentence for finding in level_findings(level, says)]
 
 
 def level_findings(level: Level, says: str = "") -> list[Finding]:
-    """What is odd about a level, with the places: the level as a whole, its messages, then tiles, then objects.
+    """Find the oddities of a level, with their places: the level as a whole, its messages, then tiles, then objects.
 
-    ``says``: as its file has it. Raises LevelError where that cannot be read.
+    ``says``: the header of its file. Raises LevelError if that cannot be read.
     """
     numbers = [number for number, spec in enumerate(level.objects) if makes_object(spec)]
     objects = [level.objects[number] for number in numbers]
@@ -218,7 +218,7 @@ def level_findings(level: Level, says: str = "") -> list[Finding]:
 
 
 def object_name(spec: ObjectSpec, number: int) -> str:
-    """An object, with its place as ``_shown_place`` has it: ``gold at 12,18 (288,442px, object 7)``; ids from 0."""
+    """Name an object with its place (``_shown_place``): ``gold at 12,18 (288,442px, object 7)``; ids count from 0."""
     keyword, place, _ = best_form(spec)
     name = keyword or kinds.KIND_NAMES[spec.kind]
     if not place and len(spec.values) > 1:
@@ -229,7 +229,7 @@ def object_name(spec: ObjectSpec, number: int) -> str:
 
 
 def _shown_place(x: float, y: float, text: str) -> str:
-    """A place that a file has as ``text``: its cell, with the px where only these are exact."""
+    """Show a place that a file writes as ``text``: its cell, and the px if only these are exact."""
     cell = cell_at(x, y) if text.endswith("px") else 0
     return f"{tiles.COLUMN[cell]},{tiles.ROW[cell]} ({text})" if cell else text
 
@@ -241,7 +241,7 @@ def _some(names: Sequence[str], count: int) -> str:
 
 
 def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
-    """The messages of a header's value whose moment never comes. Raises LevelError where they cannot be read."""
+    """Find the messages whose moment never comes. Raises LevelError if they cannot be read."""
     doors = {door.mechanism for door in ground.doors.values()}
     kinds_here = {spec.kind for spec in ground.objects if well_formed(spec)}
     missing = {
@@ -269,7 +269,7 @@ def _odd_tiles(level: Level) -> Iterator[Finding]:
 
 
 def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
-    """What concerns the level as a whole, with the ids of the objects to look at."""
+    """Find oddities of the level as a whole, with the ids of the objects to look at."""
     ninjas = [id_ for id_, spec in enumerate(objects) if spec.kind == kinds.NINJA]
     if not ninjas:
         yield level_finding("no-ninja")
@@ -291,7 +291,7 @@ def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[Fin
 
 
 def _waits_for_its_turn(spec: ObjectSpec) -> bool:
-    """Whether an object looks for the ninja only when its turn in the thinker ring comes."""
+    """Tell whether an object looks for the ninja only in its turn of the thinker ring."""
     if spec.kind == kinds.DRONE and well_formed(spec):
         return spec.values[4] in (1, 2)
     return spec.kind in (kinds.TURRET, kinds.LAUNCHER)
@@ -311,7 +311,7 @@ def _in_squares(places: Iterable[tuple[float, ...]], side: float) -> Squares:
 
 
 def _is_near(at: tuple[float, ...], places: Squares, side: float) -> bool:
-    """Whether any of these places is nearer than the side of their squares, px: of thousands few are looked at."""
+    """Tell whether a place is nearer than the side of the squares, px: only a few of thousands are tested."""
     column, row = (value // side for value in at)
     around = [(column + a, row + b) for a in (-1, 0, 1) for b in (-1, 0, 1)]
     return any(dist(at, place) < side for square in around for place in places.get(square, ()))
@@ -328,14 +328,14 @@ def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
 
 _DIRECTIONS = (0, 1, 2, 3)
 _SAMPLES = (-1.0, -0.5, 0.0, 0.5, 1.0)
-"""Where a piece of gold is looked at, across and down, as parts of its radius."""
+"""Tested points of a piece of gold, across and down, as shares of its radius."""
 _HIDDEN = 2 / 3
-"""The share of gold in the rock from which on nobody sees it: tiles are drawn over it."""
+"""Share of gold in rock from which on nobody sees it: tiles are drawn over it."""
 _UNIT_TOLERANCE = 0.02  # pads of other editors have 0.7 for both parts of a diagonal
 
 
 def oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
-    """What is odd about an object of the level that ``ground`` describes; nothing for a proper one."""
+    """Find the oddities of an object in the level of ``ground``."""
     if not well_formed(spec):
         count, needed = len(spec.values), kinds.VALUE_COUNTS[spec.kind]
         does = "starts at 45,70px" if spec.kind == kinds.NINJA else "does nothing"
@@ -378,12 +378,12 @@ _IN_TILE = {
 
 
 def _deep(ground: Ground, x: float, y: float) -> bool:
-    """Whether a point is inside a tile and not just on its surface, where turrets and launchers are often put."""
+    """Tell whether a point is inside a tile and not on its surface, a usual place of turrets and launchers."""
     return all(solid_at(ground.level, x + dx, y + dy) for dx in (-0.5, 0.5) for dy in (-0.5, 0.5))
 
 
 def _untouched(ground: Ground, x: float, y: float, radius: float, switch: str = "") -> Iterator[Finding]:
-    """That no ninja touches a disc, or no slow one. ``switch``: "-switch" where it is that of an object."""
+    """Report a disc that no ninja can touch, or no slow one. ``switch``: "-switch" if the disc is one."""
     if not ground.touchable(x, y, radius):
         yield level_finding("unreachable" + switch, place=_shown_place(x, y, place_text(x, y)))
     elif ground.is_in_wall(x, y, radius):

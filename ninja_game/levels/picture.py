@@ -1,4 +1,4 @@
-"""A level as a picture in the terminal: 62 x 23 characters, tiles by quarter blocks, objects by the legend's signs."""
+"""A level as text in the terminal: 62 x 23 characters, tiles as quarter blocks, objects as signs of the legend."""
 
 from __future__ import annotations
 
@@ -28,23 +28,23 @@ COLOURS = dict.fromkeys((kind.number for kind in kinds.KINDS if kind.killer), "b
     kinds.DOOR: "bright_blue",
     kinds.EXIT: "bold bright_green",
 }
-"""Terminal colour of each kind: red and magenta kill, cyan moves you, green is where you begin and end."""
+"""Terminal colours: red and magenta kill, cyan moves the ninja, green is start and goal."""
 
 # Index: 1 upper left + 2 upper right + 4 lower left + 8 lower right.
 QUARTERS = " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█"
 
 
 def level_picture(level: Level) -> Text:
-    """The level, two characters a cell, with a border line around it, its columns and rows numbered."""
+    """Draw the level, two characters per cell, with a border line and numbers of columns and rows."""
     tiles = TileMap()
     tiles.tiles = grid_tiles(level)
     columns, rows = 2 * COLUMNS, ROWS
     signs = [[(_block(tiles, column, row), "grey62") for column in range(columns)] for row in range(rows)]
     for spec in level.objects:
         for char, px, py in symbol_chars(spec):
-            # What lies on a side of its cell is drawn in that cell.
+            # An object on a side of its cell is drawn in that cell.
             x, y = px - SYMBOL_OF_CHAR[char].dx, py - SYMBOL_OF_CHAR[char].dy
-            # A character is half a cell wide; a cell's centre belongs to its left one.
+            # A character is half a cell wide; the cell's centre belongs to the left one.
             if CELL <= x <= CELL * (COLUMNS + 1) and CELL <= y <= CELL * (ROWS + 1):
                 column = min(max(round((x - CELL) / HALF) - 1, 0), columns - 1)
                 row = min(int((y - CELL) / CELL), rows - 1)

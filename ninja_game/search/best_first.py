@@ -1,12 +1,12 @@
 """Best-first search (weighted A*) over save-states: the compiled inner loop of every search.
 
-The node with the least (ticks so far + weight x estimated ticks to go) is taken from the open list, all macros are
-played from its save-state, and every state that is not a duplicate becomes a node. What differs between goals is the
-estimate and what ends a search: the exit, the end of a leg, or a shorter run than a known one (``Goal``).
+The search takes the node with the least (ticks so far + weight x estimated ticks to go) from the open list, plays all
+macros from its save-state, and makes a node of every state that is not a duplicate. Goals differ in the estimate and in
+the end of the search: the exit, the end of a leg, or a run shorter than a known one (``Goal``).
 
-The kernels share their arguments: ``start``, the level and the two worlds that are played in; ``arrays``, those of
-this search; ``goal``; ``backed_up``, the table of an earlier search; ``resolution``, how finely to look. A ``parent``
-is the index of a node, an ``action`` what leads from it to the scratch world (macros.py), ``played`` its ticks.
+The kernels share these arguments. ``start``: the level and two scratch worlds; ``arrays``: the arrays of the search;
+``backed_up``: the table of an earlier search; ``resolution``: how finely states are told apart; ``parent``: the index
+of a node; ``action``: the macro (macros.py) that leads from it to the scratch world, ``played``: its ticks.
 """
 
 from __future__ import annotations
@@ -47,23 +47,23 @@ from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import JUMPING, OUTCOME_DEAD, OUTCOME_EXIT, OUTCOME_RUNNING
 
 CHOICES = 10
-"""Macros to choose from: three directions by three modes of the jump key, and waiting."""
+"""Macros per state: three directions by three modes of the jump key, and waiting."""
 FOLLOW_CHOICES = 3
-"""Rows of a known run from which it is followed: the one most like the present state, the one before, the next one."""
+"""Rows of a known run from which a search follows it: the one nearest to the state, and its two neighbours."""
 BOUND_SHARE = 0.4
-"""What share of the estimate counts when a node is compared with the best run: fields may be too high. Not tuned."""
+"""Share of the estimate in the comparison of a node with the best run: fields may be too high. Not tuned."""
 MIN_GAIN = 0.5
-"""Ticks by which what is behind a span must seem to be shorter than the known run. Not tuned."""
+"""Ticks by which the part after a span must seem shorter than that of the known run. Not tuned."""
 OTHER_ENDS = 8
-"""Ends of a leg that are kept where another switch than a wanted one was touched. Not tuned."""
+"""Ends of a leg that are kept although they touched a switch that was not wanted. Not tuned."""
 SURVIVAL = 60
-"""Ticks that the ninja must be able to live after the end of a leg. Not tuned."""
-MORE, EXHAUSTED, OUT_OF_NODES = 0, 1, 2  # how a slice of a search ended
+"""Ticks that the ninja must be able to survive after the end of a leg. Not tuned."""
+MORE, EXHAUSTED, OUT_OF_NODES = 0, 1, 2  # result of a slice of a search
 
 
 @kernel
 def add_root(start: Start, arrays: SearchArrays, goal: Goal, resolution: Resolution) -> None:
-    """Make the scratch world a node from which the search begins."""
+    """Make the scratch world a root of the search."""
     w = start.worlds[1]
     counters = arrays.counters[0]
     switch_state = max(switch_state_of(w, goal, counters, 0), 0)
@@ -99,10 +99,10 @@ def expand(
     resolution: Resolution,
     budget: int,
 ) -> int:
-    """Expand nodes until ``budget`` ticks were run, a switch state wants its field, or enough ends of a leg are found.
+    """Expand nodes until ``budget`` ticks were run, a switch state needs its field, or a leg has enough ends.
 
-    ``known``: the run along which to search; None: a search for the exit or of a leg, compiled without what runs along
-    one. Returns MORE, EXHAUSTED (nothing is left) or OUT_OF_NODES (for nodes).
+    ``known``: the run along which to search. None: a search for the exit or of a leg; the code for known runs is not
+    compiled then. Returns MORE, EXHAUSTED (no node left) or OUT_OF_NODES (no room for nodes).
     """
     here = start.worlds[0]
     w = start.worlds[1]
@@ -151,9 +151,9 @@ def expand(
 
 @fast
 def take_state(node: Node, start: Start, arrays: SearchArrays, resolution: Resolution) -> bool:
-    """Load a node's save-state and give its chunks back. False, and nothing loaded, if the node is pointless by now.
+    """Load a node's save-state and give its chunks back; False, without loading, if the node cannot help any more.
 
-    A bound that fell since, or an earlier arrival at the same key, makes it so.
+    It cannot if a shorter run or an earlier arrival at the same key came in the meantime.
     """
     if node.chunk < 0:
         return False
@@ -170,7 +170,7 @@ def take_state(node: Node, start: Start, arrays: SearchArrays, resolution: Resol
 
 @fast
 def macro_of(ninja: Ninja, choice: int, counters: Counters, resolution: Resolution) -> tuple[int, int, int]:
-    """Direction, mode and most ticks of a choice; 0 ticks if it makes no difference to this ninja."""
+    """Give direction, mode and most ticks of a choice; 0 ticks if the choice changes nothing for this ninja."""
     wall = ninja.in_air and ninja.near_wall
     limit = resolution.macro
     if resolution.jitter > 0:
@@ -182,7 +182,7 @@ def macro_of(ninja: Ninja, choice: int, counters: Counters, resolution: Resoluti
     elif mode == PRESSED_AGAIN:
         useful = ninja.jump_held and (wall or not ninja.in_air)
     elif mode > PRESSED_AGAIN:
-        # Waiting: only at rest, and longer than a macro, or it would not be news.
+        # Waiting: only at rest, and longer than a macro, otherwise it equals one.
         slow = abs(ninja.x - ninja.prev_x) + abs(ninja.y - ninja.prev_y) < 0.5
         useful = slow and not ninja.in_air and resolution.visits >= 2
         direction = 0
@@ -195,7 +195,7 @@ def macro_of(ninja: Ninja, choice: int, counters: Counters, resolution: Resoluti
 
 @fast
 def note_exit(parent: int, action: int, played: int, tick: int, arrays: SearchArrays, known: KnownRun | None) -> None:
-    """Note that a node leads to the exit; keep the run if it is the shortest."""
+    """Record that a node leads to the exit; keep the run if it is the shortest."""
     counters = arrays.counters[0]
     if known is None:
         note_link(arrays, arrays.nodes[parent].entry, -1, played)
@@ -208,9 +208,9 @@ def note_exit(parent: int, action: int, played: int, tick: int, arrays: SearchAr
 def keep_along(
     parent: int, action: int, start: Start, arrays: SearchArrays, goal: Goal, known: KnownRun, resolution: Resolution
 ) -> None:
-    """Make a node of the scratch world if it is not a duplicate and may lead to a shorter run than the known one.
+    """Make the scratch world a node if it is not a duplicate and may lead to a shorter run than the known one.
 
-    Its ticks to go are those that the known run still has from its row that is most like the scratch world.
+    Its ticks to go are those of the known run from the row that is most like the scratch world.
     """
     w = start.worlds[1]
     switch_state = switch_state_of(w, goal, arrays.counters[0], arrays.nodes[parent].switch_state)
@@ -225,7 +225,7 @@ def keep_along(
     delay = known.max_delay if w.tick < known.span[1] else -MIN_GAIN
     if run_ticks <= arrays.counters[0].best_ticks + delay:
         index = keep_node(parent, action, slot, key, to_go, switch_state, start, arrays)
-        # Two buckets a tick; the known run's own states wait in the middle one.
+        # Two buckets per tick; the states of the known run itself are in the middle one.
         push(index, 0.5 * BUCKETS + 2.0 * (run_ticks - len(known.keys)), arrays)
 
 
@@ -240,9 +240,9 @@ def keep_child(
     backed_up: BackedUpHeuristic,
     resolution: Resolution,
 ) -> None:
-    """Make a node of the scratch world, on the way to the exit or to the end of a leg.
+    """Make the scratch world a node on the way to the exit or to the end of a leg.
 
-    Its ticks to go are those of the switch state's distance field, or of the backed-up heuristic of an earlier search.
+    Its ticks to go come from the distance field of its switch state, or from the table of an earlier search.
     """
     w = start.worlds[1]
     counters = arrays.counters[0]
@@ -292,7 +292,7 @@ def keep_child(
 def keep_node(
     parent: int, action: int, slot: int, key: int, to_go: float, switch_state: int, start: Start, arrays: SearchArrays
 ) -> int:
-    """Make the scratch world a node, with a save-state if there is room, and note it under its key; its index.
+    """Make the scratch world a node, with a save-state if there is room, and enter it under its key; gives its index.
 
     ``slot``: the place of the key in the table.
     """
@@ -318,7 +318,7 @@ def keep_node(
 
 @fast
 def add_node(parent: int, action: int, tick: int, arrays: SearchArrays) -> int:
-    """A new node without a save-state; its index."""
+    """Add a node without a save-state; gives its index."""
     counters = arrays.counters[0]
     index = counters.nodes
     counters.nodes += 1
@@ -342,9 +342,9 @@ def note_link(arrays: SearchArrays, source: int, target: int, ticks: int) -> Non
 
 @fast
 def survives(node: Node, start: Start, arrays: SearchArrays, rollouts: int) -> bool:
-    """Whether a ninja with random keys, from a node's save-state on, ever lands or lives for a while.
+    """Tell whether the ninja, from a node's save-state on with random keys, ever lands or lives for a while.
 
-    The scratch world is used.
+    This overwrites the scratch world.
     """
     w = start.worlds[1]
     counters = arrays.counters[0]

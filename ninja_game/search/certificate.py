@@ -1,4 +1,4 @@
-"""From inputs that a search found to a replay: smoothed if wanted, and played from tick 0 on the plain memory."""
+"""Make a replay of inputs that a search found: smooth them if wanted, play them on the plain memory from tick 0."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ class UnverifiedRunError(NinjaGameError):
 
 
 def verified_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0) -> Replay:
-    """Play inputs from the start on the plain memory: a replay up to the tick of the exit contact.
+    """Play inputs from the start on the plain memory: gives a replay up to the tick of the exit contact.
 
-    Raises UnverifiedRunError if they do not reach the exit, or with less gold than asked for.
+    Raises UnverifiedRunError if they do not reach the exit with as much ``gold``.
     """
     if not inputs:
         raise UnverifiedRunError("a run without inputs does not reach the exit")
@@ -46,9 +46,9 @@ def verified_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: in
 
 
 def with_plain_triggers(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0) -> bytes:
-    """A run with triggers just where the jump key goes down, as searches keep them, up to the exit.
+    """Set triggers exactly where the jump key goes down, as searches keep them; the run ends at the exit.
 
-    Raises UnverifiedRunError where the run does not reach the exit, or only by triggers that no keyboard makes.
+    Raises UnverifiedRunError if the run does not reach the exit, or only with triggers that no keyboard makes.
     """
     try:
         return verified_run(level, with_press_bits(inputs), body=body, gold=gold).inputs
@@ -58,7 +58,7 @@ def with_plain_triggers(level: Level, inputs: bytes, *, body: Body = "circle", g
 
 
 def named_replay(run: Replay, command: str, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
-    """A run that a command found, under a name, which its level has too; one that was played stays its player's."""
+    """Name a run that a command found, and its level. The author of a run that a person played stays."""
     made, author = (run.made, run.author) if run.made.played else (run.made.searched(command), author)
     return replace(run, name=name, author=author, level_name=name, level_author=level_author, made=made)
 
@@ -69,7 +69,7 @@ AUTHOR = "ninja-game check"
 def read_certificate(
     level: NamedLevel, path: Path, *, body: Body = "circle", gold: int = 0
 ) -> tuple[Replay, bool] | None:
-    """A replay's run, if it still does on a level what is wanted, and whether it was made on just this level.
+    """Give the run of a replay if it still passes a level with the gold wanted, and whether it was made on this level.
 
     None if the file is missing, or if its run does not pass this level any more. Raises NinjaGameError for a file that
     is not a replay.
@@ -86,9 +86,9 @@ def read_certificate(
 
 
 def update_certificates(level: NamedLevel, run: Replay) -> None:
-    """Make a run of a level file the certificate beside it, for each goal that it serves better than the one there.
+    """Make a run of a level file its certificate, for each goal for which it beats the present certificate.
 
-    Raises NinjaGameError for a certificate that cannot be read; OSError.
+    Raises NinjaGameError for a certificate that cannot be read, and OSError.
     """
     for kind, gold in (("exit", 0), ("gold", level.level.gold)):
         if run.gold < gold:
@@ -105,7 +105,7 @@ def write_certificate(level: NamedLevel, path: Path, run: Replay) -> None:
 
 
 def improved_replay(run: Replay, recording: Recording, command: str) -> Replay:
-    """A run that a command made of a recording: names and authors stay, and it says what was done and to whose run."""
+    """Give a run that a command made from a recording: names and authors stay, its origin is added."""
     old = recording.replay
     return replace(
         run,
@@ -120,11 +120,11 @@ def improved_replay(run: Replay, recording: Recording, command: str) -> Replay:
 
 
 def moved_markers(recording: Recording, inputs: bytes) -> tuple[Marker, ...]:
-    """The markers of a run in one that was made of it: each where its ninja is at the same place, else as late."""
+    """Move the markers of a run to one made from it: to the tick with the ninja at the same place, else as late."""
     old, body = recording.replay.markers, recording.body
     if not old:
         return ()
-    from ninja_game.runs.compare import aligned  # which a page has not
+    from ninja_game.runs.compare import aligned  # pages do not have this module
 
     runs = [run_level(recording.level, keys, body=body).positions for keys in (recording.inputs, inputs)]
     there = [-1] * len(runs[0])
@@ -139,26 +139,26 @@ def moved_markers(recording: Recording, inputs: bytes) -> tuple[Marker, ...]:
 
 
 def save_replay(path: Path, replay: Replay) -> None:
-    """Write a replay, whole or not at all. Raises OSError."""
+    """Write a replay, completely or not at all. Raises OSError."""
     write_atomically(path, write_replay(replay))
 
 
 MAX_TICKS = 4000
 """Longer runs keep all their keys: a tick takes some 0.5 ms."""
 _CHOICES = (*range(8), *range(12, 16))
-"""The inputs that a keyboard can make in a tick."""
+"""The inputs that a keyboard can make in one tick."""
 
 
 def without_idle_keys(
     level: Level, inputs: bytes, original: bytes, *, body: Body = "circle", first: int = 0, last: int | None = None
 ) -> bytes:
-    """A run with the same state after each tick, by plainer keys in the ticks ``first`` … ``last`` - 1 (None: all).
+    """Simplify keys in the ticks ``first`` … ``last`` - 1 (None: to the end) without a change of any tick's state.
 
-    Of keys that lead to just the same state each tick gets those of ``original``, the run that this one was made of, as
-    long as that goes the same way; then as few changes as possible. Runs over MAX_TICKS, and such with triggers that
-    no keyboard makes, stay as they are.
+    Of keys that lead to the same state a tick gets those of ``original``, the run that ``inputs`` was made from, as
+    long as both go the same way; after that, as few changes as possible. Runs over MAX_TICKS, and runs with triggers
+    that no keyboard makes, stay as they are.
     """
-    import numpy as np  # which a page has not
+    import numpy as np  # pages do not have it
 
     from ninja_game.batch.batch import Batch
 
@@ -170,7 +170,7 @@ def without_idle_keys(
     @cache
     def state_of(index: int) -> str:
         world = batch.world(index)
-        world.ninja.jump_held = 0  # every tick writes it before it is read
+        world.ninja.jump_held = 0  # every tick writes it before reading it
         return state_digest(world)
 
     batch.run(np.repeat(np.frombuffer(inputs[:first], np.uint8)[:, np.newaxis], len(_CHOICES), 1), stop=True)
@@ -194,7 +194,7 @@ def without_idle_keys(
         costs = steps.min(0)
         state_of.cache_clear()
         batch.copy([own] * len(_CHOICES), range(len(_CHOICES)))
-    if last < len(inputs):  # the tick behind must trigger as before
+    if last < len(inputs):  # the next tick must trigger as before
         costs += [0 if with_press_bit(inputs[last], keys & JUMP_HELD) == inputs[last] else np.inf for keys in range(8)]
     made = [int(costs.argmin())]
     for before in reversed(came_from):
@@ -206,19 +206,19 @@ Hold = tuple[int, int]  # keys that are down, and for how many ticks
 
 
 def rows_of(inputs: bytes) -> list[Hold]:
-    """Inputs as rows of equal keys; triggers follow from them."""
+    """Group inputs into rows of equal keys; triggers follow from them."""
     return [(keys, len(list(ticks))) for keys, ticks in groupby(keys & KEYS_DOWN for keys in inputs)]
 
 
 def playback(rows: list[Hold]) -> bytes:
-    """Rows of keys as inputs, with triggers where the jump key goes down."""
+    """Turn rows of keys into inputs, with triggers where the jump key goes down."""
     return with_press_bits([keys for keys, ticks in rows for _ in range(ticks)])
 
 
 def smooth_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0, price: int = 0) -> bytes:
-    """A run to the exit with fewer key changes, at most ``price`` ticks longer than ``inputs``.
+    """Give a run to the exit with fewer key changes, at most ``price`` ticks longer than ``inputs``.
 
-    Short rows of keys are given to their neighbours, the shortest first, as long as the run still reaches the exit.
+    Short rows of keys are merged into their neighbours, the shortest first, as long as the run still reaches the exit.
     """
     limit = len(inputs) + price
     rows = rows_of(inputs)
@@ -234,7 +234,7 @@ def smooth_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: int 
 
 
 def _without_one(rows: list[Hold], longest: int, level: Level, body: Body, gold: int, limit: int) -> list[Hold] | None:
-    """The rows with one of at most ``longest`` ticks merged into a neighbour; None if no such run passes."""
+    """Merge one row of at most ``longest`` ticks into a neighbour; None if no such run passes."""
     for index, (_, ticks) in enumerate(rows):
         if ticks > longest:
             continue

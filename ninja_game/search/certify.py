@@ -1,4 +1,4 @@
-"""Certify levels: runs that are known and still right are kept, others are searched, better ones are written."""
+"""Certify levels: keep known runs that still pass, search for the others, write those that are better."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from ninja_game.search.task import Progress, Task
 
 @dataclass(frozen=True)
 class Certified:
-    """The result for one goal of a level: the best run, None if there is none, and where it comes from.
+    """The result for one goal of a level: the best run, None without one, and its origin.
 
-    ``gold``: pieces that the run had to collect; ``how``: "kept" (it was there), "found", "shortened", or "not found";
-    ``progress``: where the search stood at its end, None where there was none.
+    ``gold``: pieces that the run had to collect. ``how``: "kept" (an earlier certificate), "found", "shortened" or "not
+    found". ``progress``: the last state of the search, None without a search.
     """
 
     run: Replay | None
@@ -35,9 +35,9 @@ class Certified:
 
 @dataclass(frozen=True)
 class CertifyOptions:
-    """What is to be certified: the gold of each goal (-1: all), by its name.
+    """The goals to certify: the gold of each goal (-1: all), by its name.
 
-    ``task``: what a ``Task`` is made with, for any level; ``improve``: also runs that are kept are shortened.
+    ``task``: arguments of ``Task`` for every level. ``improve``: also shorten the runs that are kept.
     """
 
     goals: Mapping[str, int]
@@ -53,9 +53,9 @@ def certify_all(
     jobs: int,
     report: Callable[[str, Progress], None],
 ) -> Iterator[dict[str, Certified] | NinjaGameError]:
-    """Certify levels, ``jobs`` at a time; by level, in order, what was found by goal, or what was wrong.
+    """Certify levels, ``jobs`` at a time. Gives per level, in order, the results by goal or the error.
 
-    ``files``: by level, where the runs of its goals are kept (empty: nowhere); ``report`` gets a level's name.
+    ``files``: per level, the files of the runs of its goals (empty: none); ``report`` gets a level's name.
     """
     stop = Event()
     threads = max(1, jobs // max(1, len(levels)))
@@ -83,7 +83,7 @@ def _certify(
     report: Callable[[Progress], None],
     stop: Event,
 ) -> dict[str, Certified]:
-    """Certify a level: one goal after the other; a run that serves another goal better is its run too."""
+    """Certify the goals of a level in turn; a run that serves another goal better is used for that goal, too."""
     certified: dict[str, Certified] = {}
     amounts = {name: level.level.gold if gold < 0 else gold for name, gold in wanted.goals.items()}
     for name, gold in amounts.items():
@@ -108,7 +108,7 @@ def _certify_goal(
     stop: Event,
     improve: bool,
 ) -> Certified:
-    """The best run for a goal: the kept one, one found for another goal, or one that is searched now."""
+    """Give the best run for a goal: the kept one, one found for another goal, or the result of a new search."""
     run, of_this_level = kept or (None, False)
     if run and of_this_level and not improve:
         return Certified(run, task.gold, "kept")
@@ -129,7 +129,7 @@ def _certify_goal(
     if run and of_this_level:
         task = replace(task, first=run.inputs, first_only=False)
     best = None
-    # A run that no keyboard makes is kept as it is.
+    # Keep a run that no keyboard can make as it is.
     with suppress(UnverifiedRunError):
         best = solve(task, report=remember, on_better=keep, stop=stop)
     if run and (not best or run.end_tick <= best.end_tick):

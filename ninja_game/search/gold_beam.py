@@ -1,9 +1,9 @@
-"""Shorter runs with gold from a known one: a beam search of legs, in orders that measured legs suggest.
+"""Shorten a run with gold by a beam search of legs; measured legs suggest the order of the pieces.
 
-The checkpoints of the known run at which it collects or switches something are the first *frontiers*. A pass begins at
-one of them and goes on depth by depth (a depth: so many pieces collected and switches touched): it takes the few
+The first *frontiers* are the checkpoints at which the known run collects or switches something. A pass begins at one of
+them and proceeds depth by depth (depth: pieces collected plus switches touched). At each depth it takes the few
 frontiers with the least ticks so far and to go, and searches from all their checkpoints to the next piece. Frontiers
-stay from pass to pass.
+are kept from pass to pass.
 """
 
 from __future__ import annotations
@@ -38,24 +38,24 @@ BEAM_LEGS = (
     Resolution(cell=8.0, speed=0.7, macro=5, weight=1.2),
     Resolution(cell=10.0, speed=0.7, macro=9, weight=1.0),
 )
-"""How the legs of a pass are searched, in turn. None of the numbers below was tuned by an experiment on record."""
+"""Resolutions of the legs of a pass, in turn. No number below was tuned by an experiment on record."""
 BEAM_TICKS = 150_000
 BEAM_EXTRA = 20_000
-"""Most ticks of a leg, and how many it goes on at least after its first end."""
+"""Most ticks of a leg, and the least that it continues after its first end."""
 EXIT_FACTOR = 10
-"""How many times more the last leg, to the exit, may take."""
+"""Factor by which the last leg, to the exit, may be longer."""
 BEAM_WIDTH = 40
 BEAM_ENDS = 80
-"""Checkpoints kept in a frontier, and ends of a leg."""
+"""Checkpoints of a frontier, and ends of a leg, that are kept."""
 EFFORTS = (1, 4)
-"""How many times a leg's ticks a frontier gets; the second only if the first found nothing: far pieces need more."""
+"""Factors of the ticks of a leg: the second only if the first found nothing, since far pieces need more."""
 BREADTHS = (3, 6, 3, 6, 10)
-"""Frontiers that are searched on from at each depth, pass by pass."""
+"""Frontiers that are expanded at each depth, pass by pass."""
 SPARE = 2
-"""Frontiers that may take the place of others whose legs found nothing."""
-FRONTIERS_KEPT = 10  # frontiers kept at each depth from pass to pass
+"""Frontiers that may replace others whose legs found nothing."""
+FRONTIERS_KEPT = 10  # frontiers per depth that are kept from pass to pass
 NOISE = 0.4
-"""By which part the ticks between pieces are changed at random, for other orders."""
+"""Share by which the ticks between pieces are changed at random, to get other orders."""
 HOPE = 1.1
 """A pass ends where the estimated ticks exceed those of the best run by this share."""
 
@@ -67,9 +67,9 @@ def play_on(start: Start, keys: int) -> None:
 
 
 class GoldBeam:
-    """Passes that make a run shorter which reaches the exit; all pieces that it collects are collected again.
+    """Passes that shorten a run to the exit; the shorter run collects the same pieces.
 
-    ``seed``: of its random numbers.
+    ``seed``: seed of its random numbers.
     """
 
     def __init__(self, search: Search, run: bytes, *, seed: int) -> None:
@@ -88,7 +88,7 @@ class GoldBeam:
         self.add_run(run)
 
     def add_run(self, run: bytes) -> None:
-        """Add the checkpoints of a run; it sets the bound and the order if it is the shortest."""
+        """Add the checkpoints of a run; the shortest run sets the bound and the order."""
         start, heuristics = self.search.start, self.heuristics
         start.scratch[:] = start.initial
         world = start.worlds[1]
@@ -114,7 +114,7 @@ class GoldBeam:
             self._add(checkpoint, self.order)
 
     def search_depths(self, spend: Spend) -> bytes | None:
-        """Search on from one of the depths to the exit; a shorter run, None if there is none."""
+        """Search from one of the depths to the exit; gives a shorter run, None if there is none."""
         resolution = BEAM_LEGS[self.passes % len(BEAM_LEGS)]
         self.piece_ticks.change(self.random, NOISE * (self.passes % 3) / 2)
         first = 0 if self.passes % 3 == 0 else int(self.random.integers(max(self.depths)))
@@ -142,7 +142,7 @@ class GoldBeam:
         return None
 
     def _leg(self, frontier: Frontier, resolution: Resolution, effort: int, spend: Spend) -> tuple[bytes | None, int]:
-        """Search from a frontier to the next piece, or to the exit: a run that is shorter than the best; ends found."""
+        """Search from a frontier to the next piece or the exit; gives a run shorter than the best, and the ends."""
         self.legs += 1
         target = self._target(frontier)
         roots = frontier.checkpoints
@@ -172,7 +172,7 @@ class GoldBeam:
         frontiers[key].add(checkpoint, BEAM_WIDTH)
 
     def _value(self, frontier: Frontier) -> float:
-        """Ticks so far, and about how many to come along the frontier's tour."""
+        """Ticks so far plus the estimated ticks to come along the frontier's tour."""
         between, start, home = self.piece_ticks.estimate(frontier.checkpoints[0])
         tour = frontier.tour
         if not tour:
@@ -181,7 +181,7 @@ class GoldBeam:
         return frontier.checkpoints[0].tick + to_come
 
     def _target(self, frontier: Frontier) -> int:
-        """The piece to fetch next from a frontier, -1: the exit. Its tour is made shorter."""
+        """Give the piece to fetch next from a frontier, -1: the exit. Shortens the frontier's tour."""
         left = [piece for piece in frontier.tour if not frontier.taken >> piece & 1]
         if not left:
             return -1

@@ -1,7 +1,7 @@
-"""How far it is to a place, in ticks, from anywhere in a level: a shortest-path field over points 6 px apart.
+"""Distance to a place, in ticks, from anywhere in a level: a shortest-path field over points 6 px apart.
 
-The field knows walls, mines, doors and the sides of one-way platforms, but nothing of gravity or jumps: it is a
-guide, optimistic on the whole, not a promise.
+The field knows walls, mines, doors and the sides of one-way platforms, but no gravity and no jumps. It guides a search;
+it is mostly too optimistic and no bound.
 """
 
 from __future__ import annotations
@@ -23,22 +23,22 @@ from ninja_game.sim.states import AUTOMATIC, LOCKED
 from ninja_game.sim.traces import is_open
 
 SPACING = 6.0
-"""Px between points; cell sides (multiples of 24 px) lie on points, so that closing them closes a door."""
+"""Px between points. Cell sides (multiples of 24 px) lie on points: blocking these points closes a door."""
 ACROSS = 133
 DOWN = 101
 POINTS = ACROSS * DOWN
 
 CLEARANCE = 9.0
-"""Px; a point is free if a circle of this radius about it is. A little less than the ninja, which slides along."""
+"""Px; a point is free if this circle around it is. A little less than the ninja's radius, since the ninja slides."""
 
-UNREACHED = 1.0e9  # ticks to go from where no way is known
+UNREACHED = 1.0e9  # ticks to go without a known way
 MINE_COST = 12.0
-"""How many times longer a step beside a mine counts: to be avoided, not impossible."""
+"""Factor of a step beside a mine: to be avoided, not impossible."""
 
 RING_X = [1.0, 0.866, 0.5, 0.0, -0.5, -0.866, -1.0, -0.866, -0.5, 0.0, 0.5, 0.866]
 RING_Y = [0.0, 0.5, 0.866, 1.0, 0.866, 0.5, 0.0, -0.5, -0.866, -1.0, -0.866, -0.5]
 
-# Moves to the eight neighbours and what they cost (ticks): running and falling are faster than climbing.
+# Moves to the eight neighbours and their costs (ticks): running and falling are faster than climbing.
 MOVE_X = [1, 1, 0, -1, -1, -1, 0, 1]
 MOVE_Y = [0, 1, 1, 1, 0, -1, -1, -1]
 MOVE_TICKS = [1.45, 1.85, 1.2, 1.85, 1.45, 2.3, 1.9, 2.3]
@@ -50,7 +50,7 @@ Blocks = NDArray[np.uint8]
 
 @kernel
 def free_points(levels: Any, costs: Costs) -> None:
-    """Set the cost factor of every point: 1 where the ninja fits among the tiles, 0 where it does not."""
+    """Set the cost factor of every point: 1 if the ninja fits among the tiles, 0 if not."""
     level = levels[0]
     for point in range(POINTS):
         x = SPACING * (point % ACROSS)
@@ -67,7 +67,7 @@ def free_points(levels: Any, costs: Costs) -> None:
 
 @kernel
 def spread(costs: Costs, blocked: Blocks, field: DistanceField, queue: NDArray[np.int32], waiting: Blocks) -> None:
-    """Lower ``field`` (ticks, UNREACHED where unknown) to the shortest way to the points that are set already.
+    """Lower ``field`` (ticks, UNREACHED: unknown) to the shortest way to the points that are already set.
 
     ``costs``: factor of a step onto a point, 0: impassable. ``blocked``: bit k of a point forbids its move k.
     ``queue``: room for POINTS + 1 indices.
@@ -88,7 +88,7 @@ def spread(costs: Costs, blocked: Blocks, field: DistanceField, queue: NDArray[n
         column = point % ACROSS
         row = point // ACROSS
         for k in range(8):
-            # The field spreads against the move: from where the move ends to where it starts.
+            # The field spreads against the move: from its end to its start.
             i = column - MOVE_X[k]
             j = row - MOVE_Y[k]
             if not (0 <= i < ACROSS and 0 <= j < DOWN):
@@ -107,7 +107,7 @@ def spread(costs: Costs, blocked: Blocks, field: DistanceField, queue: NDArray[n
 
 @fast
 def point_at(x: float, y: float) -> int:
-    """Index of the point nearest to a place; places outside the world count as at its rim."""
+    """Index of the point nearest to a place; a place outside the world counts as at its border."""
     i = int((x + 3.0) / SPACING) if x > 0.0 else 0
     j = int((y + 3.0) / SPACING) if y > 0.0 else 0
     i = min(i, ACROSS - 1)
@@ -124,7 +124,7 @@ def points_at(places: NDArray[np.float64]) -> NDArray[np.int64]:
 
 
 def widened(field: DistanceField, steps: int = 3) -> DistanceField:
-    """The field with values also for impassable points beside passable ones (the ninja may rest between points)."""
+    """Add values for impassable points beside passable ones: the ninja may rest between points."""
     grid = field.reshape(DOWN, ACROSS).copy()
     for _ in range(steps):
         padded = np.pad(grid, 1, constant_values=UNREACHED)
@@ -135,7 +135,7 @@ def widened(field: DistanceField, steps: int = 3) -> DistanceField:
 
 
 def points_about(x: float, y: float, radius: float) -> list[int]:
-    """All points nearer to a place than a radius (px)."""
+    """List the points within ``radius`` px of a place."""
     reach = int(radius / SPACING) + 1
     points = set()
     for i in range(-reach, reach + 1):
@@ -148,20 +148,20 @@ def points_about(x: float, y: float, radius: float) -> list[int]:
 
 
 DOOR_COST = 40.0
-"""How many times longer a step through a closed door counts where a way through it is imagined."""
+"""Factor of a step through a closed door, in fields that pretend it can be passed."""
 MAX_BITS = 60
-"""Switches, of exits and doors, whose state a search tells apart."""
+"""Most switches, of exits and doors, whose states a search distinguishes."""
 FARTHEST = 20_000.0
-"""Ticks that an unreachable place counts where ticks are summed."""
+"""Ticks that an unreachable place counts in sums."""
 SWITCH_COST = 3.0
-"""How many times longer a step beside a switch counts that is better touched later."""
+"""Factor of a step beside a switch that is better touched later."""
 
 FieldSource = tuple[float, float, float]
-"""Where a field begins (px), and its value there (ticks)."""
+"""Start of a field: place (px) and value there (ticks)."""
 
 
 class Switchable(NamedTuple):
-    """Something with a switch: an exit (``door`` is False) or a locked or trap door, and the points it bars."""
+    """An exit (``door`` is False) or a locked or trap door, with its switch and the points that it blocks."""
 
     slot: int
     door: bool
@@ -174,9 +174,9 @@ class Switchable(NamedTuple):
 
 
 class Heuristics:
-    """Distance fields of one level, by switch_state.
+    """Distance fields of one level, by switch state.
 
-    ``levels``: the level as kernels take it; ``worlds``: a new world in it, in records.
+    ``levels``: the level as kernels take it; ``worlds``: a new world in it, as a record.
     """
 
     def __init__(self, levels: Any, worlds: Records) -> None:
@@ -214,18 +214,18 @@ class Heuristics:
         self.gold_places = [(x, y) for _, x, y in gold]
 
     def taken(self, world: Any) -> int:
-        """Which pieces of gold a world's ninja has collected, a bit a piece."""
+        """The collected pieces of gold, one bit per piece."""
         bits = world["objects"]["taken"][self.gold_slots] != 0
         return sum(1 << k for k in np.flatnonzero(bits).tolist())
 
     def opened(self, worlds: Records, index: int) -> int:
-        """The switch state of one of some worlds."""
+        """The switch state of world ``index``."""
         return int(compiled_if_possible(open_mask_at)(worlds, index, self.slots))
 
     def tour_fields(self, switch_state: int) -> DistanceField:
-        """Ticks to each piece of gold and, last, to the exit by way of its switch (pieces + 1 x points).
+        """Ticks to each piece of gold and, in the last row, to the exit by way of its switch: (pieces + 1, points).
 
-        Closed locked doors count as passable but dear.
+        Closed locked doors can be passed at a high cost.
         """
         dear = self._closed(switch_state, DOOR_COST / 4)
         careful = self._careful(dear.copy(), switch_state)
@@ -234,25 +234,25 @@ class Heuristics:
         return np.array([widened(field) for field in fields], np.float32)
 
     def field_to(self, place: tuple[float, float], switch_state: int, x: float, y: float) -> DistanceField:
-        """Ticks from every point to what a ninja at (x, y) should do next to get to a place, and on to it."""
+        """Ticks from every point to a place, by way of the switches that a ninja at (x, y) must touch first."""
         costs = self._careful(self._closed(switch_state, 0.0), switch_state)
         dear = self._careful(self._closed(switch_state, DOOR_COST), switch_state)
         return self._toward([(*place, 0.0)], costs, dear, switch_state, point_at(x, y))
 
     def field(self, switch_state: int, x: float, y: float) -> DistanceField:
-        """Ticks from every point to what a ninja at (x, y) should do next in this switch state, and on to the exit."""
+        """Ticks from every point to the exit, by way of the switches that a ninja at (x, y) must touch first."""
         costs = self._closed(switch_state, 0.0)
         dear = self._closed(switch_state, DOOR_COST)
         return self._toward(self._exit_sources(switch_state, dear), costs, dear, switch_state, point_at(x, y))
 
     def may_leave(self, switch_state: int, x: float, y: float) -> bool:
-        """Whether an exit is open to which a ninja at (x, y) could go without opening a door, as the fields see it."""
+        """Tell whether a ninja at (x, y) can reach an open exit without opening a door, as far as the fields know."""
         places = [(e.x, e.y, 0.0) for bit, e in enumerate(self.exits) if bit < MAX_BITS and switch_state >> bit & 1]
         field = widened(self._field(self._closed(switch_state, 0.0), places))
         return bool(field[point_at(x, y)] < UNREACHED)
 
     def _exit_sources(self, switch_state: int, dear: Costs) -> list[FieldSource]:
-        """The open exits, and the switches of the others, worth what lies behind them."""
+        """The open exits, and the switches of the others with the distance from there on as their value."""
         sources = []
         for bit, exit_ in enumerate(self.exits):
             if bit < MAX_BITS and switch_state >> bit & 1:
@@ -266,7 +266,7 @@ class Heuristics:
     def _toward(
         self, sources: list[FieldSource], costs: Costs, dear: Costs, switch_state: int, here: int
     ) -> DistanceField:
-        """The field of some places, by way of the switches of locked doors that are in the way from a point."""
+        """Make the field of some places, by way of the switches of the locked doors between them and a point."""
         visited: set[int] = set()
         while True:
             field = widened(self._field(costs, sources))
@@ -277,14 +277,14 @@ class Heuristics:
             if door is None or door.slot in visited:
                 return imagined
             visited.add(door.slot)
-            # First to its switch; from there on as imagined, which goes down by a lot once the door is open.
+            # First to the switch; the value there is that of the imagined way, which falls a lot once the door is open.
             rest = min(float(imagined[point_at(door.switch_x, door.switch_y)]), 5000.0)
             sources = [(door.switch_x, door.switch_y, rest)]
 
     def _field(self, costs: Costs, sources: list[FieldSource]) -> DistanceField:
         field = np.full(POINTS, UNREACHED, np.float32)
         for x, y, value in sources:
-            # The ninja touches an object from up to 16 px away: any free point about it will do.
+            # The ninja touches an object from up to 16 px away: any free point around it is enough.
             near = points_about(x, y, 15.0)
             free = [point for point in near if costs[point] > 0.0]
             free = free or [point for point in points_about(x, y, 22.0) if costs[point] > 0.0] or near
@@ -293,7 +293,7 @@ class Heuristics:
         return field
 
     def _closed(self, switch_state: int, door_cost: float) -> Costs:
-        """The cost factors with the doors as they are in a switch_state."""
+        """Give the cost factors with the doors as they are in a switch state."""
         costs = self.costs.copy()
         for bit, switch in enumerate(self.switches):
             if switch.door and switch.trap == bool(switch_state >> bit & 1):
@@ -302,7 +302,7 @@ class Heuristics:
         return costs
 
     def _careful(self, costs: Costs, switch_state: int) -> Costs:
-        """The cost factors as long as gold is fetched: open exits, switches of exits and trap doors are avoided."""
+        """Give the cost factors while gold is fetched: avoid open exits, and switches of exits and trap doors."""
         for bit, switch in enumerate(self.switches):
             done = bool(switch_state >> bit & 1)
             if not switch.door and done:
@@ -312,7 +312,7 @@ class Heuristics:
         return costs
 
     def _first_door(self, field: DistanceField, here: int, switch_state: int) -> Switchable | None:
-        """The first closed locked door on the way down a field."""
+        """Give the first closed locked door on the way down a field."""
         closed = {
             point: switch
             for bit, switch in enumerate(self.switches)
@@ -343,7 +343,7 @@ class Heuristics:
 
 
 def _bars(edge: int) -> tuple[int, ...]:
-    """The points on the cell side that an edge index stands for (right or down side of its cell)."""
+    """The points on the cell side of an edge index (right or down side of its cell)."""
     cell, side = divmod(edge, 4)
     if cell == 0:
         return ()
@@ -355,7 +355,7 @@ def _bars(edge: int) -> tuple[int, ...]:
 
 @fast
 def open_bits(w: World, slots: Any, first: int, last: int) -> int:
-    """The switch state of a world: bit k is set if the exit or door ``slots[first + k]`` is not as it began."""
+    """The switch state of a world: bit k is 1 if the exit or door ``slots[first + k]`` is not in its first state."""
     mask = 0
     for k in range(first, last):
         if is_open(w, int(slots[k])):
@@ -365,13 +365,13 @@ def open_bits(w: World, slots: Any, first: int, last: int) -> int:
 
 @fast
 def open_mask(w: World, slots: Any) -> int:
-    """The switch state over all ``slots``."""
+    """The switch state, with a bit for each of ``slots``."""
     return open_bits(w, slots, 0, len(slots))
 
 
 @kernel
 def open_mask_at(worlds: Any, index: int, slots: Any) -> int:
-    """The switch state over all ``slots`` of world ``index``."""
+    """The switch state of world ``index``, with a bit for each of ``slots``."""
     return open_bits(worlds[index], slots, 0, len(slots))
 
 

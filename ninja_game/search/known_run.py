@@ -1,7 +1,7 @@
-"""A run that is known, as a search along it sees it: where it was, how fast, with what open, under which keys.
+"""A known run as a search along it sees it: per tick its place, velocity, keys and open switches.
 
-What a search reaches is compared with it: *ahead* are the ticks that the known run still has from its moment that is
-most like this one, and a price for the difference.
+A state of the search is compared with the most similar row of the run. Its *ahead* value: the ticks that the known run
+still has from that row, plus a price for the difference.
 """
 
 from __future__ import annotations
@@ -22,28 +22,28 @@ from ninja_game.sim.states import OUTCOME_RUNNING
 from ninja_game.sim.world import step
 
 AHEAD = 128  # ticks by which a moment may be ahead of the known run
-BEHIND = 24  # or behind it
+BEHIND = 24  # ticks by which a moment may be behind the known run
 SLOW = 0.5
-"""Px/tick; a known run that is slower counts as that fast."""
+"""Px/tick; the least speed that a known run is given, even where it is slower."""
 
 
 class KnownRun(NamedTuple):
-    """A run of n ticks to the exit. Row k is what is so after k ticks; row 0 is the start."""
+    """A run of n ticks to the exit. Row k is the state after k ticks; row 0 is the start."""
 
     moves: NDArray[np.float64]  #: x, y (px), velocity (px/tick); (n + 1, 4)
-    keys: Keys  #: of each tick, without triggers
-    masks: NDArray[np.int64]  #: what is open
-    gold: NDArray[np.int64]  #: pieces that whoever is as far must have collected
-    span: tuple[int, int]  #: its first tick, and the tick behind its last, in which a search may fall behind the run
-    max_delay: float  #: by how many ticks
-    max_distance: float  #: px across, and px down, by which a state may differ from its row
-    place_price: float  #: of a difference of place, in ticks a tick of the run's way
-    speed_price: float  #: ticks a px/tick
-    most_moved: float  #: px from row to row, across or down, at most
+    keys: Keys  #: keys of each tick, without triggers
+    masks: NDArray[np.int64]  #: open switches, as bits
+    gold: NDArray[np.int64]  #: pieces that a state must have collected by this row
+    span: tuple[int, int]  #: first tick, and the tick after the last one, in which a search may be late
+    max_delay: float  #: most ticks that it may be late
+    max_distance: float  #: px in x, and px in y, by which a state may differ from its row
+    place_price: float  #: price of a difference of place, in ticks per tick of the run's way
+    speed_price: float  #: price of a difference of speed, in ticks per px/tick
+    most_moved: float  #: most px between two rows, in x or y
 
 
 def known_run(ticks: int, keys: bytes = b"") -> KnownRun:
-    """Room for a run of this many ticks, to be filled by ``play_known``."""
+    """Make room for a run of this many ticks; ``play_known`` fills it."""
     moves, (masks, gold) = np.zeros((ticks + 1, 4)), np.zeros((2, ticks + 1), np.int64)
     held = np.array(list(keys), np.uint8) & np.uint8(KEYS_DOWN)
     return KnownRun(moves, held, masks, gold, (0, ticks), 0.0, 64.0, 1.0, 1.0, 1.0)
@@ -63,7 +63,7 @@ def note(run: KnownRun, w: World, switch_slots: NDArray[np.int64]) -> None:
 
 @kernel
 def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], until: int, noted: int) -> int:
-    """Play the run's keys from the start to before tick ``until``, noted if that is 1; the ticks played."""
+    """Play the run's keys from the start to before tick ``until``, recorded if ``noted``; gives the ticks played."""
     w = start.worlds[1]
     copy_words(start.scratch, start.initial)
     if noted:
@@ -79,7 +79,7 @@ def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], unt
 
 @fast
 def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
-    """The row of the run that is most like this moment, and the ticks ahead from there, price included."""
+    """Give the row of the run most like this moment, and the ticks ahead from there, with the price."""
     n = w.ninja
     ticks = len(run.keys)
     vx = n.x - n.prev_x
@@ -90,7 +90,7 @@ def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
     last = max(0, w.tick - BEHIND)
     while k > last and ticks - k < least:
         k -= 1
-        dx = abs(n.x - run.moves[k, 0])  # a row by itself would be an object, counted for each k
+        dx = abs(n.x - run.moves[k, 0])  # Numba would count references to a row object in every step of the loop
         dy = abs(n.y - run.moves[k, 1])
         too_far = max(dx, dy) - run.max_distance
         if too_far > 0.0:

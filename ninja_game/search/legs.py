@@ -1,4 +1,4 @@
-"""What runs in legs are made of: checkpoints, frontiers, a leg and its fields, and the order in which to fetch gold."""
+"""Parts of a run in legs: checkpoints, frontiers, a leg and its fields, and the order of the gold."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from ninja_game.search.heuristics import FARTHEST, DistanceField, Heuristics, po
 from ninja_game.search.nodes import StateWords
 
 UNBOUNDED = 1 << 30
-"""More gold than there is: what a leg wants at the exit that is to end elsewhere. And more ticks than a run has."""
+"""More gold than any level has, so that a leg cannot end at the exit; also more ticks than any run has."""
 ROLLOUTS = 16
-"""Random runs that try whether the end of a leg can be survived. Not tuned."""
-FIELDS_KEPT = 400  # fields to single pieces, 53 KB each, before all are computed again
+"""Random runs that test whether the end of a leg can be survived. Not tuned."""
+FIELDS_KEPT = 400  # fields to single pieces, 53 KB each, before all are discarded
 MASKS_KEPT = 16  # sets of fields to all pieces, likewise
 
 Spend = Callable[[int], bool]
-"""Counts the ticks that a search has just simulated; true: it is over."""
+"""Counts ticks that a search has just simulated; returns true if it must end."""
 
 FieldOf = Callable[[int, float, float], DistanceField]
 """The field of a switch state, for a ninja at (x, y)."""
@@ -29,19 +29,19 @@ FieldOf = Callable[[int, float, float], DistanceField]
 
 @dataclass
 class Checkpoint:
-    """A save-state on the way of a run."""
+    """A save-state of a run."""
 
     words: StateWords
     tick: int
-    taken: int  #: gold, a bit a piece
-    mask: int  #: what is open, a bit a switch
-    place: tuple[float, float]  #: of the ninja, px
-    variety: bytes = b""  #: what sets it apart: what the enemies do, for some searches the velocity too
-    before: Checkpoint | None = None  #: the checkpoint before it
-    inputs: bytes = b""  #: from there to here
+    taken: int  #: collected gold, one bit per piece
+    mask: int  #: open switches, one bit per switch
+    place: tuple[float, float]  #: place of the ninja, px
+    variety: bytes = b""  #: key of its variety: what the enemies do, for some searches also the velocity
+    before: Checkpoint | None = None  #: the previous checkpoint
+    inputs: bytes = b""  #: inputs from the previous checkpoint to this one
 
     def run(self) -> bytes:
-        """The inputs from the start of the level."""
+        """The inputs from the start of the level to here."""
         parts = []
         checkpoint: Checkpoint | None = self
         while checkpoint:
@@ -52,7 +52,7 @@ class Checkpoint:
 
 @dataclass
 class Frontier:
-    """Checkpoints with the same gold and switches, earliest first; the tour of the rest; tries, and their ticks."""
+    """Checkpoints with the same gold and switches, earliest first; the tour to come; number and ticks of the tries."""
 
     taken: int
     mask: int
@@ -63,7 +63,7 @@ class Frontier:
     failed: Counter[int] = field(default_factory=Counter)
 
     def add(self, checkpoint: Checkpoint, width: int) -> None:
-        """Keep a checkpoint if it is among the earliest; of each state of the enemies at least one, if possible."""
+        """Keep a checkpoint if it is among the earliest; if possible, keep one of each variety."""
         ranks: Counter[bytes] = Counter()
         ranked = []
         for other in sorted([*self.checkpoints, checkpoint], key=lambda checkpoint: checkpoint.tick):
@@ -74,12 +74,12 @@ class Frontier:
 
     @property
     def count(self) -> int:
-        """Pieces collected."""
+        """Number of pieces collected."""
         return self.taken.bit_count()
 
 
 def pieces_of(taken: int) -> Iterator[int]:
-    """The pieces of a set of bits."""
+    """Give the numbers of the pieces in a set of bits."""
     return (k for k in range(taken.bit_length()) if taken >> k & 1)
 
 
@@ -87,18 +87,18 @@ class Leg(NamedTuple):
     """From some checkpoints to the next piece of gold or switch, or to the exit."""
 
     roots: Sequence[Checkpoint]
-    until: int  #: gold at which it ends, as where what is open differs from ``mask``; 0: only at the exit
+    until: int  #: pieces at which it ends, as it does when the open switches differ from ``mask``; 0: only at the exit
     mask: int
     gold: int  #: pieces that a run must have at the exit
-    ends: int  #: how many ends are enough
-    rollouts: int  #: tries to survive at an end, 0: it need not be survived
-    field: FieldOf  #: makes the fields
-    wanted: int = 0  #: switches of which one must have been touched at the end, but for a few ends; 0: any
-    target: int = 0  #: slot of the only object where it ends, once that is taken or open; 0: any
+    ends: int  #: number of ends that are enough
+    rollouts: int  #: random runs that must survive an end, 0: no test
+    field: FieldOf  #: makes the distance fields
+    wanted: int = 0  #: switches of which one must be touched at the end, except for a few ends; 0: any
+    target: int = 0  #: slot of the only object that ends it, by being taken or opened; 0: any
 
 
 class LegFields:
-    """The distance fields of the legs of one level, made when they are first wanted."""
+    """The distance fields of the legs of one level, made on demand."""
 
     def __init__(self, heuristics: Heuristics) -> None:
         self.heuristics = heuristics
@@ -123,21 +123,21 @@ class LegFields:
         return self._pieces[piece, mask]
 
 
-Distances = NDArray[np.float64]  # ticks from each stop (row) to each stop (column)
+Distances = NDArray[np.float64]  # ticks from a stop (row) to a stop (column)
 
-MAX_SEGMENT = 4  # stops that are moved together
+MAX_SEGMENT = 4  # most stops that are moved together
 
 
 def short_tour(start: Distances, between: Distances, end: Distances, order: Sequence[int] = ()) -> list[int]:
-    """All stops in an order with a short way from the start over all of them to the end.
+    """Order all stops so that the way from the start over all of them to the end is short.
 
-    ``start``, ``end``: ticks from the start to each stop, from each stop to the end; ``between``: from stop to stop.
-    ``order``: stops in an order to begin with; those that it lacks are inserted where they cost least.
+    ``start``: ticks from the start to the stops; ``end``: from the stops to the end; ``between``: from stop to stop.
+    ``order``: a first order of some stops; the missing ones are inserted where they cost least.
     """
     tour = list(order)
     missing = set(range(len(start))) - set(tour)
     while missing:
-        # The nearest to what is in the tour first, so that a far one joins the neighbours it passes.
+        # Insert the nearest missing stop first, so that a far one can join the neighbours on its way.
         costs = {stop: _best_place(stop, stop, tour, start, between, end) for stop in sorted(missing)}
         stop = min(costs, key=lambda stop: (costs[stop][0], stop))
         tour.insert(costs[stop][1], stop)
@@ -150,7 +150,7 @@ def short_tour(start: Distances, between: Distances, end: Distances, order: Sequ
 def _best_place(
     first: int, last: int, tour: list[int], start: Distances, between: Distances, end: Distances
 ) -> tuple[float, int]:
-    """The least cost of a segment (its first and last stop) within a tour, and before which stop that is."""
+    """Give the least cost of inserting a segment (its first and last stop) into a tour, and the place for it."""
     if not tour:
         return float(start[first] + end[last]), 0
     stops = np.array(tour)
@@ -163,7 +163,7 @@ def _best_place(
 
 
 def _move_a_segment(tour: list[int], start: Distances, between: Distances, end: Distances) -> bool:
-    """Move the first segments that are better elsewhere, also turned round; whether any was moved."""
+    """Move the first segment that is better elsewhere, also reversed; tells whether one was moved."""
     moved = False
     for length in range(1, min(MAX_SEGMENT, len(tour) - 1) + 1):
         for index in range(len(tour) - length + 1):
@@ -194,41 +194,41 @@ def _move_a_segment(tour: list[int], start: Distances, between: Distances, end: 
 
 
 FAILED = 200.0
-"""Ticks that a way counts at least which a leg did not find."""
-# Legs against distance fields, which know no run-ups; set on tours of gold, whose figures were not kept.
-SLOWER = 1.4  # times the ticks
-TURN = 10.0  # ticks more for each piece
+"""Least ticks for a way that a leg did not find."""
+# Legs take longer than distance fields say, which know no run-ups; fitted to gold tours whose figures were not kept.
+SLOWER = 1.4  # factor of the ticks
+TURN = 10.0  # ticks added per piece
 
 
 class PieceTicks:
-    """Ticks between the pieces of a level, to be learned from the legs of its runs."""
+    """Ticks between the pieces of a level, learned from the legs of its runs."""
 
     def __init__(self, fields: LegFields) -> None:
         self._fields = fields
         count = len(fields.points)
-        # The last row: from the start of the level.
+        # The last row holds the ticks from the start of the level.
         self._measured: Distances = np.full((count + 1, count), np.nan)
         self._factors: Distances = np.ones((count + 1, count))
 
     def change(self, random: np.random.Generator, noise: float) -> None:
-        """Change all estimates at random by up to half of ``noise`` (a part of them), for other tours."""
+        """Change all estimates at random, by up to half of ``noise`` (a share of them), to get other tours."""
         self._factors = 1.0 + noise * (random.random(self._factors.shape) - 0.5)
 
     def learn(self, before: Checkpoint, after: Checkpoint) -> None:
-        """Learn from a leg how many ticks it is from one piece to the next."""
+        """Learn from a leg the ticks from one piece to the next."""
         new = list(pieces_of(after.taken & ~before.taken))
         if len(new) == 1 and before.mask == after.mask:
             row, ticks = _last_piece(before), max(1.0, float(after.tick - before.tick))
             self._measured[row, new[0]] = np.fmin(self._measured[row, new[0]], ticks)
 
     def note_failure(self, before: Checkpoint, piece: int) -> None:
-        """Note that a leg did not reach a piece: it counts as farther from now on."""
+        """Record that a leg did not reach a piece: the piece counts as farther from now on."""
         row = _last_piece(before)
         known = np.nan_to_num(self._measured[row, piece], nan=0.0)
         self._measured[row, piece] = min(FARTHEST, max(FAILED, 1.5 * known))
 
     def estimate(self, checkpoint: Checkpoint) -> tuple[Distances, Distances, Distances]:
-        """Ticks from piece to piece, from a checkpoint to each piece, and from each to the exit."""
+        """Ticks from piece to piece, from a checkpoint to the pieces, and from the pieces to the exit."""
         mask, here = checkpoint.mask, point_at(*checkpoint.place)
         fields, points = self._fields.tours(mask), self._fields.points
         by_fields = np.vstack([fields[:-1, points].T, fields[:-1, here]]).astype(float)
@@ -242,7 +242,7 @@ class PieceTicks:
 
 
 def _last_piece(checkpoint: Checkpoint) -> int:
-    """The piece collected last before a checkpoint, -1 if there is none."""
+    """Give the last piece collected before a checkpoint, -1 if there is none."""
     while checkpoint.before and checkpoint.before.taken == checkpoint.taken:
         checkpoint = checkpoint.before
     return max(pieces_of(checkpoint.taken & ~(checkpoint.before.taken if checkpoint.before else 0)), default=-1)

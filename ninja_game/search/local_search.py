@@ -1,7 +1,7 @@
-"""Small random changes of a run's inputs: what a speedrunner tries by hand. Inputs here have no trigger bit.
+"""Small random changes of a run's inputs, like the trial and error of a speedrunner. Inputs here have no trigger bit.
 
-Rows of keys are moved, stretched, cut out, doubled or overwritten. Each edit works on ``keys[:length]`` in place and
-answers (first changed tick, by how many ticks what follows has moved forward).
+Edits move, stretch, cut, double or overwrite rows of keys. An edit changes ``keys[:length]`` in place and gives (first
+changed tick, ticks by which the following keys move forward).
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ from ninja_game.sim.world import step
 
 @fast
 def cut(keys: Keys, length: int, tick: int, count: int) -> None:
-    """Leave ticks out; what follows moves forward, the last input is repeated at the end."""
+    """Remove ticks; the following keys move forward, and the last input is repeated at the end."""
     for k in range(tick, length):
         keys[k] = keys[min(k + count, length - 1)]
 
 
 @fast
 def stretch(keys: Keys, length: int, tick: int, count: int) -> None:
-    """Repeat the input of a tick; what follows moves back."""
+    """Repeat the input of a tick; the following keys move back."""
     for k in range(length - 1, tick + count - 1, -1):
         keys[k] = keys[k - count]
     for k in range(tick + 1, min(tick + count, length)):
@@ -43,7 +43,7 @@ def stretch(keys: Keys, length: int, tick: int, count: int) -> None:
 
 @fast
 def overwrite(keys: Keys, length: int, start: int, end: int, mask: int, value: int) -> None:
-    """Set some keys in the ticks from start to before end."""
+    """Set the keys of ``mask`` to ``value`` in the ticks from start to end (excluded)."""
     for k in range(max(start, 0), min(end, length)):
         keys[k] = (keys[k] & (KEYS_DOWN - mask)) | value
 
@@ -59,7 +59,7 @@ def next_change(keys: Keys, length: int, tick: int, mask: int) -> int:
 
 @fast
 def shift_boundary(keys: Keys, length: int, tick: int, mask: int, by: int) -> int:
-    """Move the next change of some keys earlier or later; the first changed tick."""
+    """Move the next change of some keys earlier or later; gives the first changed tick."""
     change = next_change(keys, length, tick, mask)
     if change >= length:
         return length
@@ -74,7 +74,7 @@ def shift_boundary(keys: Keys, length: int, tick: int, mask: int, by: int) -> in
 
 @fast
 def shift_pulse(keys: Keys, length: int, tick: int, by: int) -> int:
-    """Move the next jump as a whole; the first changed tick."""
+    """Move the next jump as a whole; gives the first changed tick."""
     start = next_change(keys, length, tick, JUMP_HELD)
     if start < length and not keys[start] & JUMP_HELD:
         start = next_change(keys, length, start, JUMP_HELD)
@@ -98,7 +98,7 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
         stretch(keys, length, tick, min(by, 3))
         return tick, -min(by, 3)
     if kind == 2:
-        # Some ticks less here, as many more a little later: what lies between comes earlier.
+        # Remove ticks here and add as many a little later: the keys between come earlier.
         other = min(tick + 1 + random_below(source, 60), length - 1)
         if sign > 0:
             cut(keys, length, tick, by)
@@ -122,36 +122,36 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
 
 CHECKPOINT = 8  # ticks between the save-states of the current run
 SPARE_TICKS = 64
-"""Ticks by which a current run may be longer than the run that the local search began with."""
+"""Ticks by which a current run may be longer than the first run of the local search."""
 LEASH = 90.0
-"""Px; a trial run that is farther from the current run's path is given up."""
+"""Px; a trial run farther than this from the current run's path is given up."""
 
 
 @struct
 class LocalCounters(RandomState):
-    """Where a local search stands. A score is in ticks, see ``score_of``."""
+    """The state of a local search. Scores are in ticks (``score_of``)."""
 
-    ticks: i8  #: of the current run
+    ticks: i8  #: ticks of the current run
     score: f8
-    best_ticks: i8  #: of the best run
+    best_ticks: i8  #: ticks of the best run
     best_score: f8
-    played: i8  #: ticks of the trial runs, the rest of those that were back on the current run included
+    played: i8  #: ticks of the trial runs; those that met the current run again count to its end
 
 
 class Runs(NamedTuple):
-    """The best, the current and the trial run, one byte per tick without trigger bit; more about the current one."""
+    """The best, the current and the trial run, one byte per tick without trigger bit; data of the current one."""
 
     best: Keys
     current: Keys
     trial: Keys
     path: NDArray[np.float64]  #: px, after each tick of the current run
-    checkpoints: NDArray[np.int64]  #: its save-states, as words
+    checkpoints: NDArray[np.int64]  #: save-states of the current run, as words
     counters: Sequence[LocalCounters]
 
 
 @fast
 def score_of(w: World) -> float:
-    """Ticks of a run that has just ended at the exit, less the depth of the contact (0 to 0.99)."""
+    """Ticks of a run that has just reached the exit, less 0 to 0.99 for the depth of the contact."""
     n = w.ninja
     nearest = 22.0
     for slot in range(1, w.id_count + 1):
@@ -163,9 +163,9 @@ def score_of(w: World) -> float:
 
 @kernel
 def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
-    """Play the current run on from the checkpoint at or before ``tick``: its path and checkpoints; its ticks.
+    """Play the current run from the checkpoint at or before ``tick`` on and record path and checkpoints.
 
-    0 if it does not reach the exit before ``limit``.
+    Gives its ticks, 0 if it does not reach the exit before ``limit``.
     """
     w = start.worlds[1]
     first = min(tick, limit - 1) // CHECKPOINT
@@ -183,13 +183,14 @@ def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
 
 @fast
 def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: int) -> tuple[int, float]:
-    """Play the trial run from tick ``first`` on: up to which tick, and its score; UNREACHED if it is given up.
+    """Play the trial run from tick ``first`` on; gives the last tick played and the score, UNREACHED if given up.
 
-    It is, far from the current run's path. Where it is that run again, to the bit and in the keys to come, it ends so.
+    It is given up far from the current run's path. It ends early, with that run's score, where its state and its
+    remaining keys equal those of the current run.
     """
     w = start.worlds[1]
     path = runs.path
-    score = runs.counters[0].score  # just the ticks as long as how deep it ends in the exit is not known
+    score = runs.counters[0].score  # whole ticks as long as the depth of the exit contact is unknown
     differs = ticks = runs.counters[0].ticks
     while runs.trial[differs - 1] == runs.current[differs - 1]:
         differs -= 1
@@ -214,7 +215,7 @@ def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: 
 
 @fast
 def make_trial(runs: Runs, capacity: int) -> tuple[int, int]:
-    """Make the trial run of the current one by mutations near each other: the first changed tick, ticks of delay."""
+    """Make the trial run from the current one by edits near each other; gives the first changed tick and the delay."""
     current = runs.current
     trial = runs.trial
     counters = runs.counters[0]
@@ -235,7 +236,7 @@ def make_trial(runs: Runs, capacity: int) -> tuple[int, int]:
 
 @kernel
 def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget: int) -> None:
-    """Try mutations of the current run until about ``budget`` ticks were played."""
+    """Try edits of the current run for about ``budget`` ticks."""
     w = start.worlds[1]
     counters = runs.counters[0]
     stop = counters.played + budget
@@ -272,7 +273,7 @@ def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget
 class LocalSearch:
     """Improves a run by random mutations.
 
-    ``inputs`` must reach the exit; ``gold``: pieces that every run must collect.
+    ``inputs`` must reach the exit; ``gold``: pieces that a run must collect.
     """
 
     def __init__(self, start: Start, inputs: bytes, *, gold: int, seed: int) -> None:
@@ -298,7 +299,7 @@ class LocalSearch:
         self.counters.ticks = self.ticks
 
     def run(self, budget: int, *, temperature: float) -> None:
-        """Try mutations for about ``budget`` ticks; ``temperature``: how many ticks longer a kept run may be."""
+        """Try edits for about ``budget`` ticks. ``temperature``: how many ticks longer a run that is kept may be."""
         budget = min(budget, ticks_at_once(self.start))
         compiled(local_search)(self.start, self.runs, self.gold, temperature, budget)
 

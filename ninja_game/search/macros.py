@@ -1,8 +1,8 @@
-"""Macros: what the ninja does for a few ticks. A search decides between macros, not between single inputs.
+"""Macros: keys of the ninja for a few ticks. A search chooses macros, not single inputs.
 
-An action holds direction + 1 (bits 0-1), mode (bits 2-3), whether the jump key was down before (bit 4) and how many
-ticks were played (bits 8 and up), so that its inputs can be written down again. The jump key triggers, as at a real
-keyboard, exactly in the tick in which it goes down.
+An action is a number: direction + 1 (bits 0-1), mode (bits 2-3), whether the jump key was down before (bit 4), ticks
+played (from bit 8 on). Its inputs can be derived from it. As on a keyboard, the jump key triggers exactly in the tick
+in which it goes down.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.world import step
 
 RELEASED, PRESSED, PRESSED_AGAIN = 0, 1, 2
-"""Modes of the jump key: up; down (a press if it was up); up for one tick, then down."""
+"""Modes of the jump key: up; down (a press if it was up); up for one tick, then down (a new press)."""
 FOLLOWED = 3
-"""Mode of an action that plays on as a known run did, from the row in its bits 16 and up."""
-MAX_ROWS = 1 << 15  # an action has no room for a row from here on
+"""Mode of an action that follows a known run, from the row in its bits from 16 on."""
+MAX_ROWS = 1 << 15  # rows of a known run that fit into an action
 
 
 @fast
 def macro_keys(direction: int, mode: int, held: int, k: int) -> int:
-    """The input of tick ``k`` of a macro; ``held``: the jump key was down before it."""
+    """The input of tick ``k`` of a macro. ``held``: the jump key was down before the macro."""
     keys = 0
     if direction < 0:
         keys = KEY_LEFT
@@ -39,10 +39,9 @@ def macro_keys(direction: int, mode: int, held: int, k: int) -> int:
 
 @fast
 def play_macro(level: TileMap, w: World, direction: int, mode: int, limit: int) -> int:
-    """Play at most ``limit`` ticks; the number played.
+    """Play at most ``limit`` ticks; gives the number played.
 
-    It ends early where there is something new to decide: the ninja lands, leaves the ground or meets a wall, or the
-    run ends.
+    A macro ends early at a new decision: the ninja lands, leaves the ground or meets a wall, or the run ends.
     """
     n = w.ninja
     held = n.jump_held
@@ -71,7 +70,7 @@ def action_inputs(action: int) -> bytes:
 
 @fast
 def follow(level: TileMap, w: World, keys: Keys, row: int, limit: int) -> int:
-    """Play on with a known run's keys from a row on, at most ``limit`` ticks; the number played."""
+    """Continue with a known run's keys from a row on, at most ``limit`` ticks; gives the number played."""
     for k in range(limit):
         if row + k >= len(keys):
             return k
@@ -83,7 +82,7 @@ def follow(level: TileMap, w: World, keys: Keys, row: int, limit: int) -> int:
 
 @fast
 def followed_code(row: int, ticks: int) -> int:
-    """``ticks`` of a known run from a row on, in one number."""
+    """Code ``ticks`` of a known run from a row on as one number."""
     return FOLLOWED << 2 | ticks << 8 | row << 16
 
 

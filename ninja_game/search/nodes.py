@@ -1,9 +1,9 @@
-"""What a search holds: plain arrays and records under names, no Python objects inside.
+"""The data of a search: plain arrays and records under names, without Python objects.
 
-The groups are named tuples, which compiled code takes as they are; what it counts is a record, alone in its array.
+The groups are named tuples, which compiled code accepts. Counters are a record, alone in its array.
 
-A node's save-state is kept as the words (8 bytes) in which it differs from the start of the level, in chunks from a
-pool; a node that has been expanded gives its chunks back.
+A node's save-state is stored as the words (8 bytes) that differ from the start of the level, in chunks of a pool. A
+node that was expanded gives its chunks back.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ Int32s = NDArray[np.int32]
 
 CHUNK = 32  # words in a chunk
 BUCKETS = 1 << 14
-"""How many the open list has, by priority: one for each tick, two where a search goes along a run."""
+"""Buckets of the open list, by priority: one per tick, two per tick in a search along a run."""
 LARGE_STATE = 10_000  # words; the states of all levels of N are smaller
 MAX_ENDS = 96
-"""Ends of a leg that are kept, with room for those of a last expansion."""
+"""Ends of a leg that are kept, with room for those of the last expansion."""
 
 
 FROM_START, MUTATIONS, ALONG_RUN, PASSES = 6, 7, 8, 9
-"""Streams of random numbers of a seed: from the start, of changed keys, along a run, of choices of spans and legs."""
+"""Streams of random numbers of a seed: searches from the start, edits of keys, searches along a run, choices."""
 
 
 @struct_base
@@ -45,7 +45,7 @@ class RandomState:
 
 @fast
 def random_below(source: RandomState, limit: int) -> int:
-    """A pseudo-random number from 0 to limit - 1 (xorshift)."""
+    """Give a pseudo-random number from 0 to limit - 1 (xorshift)."""
     x = source.random
     x ^= x << 13
     x ^= (x >> 7) & 0x01FFFFFFFFFFFFFF
@@ -56,34 +56,34 @@ def random_below(source: RandomState, limit: int) -> int:
 
 @struct
 class Node:
-    """A moment that a search has reached."""
+    """A state that a search has reached."""
 
-    parent: i4  #: index of the node it came from, -1: the root
+    parent: i4  #: index of the previous node, -1: this is the root
     tick: i4  #: ticks run
-    action: i4  #: see macros.py
+    action: i4  #: action that led here (macros.py)
     chunk: i4  #: first chunk of its save-state, -1: none (any more)
-    words: i4  #: words in it
+    words: i4  #: words in its save-state
     next: i4  #: next node of its bucket, -1: last
-    priority: i4  #: its bucket
+    priority: i4  #: number of its bucket
     switch_state: i4  #: index of its switch state (heuristics.py)
-    entry: i4  #: its place in the table
+    entry: i4  #: place in the table
     to_go: f4  #: estimated ticks to the exit
 
 
 @struct
 class TableEntry:
-    """A row of the table: moments that count as the same."""
+    """A row of the table: states that count as the same."""
 
     key: i8  #: 0: empty
     first: i4  #: earliest tick at which it was reached
     last: i4  #: latest accepted tick
-    visits: i4  #: how many were accepted
-    value: f4  #: ticks from here to the exit, as far as known
+    visits: i4  #: number of accepted arrivals
+    value: f4  #: ticks from here to the exit, if known
 
 
 @struct
 class Link:
-    """One macro played: from table entry to table entry (-1: the exit)."""
+    """One played macro, from table entry to table entry (-1: the exit)."""
 
     source: i4
     target: i4
@@ -95,29 +95,29 @@ class Counters(RandomState):
     """The counters of a search, shared by its kernels and their caller."""
 
     nodes: i8  #: made so far
-    entries: i8  #: of the table, in use
-    links: i8  #: noted so far
-    free_chunk: i8  #: the first, -1: none
+    entries: i8  #: entries of the table in use
+    links: i8  #: links recorded so far
+    free_chunk: i8  #: first free chunk, -1: none
     waiting: i8  #: nodes in buckets
     lowest: i8  #: no node waits in a bucket below it
-    highest: i8  #: nor above it
-    ticks: i8  #: simulated
-    best_ticks: i8  #: of the shortest run; at first the bound, 0: none
-    best_node: i8  #: its last node, -1: none found
-    fields_wanted: i8  #: switch states reached that have no field yet
+    highest: i8  #: no node waits in a bucket above it
+    ticks: i8  #: ticks simulated
+    best_ticks: i8  #: ticks of the shortest run; at first the bound, 0: none
+    best_node: i8  #: its last node, -1: no run found
+    fields_wanted: i8  #: reached switch states that have no field yet
     ends: i8  #: ends of a leg found so far
-    other_ends: i8  #: those of them that are not at a wanted switch
+    other_ends: i8  #: ends of a leg at a switch that was not wanted
 
 
 class Resolution(NamedTuple):
-    """How finely a search looks: size of a place (px), of a velocity (px/tick), length of a macro (ticks).
+    """How finely a search looks: size of a place (px), size of a velocity (px/tick), length of a macro (ticks).
 
-    ``jitter``: by how many ticks at most a macro is longer, at random. ``weight``: of the estimated ticks to go against
-    those run; ``patience``: ticks after which the same place counts as new, at most ``visits`` times; ``enemy_cell``:
-    size of a place (px) of enemies nearer than ``enemy_reach`` (px, across and down together), 0: they do not count.
-    Guided searches only: ``slack``: ticks by which an estimate may exceed the best run, in a plan as a share of it;
-    ``off_table``: how much a tick counts where the guide knows nothing. The shifts move the cells of places and
-    velocities; each search draws its own.
+    ``jitter``: most ticks by which a macro is longer, at random. ``weight``: factor of the estimated ticks to go.
+    ``patience``: ticks after which the same place counts as new, at most ``visits`` times. ``enemy_cell``: size of a
+    place (px) of enemies nearer than ``enemy_reach`` (px, |dx| + |dy|), 0: enemies are ignored. For guided searches
+    only: ``slack``: ticks by which an estimate may exceed the best run, in a plan a share of it; ``off_table``: factor
+    of a tick where the guide knows nothing. The shifts move the cells of places and velocities; each search draws its
+    own.
     """
 
     cell: float = 12.0
@@ -138,9 +138,9 @@ class Resolution(NamedTuple):
 
 
 class Start(NamedTuple):
-    """A level at tick 0 and two more worlds: of the node that is expanded, and to work in.
+    """A level at tick 0 and two more worlds: that of the expanded node, and the scratch world.
 
-    The words are views of the states of all three; those of the level at tick 0 never change.
+    The words are views of the states of all three worlds; those of the level at tick 0 never change.
     """
 
     levels: Any
@@ -151,7 +151,7 @@ class Start(NamedTuple):
 
 
 class SearchArrays(NamedTuple):
-    """The arrays of one search: nodes and what links them, the pool of save-states, the open list, a leg's ends."""
+    """The arrays of one search: nodes and their links, the pool of save-states, the open list, the ends of a leg."""
 
     nodes: Sequence[Node]
     table: Sequence[TableEntry]
@@ -165,19 +165,19 @@ class SearchArrays(NamedTuple):
 
 
 class BackedUpHeuristic(NamedTuple):
-    """The table of an earlier search, whose values are the estimates (length 1: none), and how finely that looked."""
+    """The table of an earlier search, whose values serve as estimates (length 1: none), and its resolution."""
 
     table: Sequence[TableEntry]
     resolution: Resolution
 
 
 def ticks_at_once(start: Start) -> int:
-    """The most ticks between two looks at the clock: a million on levels of N, far fewer where states are larger."""
+    """The most ticks between two looks at the clock: a million on levels of N, far fewer if states are larger."""
     return max(1, int(1_000_000 * min(1.0, LARGE_STATE / len(start.initial)) ** 2))
 
 
 def open_start(level: Level, *, box: bool) -> Start:
-    """Load a level. Raises LevelError for one that cannot be played."""
+    """Load a level. Raises LevelError if it cannot be played."""
     levels, first = load_worlds(compiled, [level], box=box)
     used = int(first["slots_used"][0])
     size = (used_bytes(used) - STATE_START) // 8
@@ -190,22 +190,22 @@ def open_start(level: Level, *, box: bool) -> Start:
 
 
 def _words(worlds: Records, index: int, size: int) -> StateWords:
-    """The state of a world as words, as a view."""
+    """View the state of a world as words."""
     return np.ndarray((size,), np.int64, worlds.base, index * worlds.strides[0] + STATE_START)
 
 
 def zeroed(kind: type, count: int) -> Any:
-    """Records of a kind, all zero; memory is only touched as it is used."""
+    """Make zeroed records of a kind; memory is only touched when it is used."""
     return np.zeros(count, dtype_of(kind)).view(np.recarray)
 
 
 def new_table(nodes: int) -> Any:
-    """An empty table for so many nodes; its length is a power of two."""
+    """Make an empty table for this many nodes; its length is a power of two."""
     return zeroed(TableEntry, 1 << (2 * nodes - 1).bit_length())
 
 
 def new_arrays(nodes: int) -> SearchArrays:
-    """The arrays of a search of at most so many nodes, with as many chunks. To be cleared before each search."""
+    """Make the arrays of a search of at most ``nodes`` nodes and chunks. Clear them before each search."""
     return SearchArrays(
         nodes=zeroed(Node, nodes),
         table=new_table(nodes),
@@ -220,7 +220,7 @@ def new_arrays(nodes: int) -> SearchArrays:
 
 
 def clear(arrays: Any) -> None:
-    """Reset the arrays for a new search. ``arrays.table`` is either the one that these nodes are in, or empty."""
+    """Reset the arrays for a new search. ``arrays.table`` must be the table of these nodes, or empty."""
     arrays.table[arrays.nodes["entry"][: int(arrays.counters[0].nodes)]] = 0
     arrays.chunk_next[:] = np.arange(1, len(arrays.chunk_next) + 1, dtype=np.int32)
     arrays.chunk_next[-1] = -1
@@ -232,10 +232,10 @@ def clear(arrays: Any) -> None:
 
 @kernel
 def back_up_values(table: Sequence[TableEntry], links: Sequence[Link], count: int, sweeps: int) -> int:
-    """Set ``value`` of all entries to the least ticks to the exit over the first ``count`` links; the sweeps made.
+    """Set ``value`` of all entries to the least ticks to the exit over ``count`` links; gives the sweeps made.
 
-    The macros that were played link the entries; values spread backwards over them from the exit. Places that count as
-    the same are not quite the same, so values are estimates, on the whole too low.
+    The played macros link the entries; values spread backwards from the exit. An entry joins states that differ a
+    little, so values are estimates, mostly too low.
     """
     for slot in range(len(table)):
         table[slot].value = UNREACHED
@@ -262,7 +262,7 @@ def copy_words(target: StateWords, source: StateWords) -> None:
 
 @fast
 def keep_state(words: StateWords, initial: StateWords, node: Node, arrays: SearchArrays) -> bool:
-    """Store the first word and those that differ from the start; False, and nothing stored, if the pool is empty."""
+    """Store the first word and the words that differ from the start; False, without storing, if the pool is empty."""
     counters = arrays.counters[0]
     first = -1
     chunk = -1
@@ -305,7 +305,7 @@ def free_state(first: int, arrays: SearchArrays) -> None:
 
 @fast
 def load_state(words: StateWords, initial: StateWords, node: Node, arrays: SearchArrays) -> None:
-    """Make the world of a node: the start with the node's words."""
+    """Load the world of a node: the start with the node's words."""
     for k in range(len(initial)):
         words[k] = initial[k]
     chunk = node.chunk
@@ -333,7 +333,7 @@ def push(index: int, priority: float, arrays: SearchArrays) -> None:
 
 @fast
 def pop_lowest(arrays: SearchArrays) -> int:
-    """Take the most promising node; -1 if there is none."""
+    """Take the most promising node; -1 if the open list is empty."""
     counters = arrays.counters[0]
     bucket = counters.lowest
     while bucket < BUCKETS and arrays.buckets[bucket] < 0:
@@ -344,7 +344,7 @@ def pop_lowest(arrays: SearchArrays) -> int:
 
 @fast
 def drop_highest(arrays: SearchArrays) -> None:
-    """Give up the least promising node, for the sake of its memory."""
+    """Give up the least promising node to free its memory."""
     counters = arrays.counters[0]
     bucket = counters.highest
     while bucket >= 0 and arrays.buckets[bucket] < 0:

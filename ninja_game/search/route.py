@@ -1,10 +1,9 @@
-"""A run in legs: from gold to gold along a tour and from switch to switch, several checkpoints kept at each.
+"""A run in legs: from gold to gold along a tour, or from switch to switch, with several checkpoints per leg.
 
-Checkpoints with the same gold and the same switches form a *frontier*. A step takes the frontier of the highest
-priority, searches from all its checkpoints to the next piece of its tour, or to the next switch or the exit, and puts
-the checkpoints at which a piece was collected or a switch touched - that one or another - into their frontiers. A
-frontier that leads nowhere is tried again, later, with another piece, another resolution and more work; the more often
-it was tried, the lower its priority.
+Checkpoints with the same gold and switches form a *frontier*. A step takes the frontier of the highest priority and
+searches from all its checkpoints to the next piece of its tour, the next switch or the exit. Checkpoints where a leg
+took a piece or touched a switch, whether it was the wanted one or not, go into their frontiers. A frontier that leads
+nowhere is tried again later, with another piece, another resolution and more work; every try lowers its priority.
 """
 
 from __future__ import annotations
@@ -37,24 +36,24 @@ ROUTE_LEGS = (
     (Resolution(cell=9.0, speed=0.6, macro=7, jitter=3, weight=1.5, visits=5, patience=40, enemy_cell=24.0), 5_000_000),
     (Resolution(cell=6.0, speed=0.4, macro=4, weight=1.2, visits=2), 8_000_000),
 )
-"""How a frontier is searched at its first, second … try, and the most ticks. Not tuned one by one."""
+"""Resolution and most ticks of a frontier's first, second … try. Not tuned one by one."""
 LEG_NODES = 250_000
 CAREFUL_TRIES = 4
-"""A piece must be survived, as far as so many random runs tell, at a frontier's first tries."""
+"""Number of first tries of a frontier in which a piece must be survived, as far as random runs can tell."""
 ROUTE_EXTRA = 40_000
-"""Ticks that a leg goes on at least after its first end, for others."""
+"""Least ticks that a leg continues after its first end, to find others."""
 TRY_PENALTY = 1.5
 """Pieces of gold that a try counts against a frontier. Not tuned: a guess."""
 STALL_STEPS = 120
 STALL_TICKS = 6_000_000
-"""Steps and ticks without another piece of gold after which it begins again from the start. Not tuned."""
+"""Steps and ticks without another piece of gold after which the route begins again from the start. Not tuned."""
 DOOR_WORTH = 0.5
-"""Pieces of gold that an open door counts like. Not tuned."""
+"""Pieces of gold that an open door is worth. Not tuned."""
 DOOR_TICKS = 3_000_000
-"""Ticks of search that an open door counts like, without gold. Not tuned; with it 40-1 is solved."""
+"""Ticks of search that an open door is worth, without gold. Not tuned; with this value 40-1 is solved."""
 ROUTE_WIDTH = 12
 ROUTE_ENDS = 24
-"""Checkpoints kept a frontier, and ends of a leg that are enough."""
+"""Checkpoints of a frontier that are kept, and ends that are enough for a leg."""
 
 
 class Route:
@@ -83,7 +82,7 @@ class Route:
         self._add(self._first, [])
 
     def step(self, spend: Spend) -> bytes | None:
-        """Search one leg; a run to the exit with the gold, if it ends in one."""
+        """Search one leg; gives a run to the exit with the gold, if the leg ends there."""
         stalled = self._stalled_steps > STALL_STEPS or self._stalled_ticks > STALL_TICKS * (1 + self._restarts)
         if self.gold and stalled:
             self._restart()
@@ -114,10 +113,10 @@ class Route:
         return None
 
     def _priority(self, frontier: Frontier) -> tuple[float, int, int]:
-        """How far a frontier is, less what its tries count; without gold, less the ticks that were spent on it."""
+        """Give the progress of a frontier less the cost of its tries; without gold, less the ticks spent on it."""
         if self.gold:
             return self._done(frontier) - TRY_PENALTY * frontier.tries, frontier.taken, frontier.mask
-        # The exit is opened last, or the way to the doors may be shut.
+        # The exit should be opened last: its way may block the way to the doors.
         early = bool(frontier.mask & self._exits) and not self._may_leave(frontier)
         doors = (frontier.mask & self._doors).bit_count()
         return doors - early - frontier.spent / DOOR_TICKS, -frontier.tries, frontier.mask
@@ -127,7 +126,7 @@ class Route:
         return frontier.count + DOOR_WORTH * (frontier.mask & useful).bit_count()
 
     def _may_leave(self, frontier: Frontier) -> bool:
-        """Whether an open exit can be reached, as far as walls and doors tell; asked once a frontier."""
+        """Tell whether an open exit can be reached, as far as walls and doors tell; computed once per frontier."""
         key = (frontier.taken, frontier.mask)
         if key not in self._leaving:
             self._leaving[key] = self.heuristics.may_leave(frontier.mask, *frontier.checkpoints[0].place)
@@ -137,12 +136,12 @@ class Route:
         return [piece for piece in range(len(self._fields.points)) if not self.ever_taken >> piece & 1]
 
     def _restart(self) -> None:
-        """Begin again from the start; what was left over this time is more urgent from now on."""
+        """Begin again from the start; the pieces missed this time get a higher priority."""
         last = max(self.frontiers.values(), key=lambda frontier: (frontier.count, -frontier.tries))
         pieces = set(range(len(self._fields.points)))
         left = pieces - set(pieces_of(last.taken))
         if last.count >= self.gold:
-            # The way to the exit is shut: what was taken last comes earlier.
+            # The way to the exit is blocked: take the last piece earlier.
             checkpoint: Checkpoint | None = last.checkpoints[0]
             while checkpoint and checkpoint.before and len(left) < len(pieces) // 4 + 1:
                 left |= set(pieces_of(checkpoint.taken & ~checkpoint.before.taken))
@@ -166,9 +165,9 @@ class Route:
         return Leg(roots, UNBOUNDED, frontier.mask, UNBOUNDED, ROUTE_ENDS, rollouts, *way)
 
     def _way_to_a_switch(self, frontier: Frontier) -> tuple[FieldOf, int]:
-        """The fields of the first door in the way; at later tries, in turn, those of the other doors' switches.
+        """Give the fields of the first door in the way, and the bit of its switch.
 
-        And the bit of the switch that it is then about.
+        At later tries those of the other doors' switches, in turn.
         """
         switches = enumerate(self.heuristics.switches)
         closed = [(bit, s) for bit, s in switches if s.door and not s.trap and not frontier.mask >> bit & 1]
@@ -181,7 +180,7 @@ class Route:
         return partial(self.heuristics.field_to, (switch.switch_x, switch.switch_y)), 0 if self.gold else 1 << bit
 
     def _add(self, checkpoint: Checkpoint, tour: list[int]) -> None:
-        """Put a checkpoint into its frontier, which keeps the best."""
+        """Put a checkpoint into its frontier; the frontier keeps the best."""
         key = (checkpoint.taken if self.gold else 0, checkpoint.mask)
         if key not in self.frontiers:
             self.frontiers[key] = Frontier(*key, tour=[k for k in tour if not checkpoint.taken >> k & 1])
@@ -192,9 +191,9 @@ class Route:
         frontier.add(checkpoint, ROUTE_WIDTH)
 
     def _target(self, frontier: Frontier) -> int:
-        """The piece to fetch next from a frontier, -1: the exit or its switch.
+        """Give the piece to fetch next from a frontier, -1: the exit or its switch.
 
-        Pieces from which no way leads to others, or to the switch, come last: they are behind one-way platforms, say.
+        Pieces without a way to others or to the switch, for example behind one-way platforms, come last.
         """
         left = [piece for piece in range(len(self._fields.points)) if not frontier.taken >> piece & 1]
         if frontier.count >= self.gold:

@@ -1,4 +1,4 @@
-"""One search of one level, driven in slices of work: set up, run on, read the best run so far."""
+"""One search of one level in slices of work: set it up, continue it, read the best run so far."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, WANTED, Goal
 
 NO_BACKED_UP = BackedUpHeuristic(zeroed(TableEntry, 1), Resolution())
 MAX_SWEEPS = 40
-"""Most sweeps over all links that back values up for the next search."""
+"""Most sweeps over all links to compute the values for the next search."""
 
 
 class Search:
-    """Best-first searches of a level, one after the other, in memory for so many ``nodes``."""
+    """Best-first searches of a level, one after the other, in memory for ``nodes`` nodes."""
 
     def __init__(self, start: Start, heuristics: Heuristics, *, nodes: int, along: bool = False) -> None:
         self.start = start
@@ -61,16 +61,16 @@ class Search:
         self._roots: Sequence[Checkpoint] = ()
 
     def begin(self, resolution: Resolution, *, seed: int, bound: int, backed_up: bool = False) -> None:
-        """Begin a new search from the start to the exit. ``bound``: only runs of fewer ticks count (0: any).
+        """Begin a new search from the start to the exit. ``bound``: only accept runs of fewer ticks (0: any).
 
-        ``backed_up``: by what the last search has learned; otherwise that is forgotten.
+        ``backed_up``: use the values that the last search has learned; otherwise they are forgotten.
         """
         self.backed_up = self._learned() if backed_up else NO_BACKED_UP
         self._roots = ()
         self._begin([self.start.initial], resolution, seed, bound)
 
     def begin_leg(self, leg: Leg, resolution: Resolution, *, seed: int, bound: int) -> None:
-        """Begin a new search from other moments to another goal; ``bound`` as for ``begin``."""
+        """Begin a new search from the checkpoints of a leg to its goal; ``bound`` as for ``begin``."""
         self.backed_up = NO_BACKED_UP
         self.goal = self.goal._replace(
             gold=leg.gold,
@@ -87,7 +87,7 @@ class Search:
         self._begin([root.words for root in leg.roots], resolution, seed, bound)
 
     def begin_along(self, run: KnownRun, inputs: bytes, resolution: Resolution, *, seed: int, gold: int) -> None:
-        """Begin a search at the span of a known run, whose inputs are given, for a shorter one with so much gold."""
+        """Begin a search in the span of a known run with these inputs, for a shorter run with ``gold`` pieces."""
         self.goal = self.goal._replace(gold=gold)
         self.goal.masks[:] = -1
         self._known, self._known_inputs = run, inputs
@@ -110,7 +110,7 @@ class Search:
         self._fill_fields()
 
     def _learned(self) -> BackedUpHeuristic:
-        """The table of the search just made, with its values; the next search gets the other table."""
+        """Give the table of the last search with its values; the next search uses the other table."""
         table = self.arrays.table
         compiled(back_up_values)(table, self.arrays.links, int(self.counters.links), MAX_SWEEPS)
         other = new_table(self._nodes) if self._other_table is None else self._other_table
@@ -120,7 +120,7 @@ class Search:
         return BackedUpHeuristic(table, self.resolution)
 
     def run(self, budget: int) -> int:
-        """Search on for about ``budget`` ticks; MORE, EXHAUSTED or OUT_OF_NODES."""
+        """Search for about ``budget`` more ticks; gives MORE, EXHAUSTED or OUT_OF_NODES."""
         end = self.ticks + min(budget, ticks_at_once(self.start))
         while self.ticks < end:
             ended = compiled(expand)(
@@ -133,9 +133,9 @@ class Search:
         return MORE
 
     def run_leg(self, budget: int, spend: Spend, *, part: int, least: int = 0) -> None:
-        """Run a leg's search for at most this many ticks, in parts; ``spend`` gets the ticks of each, and may end it.
+        """Run a leg's search for at most ``budget`` ticks, in parts; ``spend`` gets the ticks of a part and may end it.
 
-        From the first end or run to the exit on it goes on only as long again, or up to ``least`` ticks.
+        After the first end, or run to the exit, it continues as long again, or up to ``least`` ticks.
         """
         stop = budget
         while self.ticks < stop:
@@ -158,7 +158,7 @@ class Search:
         self.counters.fields_wanted = 0
 
     def ends(self, *, by_velocity: bool = False) -> list[Checkpoint]:
-        """The checkpoints at which the leg has ended so far. ``by_velocity``: the velocity sets them apart, too."""
+        """The checkpoints at which the leg has ended so far. ``by_velocity``: their variety includes the velocity."""
         links = []
         for index in self.arrays.ends[: int(self.counters.ends)].tolist():
             compiled(load_node)(self.start, self.arrays, index)
@@ -167,7 +167,7 @@ class Search:
         return links
 
     def checkpoint(self, before: Checkpoint | None, inputs: bytes, *, by_velocity: bool = False) -> Checkpoint:
-        """The scratch world as a checkpoint."""
+        """Make the scratch world a checkpoint."""
         world, heuristics = self.start.worlds[1], self.heuristics
         ninja = world["ninja"]
         variety = bytes(world["objects"]["routine"][heuristics.enemies].astype(np.uint8))
@@ -179,7 +179,7 @@ class Search:
         return Checkpoint(self.start.scratch.copy(), int(world["tick"]), taken, mask, place, variety, before, inputs)
 
     def _path(self, index: int) -> tuple[int, bytes]:
-        """From which root a node comes, and the inputs from there, one byte per tick."""
+        """Give the root of a node, and the inputs from there, one byte per tick."""
         nodes: Any = self.arrays.nodes
         parents, actions = nodes["parent"], nodes["action"]
         parts = []
@@ -190,7 +190,7 @@ class Search:
 
     @property
     def untouched(self) -> list[int]:
-        """Ids of the exits, unless one was opened, and locked doors whose switch no search has touched so far."""
+        """Ids of the exits, unless one was opened, and of locked doors whose switch no search has touched so far."""
         opened = int(np.bitwise_or.reduce(np.maximum(self.goal.masks, 0)))
         switches = enumerate(zip(self.heuristics.switch_ids, self.heuristics.switches, strict=True))
         closed = [(id_, switch) for bit, (id_, switch) in switches if not opened >> bit & 1 and not switch.trap]

@@ -1,6 +1,6 @@
-"""Find a run to the exit, then shorten it: searches and local searches on all threads, the best run so far at any time.
+"""Find a run to the exit and shorten it on all threads; the best run so far can be read at any time.
 
-With one job a solver does the same work in the same order for the same seed: the clock only says when it ends.
+With one job the same seed does the same work in the same order: the clock only decides when it ends.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class _Job:
         )
 
     def run(self) -> None:
-        """Find, vary, local search, until the end."""
+        """Find a run, look for other routes, shorten; until the end."""
         state, plan = self.state, self.plan
         if not state.runs:
             self._find()
@@ -70,7 +70,7 @@ class _Job:
             elif self._early or (self.work > 0 and self._turn % route_turns == 2):
                 self._search_other_route()
             else:
-                # The best run most of the time; now and then another one that may have more in it.
+                # Mostly the best run; now and then another one that may have more potential.
                 follows_run = state.task.first and not state.task.others
                 rank = (0, 1, 0, 2, 0)[self._turn % 5] if not follows_run else 0
                 with state.lock:
@@ -81,7 +81,7 @@ class _Job:
                 self.shortener.search_locally(inputs, plan.local)
 
     def compile(self) -> None:
-        """Have all kernels compiled: do a little of everything."""
+        """Compile all kernels by doing a little of everything."""
         self.run()
         best = self.state.runs[0]
         self.shortener.compile(best)
@@ -89,7 +89,7 @@ class _Job:
 
     @property
     def _early(self) -> bool:
-        """Whether it is the time in which only other routes are looked for; a run that was given has none."""
+        """Tell whether this part of the time only looks for other routes; a given run has no such part."""
         task = self.state.task
         return not task.first and self.work < self.plan.routes_until * task.work_planned
 
@@ -124,7 +124,7 @@ class _Job:
             self._search_once(resolution, ticks, seed=turn, bound=0)
 
     def _shorten_with_gold(self) -> None:
-        """Make a run with gold shorter, by a beam search of legs and then a local search; submit what is found."""
+        """Shorten a run with gold by a beam search of legs, then by a local search; submit the results."""
         best = self.state.runs[0]
         if self._gold_beam is None:
             self._gold_beam = GoldBeam(self._leg_search, best, seed=self.seed)
@@ -143,7 +143,7 @@ class _Job:
         self.shortener.search_spans(self.shortener.search_locally(best, plan.local), plan.spans_with_gold)
 
     def _follow(self, route: Route, ticks: float) -> None:
-        """Search a run in legs, for this many ticks; one that is found is submitted."""
+        """Search a run in legs for this many ticks, and submit it if one is found."""
         doing = f" of {route.gold} gold" if route.gold else ""
         until = self.work + ticks * SEARCH_COST
         first = not self.state.runs
@@ -162,7 +162,7 @@ class _Job:
             self.state.submit(run)
 
     def _search_other_route(self) -> None:
-        """Search a run from the start, maybe by another route than that of the best; shorten what is found."""
+        """Search a run from the start that may take another route than the best run; shorten the result."""
         turn, self._routes_tried = self._routes_tried, self._routes_tried + 1
         resolution = OTHER_ROUTES[turn % len(OTHER_ROUTES)]
         with self.state.lock:
@@ -202,16 +202,16 @@ class _Job:
 
 
 SMALL_LEVEL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
-"""What is played so that kernels are compiled; machine code does not depend on it."""
+"""The level that is played to compile kernels; machine code does not depend on the level."""
 
 
 _COMPILING = Lock()
 
 
 def compile_solver() -> None:
-    """Compile all kernels: a small level is solved first, so that no clock runs while Numba works.
+    """Compile all kernels by solving a small level first, so that no clock runs while Numba works.
 
-    Once in a process; a second thread waits for the first. Raises MemoryUnavailableError without Numba.
+    This happens once in a process; a second thread waits for the first. Raises MemoryUnavailableError without Numba.
     """
     with _COMPILING:
         _compile_once()
@@ -230,12 +230,12 @@ def solve(
     on_better: Callable[[Replay], None] | None = None,
     stop: Event | None = None,
 ) -> Replay | None:
-    """The best run to the exit that was found in the time, None if there is none.
+    """Give the best run to the exit found within the time, None if there is none.
 
     ``report`` is called a few times a second, ``on_better`` with every verified run that is shorter than those before.
-    ``task.first`` is a run to start from: then it is only improved, and is itself the first that ``on_better`` gets.
-    ``stop``: ends the search when it is set. Raises LevelError for a level that cannot be played,
-    MemoryUnavailableError without Numba, UnverifiedRunError for a first run that does not reach the exit.
+    ``task.first``: a run to start from; it is only improved, and ``on_better`` gets it first. ``stop``: ends the search
+    when it is set. Raises LevelError for a level that cannot be played, MemoryUnavailableError without Numba,
+    UnverifiedRunError for a first run that does not reach the exit.
     """
     compile_solver()
     state = SharedProgress(task, report, on_better=on_better, cancelled=stop or Event())
@@ -247,7 +247,7 @@ def solve(
     try:
         _work(state)
     finally:
-        gc.collect()  # a job and its shortener hold each other, and up to 1 GB
+        gc.collect()  # a job and its shortener refer to each other, and hold up to 1 GB
     return state.best
 
 

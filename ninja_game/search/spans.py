@@ -1,4 +1,4 @@
-"""Searches along known runs of a level, one span after the other, each a little differently."""
+"""Searches along known runs of a level, one span after the other, with varied settings."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ DELAYS, DISTANCES = (4.0, 8.0, 16.0, 30.0), (48.0, 64.0, 96.0, 160.0)
 PLACE_PRICES, SPEED_PRICES = (0.6, 0.9, 1.2), (0.5, 1.0, 2.0, 4.0)
 ENEMY_CELLS = (0.0, 24.0)
 LENGTHS = (40, 60, 90, 150)
-"""What is drawn for each search: see Resolution and KnownRun; ticks of a span. Not tuned: a spread of what may help."""
+"""Values that are drawn for a search: see Resolution and KnownRun; ticks of a span. Not tuned, but widely spread."""
 MIN_DELAY_FACTOR, MAX_DELAY_FACTOR = 0.5, 6.0
-"""By how much ``max_delay`` is multiplied: more while searches come to an end of their own, less while they do not."""
+"""Factor of ``max_delay``: greater while searches are exhausted early, smaller while they are not."""
 FEW_TICKS, MANY_TICKS = 500_000, 2_000_000
-"""An end of its own before the first is an early one, after the second a late one."""
-SPAN_TICKS = 1_000_000  # of a search
-DOUBLINGS = 3  # half of all searches get twice as many, half of these twice as many again, and so on
-EACH_COSTS = 10_000  # ticks that it takes to prepare a search
+"""A search exhausted before the first number counts as early, after the second as late."""
+SPAN_TICKS = 1_000_000  # ticks of a search
+DOUBLINGS = 3  # half of all searches get twice the ticks, half of these twice again, and so on
+PREPARATION_TICKS = 10_000  # ticks that the preparation of a search is worth
 
 
 class SpanSettings(NamedTuple):
-    """How a span is searched: the resolution, and what the known run needs besides its span."""
+    """Settings of the search of a span: its resolution, and those of the known run."""
 
     resolution: Resolution
     max_delay: float
@@ -81,11 +81,11 @@ class SpanSearches:
         return run._replace(most_moved=1.0 + float(np.abs(np.diff(run.moves[:, :2], axis=0)).max(initial=0.0)))
 
     def shorter(self, inputs: bytes, *, seed: int, spend: Spend) -> bytes | None:
-        """Search spans of a run at random until a shorter run is found, or until it is over: None."""
+        """Search random spans of a run until a shorter run is found; None if ``spend`` ends it first."""
         self.know(inputs)
         random = np.random.default_rng([seed, PASSES])
 
-        while not spend(EACH_COSTS):
+        while not spend(PREPARATION_TICKS):
             length = int(random.choice(LENGTHS))
             first = max(0, int(random.integers(-length // 2, max(len(inputs) - 5, 1))))
             settings = draw_settings(random)
@@ -100,7 +100,7 @@ class SpanSearches:
     def search(
         self, first: int, last: int, settings: SpanSettings, *, seed: int, ticks: int, spend: Spend
     ) -> bytes | None:
-        """Search the span from tick ``first`` to before ``last``; a shorter run than the known one, None if none."""
+        """Search the ticks ``first`` … ``last`` - 1; gives a shorter run than the known one, or None."""
         search = self._search
         _, max_delay, max_distance, place_price, speed_price = settings
         run = self.run._replace(
@@ -121,14 +121,14 @@ class SpanSearches:
         factor = self._delay_factor * (1.15 if early else 0.8 if late else 1.0)
         self._delay_factor = min(max(factor, MIN_DELAY_FACTOR), MAX_DELAY_FACTOR)
         span = search.best()
-        # A press is there where the key goes down; joined parts need it again.
+        # A trigger belongs to the tick in which the key goes down; joining the parts can change that tick.
         return with_press_bits(self._inputs[:first] + span) if span else None
 
 
 class RunShortener:
-    """Shortens runs of one level that must collect so much gold.
+    """Shortens runs of one level that must collect ``gold`` pieces.
 
-    ``submit`` is given every shorter run; ``spend`` gets the ticks of each part and what they cost, and may end it.
+    ``submit`` gets every shorter run; ``spend`` gets the ticks and the cost of each part, and may end the work.
     """
 
     def __init__(
@@ -154,13 +154,13 @@ class RunShortener:
         return SpanSearches(self.start, self.heuristics, gold=self.gold)
 
     def compile(self, inputs: bytes) -> None:
-        """Have all kernels compiled, with a run of the level."""
+        """Compile all kernels, with a run of the level."""
         self._spans.know(inputs)
         self._spans.search(0, 1, draw_settings(np.random.default_rng(0)), seed=0, ticks=1, spend=lambda _: True)
         LocalSearch(self.start, inputs, gold=self.gold, seed=0).run(1, temperature=COOLING[0])
 
     def search_spans(self, inputs: bytes, ticks: int) -> bytes:
-        """Search spans of a run, and those of the shorter ones that come of it; the shortest."""
+        """Search spans of a run, then of the shorter runs that come of it; gives the shortest."""
         left = ticks
 
         def spend(played: int) -> bool:
@@ -177,7 +177,7 @@ class RunShortener:
         return inputs
 
     def search_locally(self, inputs: bytes, ticks: int) -> bytes:
-        """Go on from a run by a local search of this many ticks; its best run."""
+        """Improve a run by a local search of this many ticks; gives its best run."""
         self._local_searches += 1
         local_search = LocalSearch(self.start, inputs, gold=self.gold, seed=self.seed + 7919 * self._local_searches)
         for temperature in COOLING:

@@ -1,4 +1,4 @@
-"""What a search asks of a moment: whether it was seen before, its switch state, its gold, how far the exit is."""
+"""What a search computes of a state: its key, its switch state, its gold, its estimated ticks to go."""
 
 from __future__ import annotations
 
@@ -17,39 +17,38 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
 from ninja_game.sim.traces import is_open
 
-MIX = 0x2545F4914F6CDD1D  # an odd number whose product spreads the bits of a key (that of xorshift64*)
+MIX = 0x2545F4914F6CDD1D  # odd multiplier that spreads the bits of a key (the one of xorshift64*)
 MAX_SWITCH_STATES = 512
-"""So many can be told apart: nine bits of a key."""
-JUMP_PART = 11  # ticks of a jump that count as the same moment
+"""Number of switch states that are distinguished: nine bits of a key."""
+JUMP_PART = 11  # ticks of a jump that count as the same state
 NOT_MADE, WANTED = -1.0, -2.0
 """Value of a field at point 0, outside the world, until the field is made."""
 
 
 class Goal(NamedTuple):
-    """Where to go in a level, by switch state (heuristics.py). Masks, places and fields have MAX_SWITCH_STATES rows.
+    """The goal in a level, by switch state (heuristics.py). Masks, places and fields have MAX_SWITCH_STATES rows.
 
-    A search is one for the exit, or one *leg*: it ends where another piece of gold is collected or a switch
-    touched.
+    A search is for the exit, or of a *leg*: a leg ends where another piece of gold is collected or a switch touched.
     """
 
     gold: int  #: pieces that a run must have at the exit
-    leg: int  #: a leg ends where this many pieces are collected; 0: only the exit counts
-    mask: int  #: and where what is open differs from this
-    target: int  #: but with a slot of an object: only where that is taken or open
-    wanted: int  #: of these switches one at least must be open at the end of a leg, but for a few ends; 0: any
-    ends: int  #: how many ends of a leg are enough
-    rollouts: int  #: tries to survive at the end of a leg, 0: it need not be survived
+    leg: int  #: pieces at which a leg ends; 0: only the exit counts
+    mask: int  #: open switches; a leg also ends where they differ
+    target: int  #: slot of the only object that ends a leg, by being taken or opened; 0: any
+    wanted: int  #: switches of which one must be open at the end of a leg, except for a few ends; 0: any
+    ends: int  #: number of ends that are enough for a leg
+    rollouts: int  #: random runs that must survive the end of a leg, 0: no test
     gold_slots: NDArray[np.int64]
-    enemies: NDArray[np.int64]  #: slots of what moves and kills
+    enemies: NDArray[np.int64]  #: slots of the objects that move and kill
     switch_slots: NDArray[np.int64]  #: the slot of each bit of a mask
-    masks: NDArray[np.int64]  #: what is open in each switch state, -1: not reached yet
-    places: NDArray[np.float64]  #: where the ninja was when its field was wanted
+    masks: NDArray[np.int64]  #: open switches of each switch state, -1: not reached yet
+    places: NDArray[np.float64]  #: place of the ninja when a field was wanted
     fields: NDArray[np.float32]  #: ticks to the goal from each point; NOT_MADE or WANTED at point 0
 
 
 @fast
 def state_class(w: World) -> int:
-    """What the ninja could do next, as a small number."""
+    """Classify what the ninja can do next, as a small number."""
     n = w.ninja
     if not n.in_air:
         return 0 if not n.jump_held else 1
@@ -62,7 +61,7 @@ def state_class(w: World) -> int:
 
 @fast
 def key_of(w: World, goal: Goal, switch_state: int, gold: int, resolution: Resolution) -> int:
-    """The key of a moment, never 0. ``gold``: a hash (16 bits) of what was collected, 0 where gold does not matter."""
+    """Give the key of a state, never 0. ``gold``: a 16-bit hash of the collected pieces, 0 if gold does not matter."""
     n = w.ninja
     x = int((n.x + resolution.shift_x) / resolution.cell) & 511
     y = int((n.y + resolution.shift_y) / resolution.cell) & 511
@@ -76,12 +75,12 @@ def key_of(w: World, goal: Goal, switch_state: int, gold: int, resolution: Resol
 
 @fast
 def near_enemies(w: World, goal: Goal, resolution: Resolution) -> int:
-    """A hash of where the enemies near the ninja are, in coarse cells, and of what they do; 0 where there are none."""
+    """Hash places, in coarse cells, and routines of the enemies near the ninja; 0 if there are none."""
     n = w.ninja
     mixed = 0
     for k in range(len(goal.enemies)):
         o = w.objects[goal.enemies[k]]
-        # A rocket in flight matters from afar: it must be led somewhere.
+        # A rocket in flight matters even far away: the ninja must lead it somewhere.
         in_flight = o.kind == LAUNCHER and o.routine == LAUNCHER_FLIGHT
         if not in_flight and abs(o.x - n.x) + abs(o.y - n.y) > resolution.enemy_reach:
             continue
@@ -93,7 +92,7 @@ def near_enemies(w: World, goal: Goal, resolution: Resolution) -> int:
 
 @fast
 def find_entry(table: Sequence[TableEntry], key: int) -> int:
-    """The slot of a key, or of the empty entry where it belongs. The table must have empty entries."""
+    """Give the slot of a key, or of the empty entry for it. The table must have empty entries."""
     mask = len(table) - 1
     mixed = key * MIX
     slot = (mixed ^ (mixed >> 29)) & mask
@@ -104,9 +103,9 @@ def find_entry(table: Sequence[TableEntry], key: int) -> int:
 
 @fast
 def is_new(entry: TableEntry, tick: int, resolution: Resolution) -> bool:
-    """Is it worth going on from here? Yes for a new key, an earlier arrival, or (a few times) a much later one.
+    """Tell whether to continue from here: yes for a new key, an earlier arrival, or (a few times) a much later one.
 
-    Later arrivals matter where things move: a gap that is deadly now may be open in a second.
+    Later arrivals matter if things move: a gap that is deadly now may be open in a second.
     """
     if entry.visits == 0 or tick < entry.first:
         return True
@@ -115,7 +114,7 @@ def is_new(entry: TableEntry, tick: int, resolution: Resolution) -> bool:
 
 @fast
 def switch_state_of(w: World, goal: Goal, counters: Counters, guess: int) -> int:
-    """Index of the present switch state, -1: too many. One without a field wants it."""
+    """Give the index of the present switch state, -1: too many. Requests the field of a new one."""
     mask = open_mask(w, goal.switch_slots)
     index = guess
     if goal.masks[guess] != mask:
@@ -135,14 +134,14 @@ def switch_state_of(w: World, goal: Goal, counters: Counters, guess: int) -> int
 
 @fast
 def is_done(w: World, slot: int) -> bool:
-    """Whether a piece of gold is taken, or an exit or a door open."""
+    """Tell whether a piece of gold is taken, or an exit or door open."""
     o = w.objects[slot]
     return bool(o.taken) if o.kind == GOLD else bool(is_open(w, slot))
 
 
 @fast
 def gold_hash(w: World, goal: Goal) -> int:
-    """Sixteen bits that tell which pieces have been collected."""
+    """Hash the set of collected pieces into sixteen bits."""
     mixed = 0
     for k in range(len(goal.gold_slots)):
         if w.objects[goal.gold_slots[k]].taken:
@@ -152,5 +151,5 @@ def gold_hash(w: World, goal: Goal) -> int:
 
 @fast
 def estimate(goal: Goal, switch_state: int, point: int, before: float) -> float:
-    """Ticks to the goal by the field of a switch state; ``before`` (the parent's) where that is not made yet."""
+    """Give the ticks to the goal by the field of a switch state; ``before`` (the parent's) if it is not made yet."""
     return float(goal.fields[switch_state, point]) if goal.fields[switch_state, 0] >= 0.0 else before

@@ -1,7 +1,7 @@
-"""What to solve, the order of a solver's searches, and the progress that its jobs share.
+"""The solver's task, the order of its searches, and the progress that its jobs share.
 
-Coarse and greedy searches come first, then finer, patient and varied ones, then local searches. Amounts of work are in
-ticks of a local search; a tick of a search counts more, for its save-states and tables.
+Coarse and greedy searches come first, then finer, patient and varied ones, then local searches. Work is counted in
+ticks of a local search; a tick of a search counts more, because of its save-states and tables.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from ninja_game.search.nodes import Resolution
 from ninja_game.sim.kinds import EXIT, GOLD
 from ninja_game.sim.level import Body, Level, makes_object
 
-CANDIDATES = 4  # runs that are remembered for local searches
+CANDIDATES = 4  # runs that are kept for local searches
 
 Report = Callable[["Progress"], None]
 
 
 @dataclass
 class Progress:
-    """Where a solver stands. ``best``: end tick of the best run, -1: none yet.
+    """The state of a solver. ``best``: end tick of the best run, -1: none yet.
 
-    As long as there is no run: ``untouched``, ids of exits and locked doors whose switch was never touched; where gold
-    is wanted ``gold``, the most pieces that were collected at once, and ``untaken``, ids of those that never were.
+    As long as there is no run, ``untouched`` holds the ids of exits and locked doors whose switch was never touched. If
+    gold is wanted, ``gold`` is the most pieces collected at once, and ``untaken`` the ids of pieces never collected.
     """
 
     best: int = -1
@@ -43,10 +43,10 @@ class Progress:
 
 @dataclass(frozen=True)
 class Task:
-    """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for this many ticks of ``work`` a job.
+    """The solver's task: at least ``gold`` pieces (-1: all), within ``seconds`` or ``work`` ticks per job.
 
-    ``first``: a run to shorten, ``others``: other runs of the level whose routes are shortened too; ``first_only``: the
-    first run that is found will do.
+    ``first``: a run to shorten. ``others``: other runs of the level whose routes are shortened too. ``first_only``:
+    stop at the first run found.
     """
 
     level: Level
@@ -66,12 +66,12 @@ class Task:
 
     @property
     def work_planned(self) -> float:
-        """Ticks of work that each job plans with."""
+        """Ticks of work that a job plans with."""
         return self.work or self.seconds * WORK_PER_SECOND
 
 
 def obstacle(level: Level, gold: int, progress: Progress) -> Finding:
-    """What kept a search from a run to the exit with so much gold, and where that is."""
+    """Explain why a search found no run to the exit with this much gold, and where it failed."""
     numbers = [number for number, spec in enumerate(level.objects) if makes_object(spec)]
 
     def at(code: str, ids: Iterable[int]) -> Finding:
@@ -94,21 +94,21 @@ def _never(earlier: tuple[int, ...] | None, ids: list[int]) -> tuple[int, ...]:
 
 @dataclass
 class SharedProgress:
-    """What the jobs share: the best runs, the count of work, and the end."""
+    """The data that jobs share: the best runs, the work done, and the end."""
 
     task: Task
     report: Report | None
     began: float = field(default_factory=time.monotonic)
     lock: Lock = field(default_factory=Lock)
     stop: Event = field(default_factory=Event)
-    cancelled: Event = field(default_factory=Event)  #: by the caller
+    cancelled: Event = field(default_factory=Event)  #: set by the caller
     runs: list[bytes] = field(default_factory=list)
     best: Replay | None = None
     progress: Progress = field(default_factory=Progress)
     on_better: Callable[[Replay], None] | None = None
 
     def submit(self, inputs: bytes) -> None:
-        """Remember a run if it is among the best; a new best one is verified first."""
+        """Keep a run if it is among the best; a new best one is verified first."""
         with self.lock:
             if self.best is None or len(inputs) <= self.best.end_tick:
                 task = self.task
@@ -120,7 +120,7 @@ class SharedProgress:
                 self.runs = sorted([*self.runs, inputs], key=lambda run: (len(run), run))[:CANDIDATES]
 
     def note_unreached(self, untouched: list[int], most: int = 0, untaken: list[int] | None = None) -> None:
-        """Note which switches and gold (ids) a search never reached, and the most pieces that it had at once."""
+        """Record the switches and gold (ids) that a search never reached, and the most pieces that it had at once."""
         with self.lock:
             progress = self.progress
             progress.gold = max(progress.gold, most)
@@ -130,7 +130,7 @@ class SharedProgress:
                 self.report(replace(progress))
 
     def count(self, ticks: int, doing: str) -> None:
-        """Add to the progress and show it."""
+        """Add work to the progress and show it."""
         with self.lock:
             self.progress.ticks += ticks
             self.progress.doing = doing
@@ -145,9 +145,9 @@ class SharedProgress:
 
 
 WORK_PER_SECOND = 6_000_000
-"""What one thread is expected to do; plans are made with this number, never with the clock."""
+"""Expected work of one thread; plans use this number, never the clock."""
 SEARCH_COST = 2.0
-"""Ticks of a local search that a tick of a search counts for: its tables and save-states take as long again."""
+"""Ticks of a local search that a tick of a search costs: its tables and save-states double the time."""
 
 FIND = (
     (Resolution(), 8_000_000),
@@ -160,10 +160,10 @@ FIND = (
     (Resolution(cell=5.0, speed=0.4, macro=4, weight=3.0, visits=2), 40_000_000),
     (Resolution(cell=10.0, speed=0.4, macro=7, jitter=4, weight=1.2, visits=6, patience=25), 40_000_000),
 )
-"""Searches for a first run, with their ticks; then over again with other seeds.
+"""Searches for a first run, with their ticks; after the last one they repeat with other seeds.
 
-Before each but the first, a run from switch to switch is looked for, as long. Judged as a whole on the reference levels
-(docs/solver.md), the numbers of a row were not tuned.
+Before each of them except the first, a run from switch to switch is searched for as long. The list was judged as a
+whole on the reference levels (docs/solver.md); the numbers of a row were not tuned.
 """
 
 OTHER_ROUTES = (
@@ -174,15 +174,15 @@ OTHER_ROUTES = (
     Resolution(cell=10.0, speed=0.35, macro=9, weight=1.2),
     Resolution(cell=6.0, speed=0.5, macro=10, weight=1.1),
 )
-"""Searches for other routes. Those with ``slack`` (part of the best run's ticks) are guided by the search before.
+"""Searches for other routes. The search before guides those with ``slack`` (share of the best run's ticks).
 
-Judged as a whole on the reference levels (docs/solver.md), the numbers of a row were not tuned.
+The list was judged as a whole on the reference levels (docs/solver.md); the numbers of a row were not tuned.
 """
 OTHER_ROUTE_TICKS = 12_000_000
-FOUND_BOUND = 0.05  # share by which a run that was found here may be longer than the best
-GIVEN_BOUND = 0.15  # likewise, one that was given
+FOUND_BOUND = 0.05  # share by which a run found here may be longer than the best
+GIVEN_BOUND = 0.15  # the same for a given run
 OTHER_ROUTE_TURNS, GIVEN_ROUTE_TURNS = 4, 8
-"""One of them is made every so many turns, once runs are shortened: of found runs, and of one that was given.
+"""Once runs are shortened, one turn in this many searches another route: for found runs, and for a given one.
 
 The second was tuned on twelve speedruns, 60 s each, 4 against 8: 7 and 2 ticks more on two, 1 less on one.
 """
@@ -192,24 +192,24 @@ GOLD_BEAM_TICKS = 12_000_000
 
 SLICE = 1_000_000  # ticks between two looks at the clock
 SHORT_LOCAL_TICKS = 3_000_000
-"""Ticks of the local search from a run that came of the search of a span."""
+"""Ticks of the local search from a run that the search of a span gave."""
 COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
-"""Temperatures of a local search, ticks, one after the other. Not tuned."""
+"""Temperatures of a local search, ticks, in turn. Not tuned."""
 
 
 @dataclass(frozen=True)
 class WorkPlan:
-    """How a solver's work is divided. Judged on the reference levels (docs/solver.md); no number by itself."""
+    """The division of a solver's work. Judged as a whole on the reference levels (docs/solver.md)."""
 
-    routes_until: float = 0.25  #: the part of the work that only looks for other routes
-    spans: int = 20_000_000  #: ticks of searches of spans in a turn
+    routes_until: float = 0.25  #: share of the work that only searches other routes
+    spans: int = 20_000_000  #: ticks of span searches per turn
     spans_with_gold: int = 6_000_000
     first_local: int = 20_000_000  #: ticks of the first local search of ``improve``
-    local: int = 8_000_000  #: and of each later one
+    local: int = 8_000_000  #: ticks of each later local search
 
 
 def find_order(job: int) -> Iterator[tuple[Resolution, int, int]]:
-    """Resolution, ticks and seed number of one search for a first run after the other; each job begins elsewhere."""
+    """Give resolution, ticks and seed number of the searches for a first run, in turn; each job starts elsewhere."""
     turn = job
     while True:
         resolution, ticks = FIND[turn % len(FIND)]

@@ -1,7 +1,7 @@
-"""Death and win, and what every object does about it: the idle event (objects.md §4).
+"""Death, win and how every object reacts to them: the idle event (objects.md §4).
 
-All reactions stand here, not in the kinds' files: dying needs every kind's reaction and the kinds need dying, which
-would be a circle of imports.
+The reactions of all kinds are here, not in the files of the kinds: death needs the reactions and the kinds need death,
+so the modules would import each other.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ from ninja_game.sim.states import (
 def kill(w: World, cause: int, slot: int, fx: float, fy: float, cx: float, cy: float) -> None:
     """Kill the ninja if it is alive.
 
-    ``cause``: what kills (states.py); ``slot``: the killer's, 0 without one. For the corpse: impulse (fx, fy) in
-    px/tick, and the point (cx, cy) in px where it acts.
+    ``cause``: a cause of states.py; ``slot``: the killer's slot, 0 if nobody killed. The corpse gets the impulse (fx,
+    fy) in px/tick at the point (cx, cy) in px.
     """
     n = w.ninja
     if n.state == DEAD:
@@ -53,7 +53,7 @@ def kill(w: World, cause: int, slot: int, fx: float, fy: float, cx: float, cy: f
 
 @fast
 def zap(w: World, o: Header, radius: float) -> None:
-    """The electric disc of guards and zap drones, ``radius`` in px: kill if it touches the ninja."""
+    """Kill the ninja if it touches the electric disc of a guard or zap drone, ``radius`` in px."""
     n = w.ninja
     dx = o.x - n.x
     dy = o.y - n.y
@@ -69,7 +69,7 @@ def zap(w: World, o: Header, radius: float) -> None:
 
 @fast
 def win(w: World) -> None:
-    """The exit contact: the ninja celebrates, also one that died earlier in this contact pass (objects.md §3)."""
+    """Start the celebration at the exit, also for a ninja that died earlier in this contact pass (objects.md §3)."""
     n = w.ninja
     leave_state(w)
     n.state = CELEBRATING
@@ -83,10 +83,10 @@ def win(w: World) -> None:
 
 @fast
 def idle_event(w: World) -> None:
-    """Every object reacts to a death or a win, highest id first.
+    """Let every object react to a death or a win, highest id first.
 
-    Bounce blocks, pads, one-ways and mines do nothing. What lasts is one flag, ``round_over``: thwumps at rest stay
-    there, launchers and drones think no more, seekers do not chase, and the ninja's contact pass is off.
+    Bounce blocks, pads, one-ways and mines do nothing. The only lasting effect is the flag ``round_over``: thwumps at
+    rest stay there, launchers and drones no longer think, seekers do not chase, and the ninja's contact pass is off.
     """
     w.round_over = 1
     for slot in range(w.id_count, 0, -1):

@@ -1,9 +1,9 @@
-"""The canonical digests of a world, and the first difference of two worlds: the same for both memories.
+"""The canonical digests of a world, and the first difference of two worlds. Both memories give the same digests.
 
-``world_digest`` covers every field of the schema but the events; of each object the common header and the fields of its
-kind. It compares the two memories; a change of the schema changes it. ``replay_digest`` covers what anybody can see; it
-stands in replays, and nothing inside the world can change it. ``state_digest`` covers what decides what follows, so
-that a moment can be compared with a later one. Numbers are little-endian, -0.0 as 0.0, every NaN as one.
+``world_digest`` covers every field of the schema except the events, and of objects the header and the fields of their
+kind. Tests compare the two memories by it; it changes with the schema. ``replay_digest`` covers only what a player can
+see: replays store it, so no change inside the world may alter it. ``state_digest`` covers what decides the ticks to
+come, so that states of different ticks can be compared. Numbers are little-endian, -0.0 as 0.0, every NaN as one.
 """
 
 from __future__ import annotations
@@ -40,12 +40,12 @@ class _Reader:
         self.pack = struct.Struct("<" + "".join("d" if field.type == "f8" else "i" for field in fields)).pack
 
     def bytes_of(self, o: Any) -> bytes:
-        """The fields of an object, packed canonically."""
+        """Pack the fields of an object canonically."""
         return self.pack(*map(_canonical, self.get(o)))
 
 
 def _canonical(value: Any) -> Any:
-    """The number, with one zero and one NaN."""
+    """Give the number with one zero and one NaN."""
     return NAN if value != value else value + 0
 
 
@@ -58,16 +58,16 @@ _STATE_OBJECTS = {**_OBJECTS, DRONE: _Reader([field for field in fields_of(Drone
 
 
 def world_digest(w: World) -> str:
-    """Sha256 (hex) of a world's canonical form."""
+    """Give the sha256 (hex) of a world's canonical form."""
     return _digest(w, _WORLD.bytes_of(w) + _NINJA.bytes_of(w.ninja), _OBJECTS)
 
 
 def state_digest(w: World) -> str:
-    """Sha256 (hex) of what decides what follows: the canonical form without what no later tick reads.
+    """Give the sha256 (hex) of the canonical form without the fields that no later tick reads.
 
-    Left out are ``OVERWRITTEN``, the jump timer outside of a jump, of the ticks that a drone has moved all but what a
-    pseudo-random one asks of them, and the ticks run. Turrets and armed drones do look at the ticks run when they
-    shoot; nothing else does.
+    It leaves out ``OVERWRITTEN``, the jump timer outside of a jump, the ticks run, and of the ticks that a drone has
+    moved all but what a pseudo-random drone uses. Turrets and armed drones do read the ticks run when they shoot;
+    nothing else does.
     """
     timer = w.ninja.jump_timer if w.ninja.state == JUMPING else 0
     drones = (o for o in w.objects[1 : w.slots_used] if o.kind == DRONE)
@@ -77,7 +77,7 @@ def state_digest(w: World) -> str:
 
 
 def _digest(w: World, scalars: bytes, readers: dict[int, _Reader]) -> str:
-    """Sha256 (hex) of these scalars, all cells and all objects."""
+    """Hash these scalars, all cells and all objects: sha256 (hex)."""
     digest = hashlib.sha256(scalars)
     digest.update(struct.pack(f"<{len(w.heads)}h", *w.heads) + bytes(w.edges))
     for o in w.objects[1 : w.slots_used]:
@@ -86,11 +86,11 @@ def _digest(w: World, scalars: bytes, readers: dict[int, _Reader]) -> str:
 
 
 def replay_digest(w: World) -> str:
-    """Sha256 (hex) of what a world shows after a tick, as replays of version 2 state it (docs/replay-format.md).
+    """Give the sha256 (hex) of what a world shows after a tick, for replays of version 2 (docs/replay-format.md).
 
-    The ninja's x, y, prev_x, prev_y (px, float64), state, body (1: box), gold, outcome and ticks run (int32); then of
-    every traced object in id order: x, y (px, float64), id, kind and status (int32). Another list is another version of
-    the replay format.
+    It covers the ninja's x, y, prev_x, prev_y (px, float64), state, body (1: box), gold, outcome and ticks run (int32);
+    then, of every traced object in id order, x, y (px, float64), id, kind and status (int32). Another list of fields
+    would need another version of the replay format.
     """
     n = w.ninja
     ninja = map(_canonical, (n.x, n.y, n.prev_x, n.prev_y))
@@ -104,7 +104,7 @@ def replay_digest(w: World) -> str:
 
 
 def differences(ours: World, theirs: World) -> Iterator[tuple[str, Any, Any]]:
-    """Every field in which two worlds differ: (name, our value, their value), the ninja first, then objects by slot."""
+    """Give every field that differs in two worlds, first those of the ninja: (name, our value, their value)."""
     yield from _unequal("ninja", _NINJA, ours.ninja, theirs.ninja)
     yield from _unequal("world", _WORLD, ours, theirs)
     for slot in range(1, min(ours.slots_used, theirs.slots_used)):
@@ -117,13 +117,13 @@ def differences(ours: World, theirs: World) -> Iterator[tuple[str, Any, Any]]:
 
 
 def _report_name(o: Object) -> str:
-    """An object as reports call it: "object 12 (drone)"."""
+    """Name an object for a report: "object 12 (drone)"."""
     name = KIND_OF[o.kind].name
     return f"object {o.id} ({name})" if o.id >= 0 else f"{name} at ({o.x}, {o.y})"
 
 
 def _unequal(name: str, reader: _Reader, ours: Any, theirs: Any) -> Iterator[tuple[str, Any, Any]]:
-    """The fields of two objects that differ; NaN equals NaN."""
+    """Give the fields in which two objects differ; NaN equals NaN."""
     for field, mine, other in zip(reader.names, reader.get(ours), reader.get(theirs), strict=True):
         if mine != other and not (mine != mine and other != other):
             yield f"{name}: {field}", mine, other

@@ -1,4 +1,4 @@
-"""What a tick reports to presentation: sound, particles and animation consume it, nothing in the world reads it."""
+"""What a tick reports to the presentation: sound, particles and animation read events, the world never does."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import MAX_EVENTS, World
 from ninja_game.sim.states import NO_CAUSE
 
-# Whose an event is (``slot``, 0: the ninja's), where (x, y) it is (px) and what its vector (dx, dy) says:
+# Per event: whose it is (``slot``, 0: the ninja's), where it is (x, y, px) and what its vector (dx, dy) means:
 #
 #   event                               slot            (x, y)             (dx, dy)
 #   jumped                              0               ninja              normal of the floor
@@ -54,7 +54,7 @@ EVENT_NAMES = (
 
 @fast
 def emit(w: World, kind: int, slot: int, x: float, y: float, dx: float, dy: float) -> None:
-    """Note an event of this tick; the table above says what its numbers mean."""
+    """Record an event of this tick; the table above says what its numbers mean."""
     k = w.event_count
     if k < MAX_EVENTS:
         event = w.events[k]
@@ -70,7 +70,7 @@ def emit(w: World, kind: int, slot: int, x: float, y: float, dx: float, dy: floa
 
 @fast
 def emit_death(w: World, cause: int, slot: int, x: float, y: float, dx: float, dy: float) -> None:
-    """Note the death, with what killed."""
+    """Record a death and its cause."""
     k = w.event_count
     emit(w, DIED, slot, x, y, dx, dy)
     if k < MAX_EVENTS:

@@ -1,4 +1,4 @@
-"""Cells, lookup, and the loose grid: each object sits in the list of one cell (world.md §1, objects.md §2.2)."""
+"""Lookup of cells, and the loose grid: an object is in the list of one cell only (world.md §1, objects.md §2.2)."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from ninja_game.sim.rules import CELL, GRID_COLUMNS, GRID_ROWS, STRIDE, WORLD_HE
 
 @fast
 def cell_at(x: float, y: float) -> int:
-    """Grid index of the cell that holds a point; 0 outside the world and for NaN.
+    """Give the grid index of the cell that holds a point; 0 outside the world and for NaN.
 
-    A point on the line between two cells is in the right one, or the lower one.
+    A point on the line between two cells belongs to the right or lower one.
     """
     if 0.0 <= x < WORLD_WIDTH and 0.0 <= y < WORLD_HEIGHT:
         return int(y / CELL) * STRIDE + int(x / CELL) + (STRIDE + 1)
@@ -21,7 +21,7 @@ def cell_at(x: float, y: float) -> int:
 
 @fast
 def cell_index(column: float, row: float) -> int:
-    """Grid index of cell (column, row) of the full grid; 0 if there is none, e.g. for fractions."""
+    """Give the grid index of cell (column, row) of the full grid; 0 if there is none, e.g. for fractions."""
     if 0.0 <= column < GRID_COLUMNS and 0.0 <= row < GRID_ROWS:
         i = int(column)
         j = int(row)
@@ -32,7 +32,7 @@ def cell_index(column: float, row: float) -> int:
 
 @fast
 def link(w: World, o: Header, cell: int) -> None:
-    """Insert at the head of a cell's list (newest first)."""
+    """Insert an object at the head of a cell's list (newest first)."""
     o.cell = cell
     if cell:
         head = w.heads[cell]
@@ -45,7 +45,7 @@ def link(w: World, o: Header, cell: int) -> None:
 
 @fast
 def unlink(w: World, o: Header) -> None:
-    """Take out of the cell's list. Its own next link is cleared: a walk that stands on it ends there, objects.md §3."""
+    """Take an object out of its cell's list and clear its next link: a walk that is at it then ends (objects.md §3)."""
     if o.cell:
         if o.prev:
             w.objects[o.prev].next = o.next
@@ -66,7 +66,7 @@ def grid_insert(w: World, o: Header) -> None:
 
 @fast
 def grid_remove(w: World, o: Header) -> None:
-    """Take an object out of the grid; nothing for one that is not in it."""
+    """Take an object out of the grid, if it is in it."""
     if o.in_grid:
         unlink(w, o)
         o.in_grid = 0
@@ -74,8 +74,8 @@ def grid_remove(w: World, o: Header) -> None:
 
 @fast
 def grid_move(w: World, o: Header) -> int:
-    """Re-register an object that moved; 1 if its cell changed. In the same cell it keeps its place in the list."""
-    # cell_at, written out: moving drones come here every tick, and a call costs the plain memory 3 % of its speed.
+    """Move an object to the list of its present cell; 1 if the cell changed. In the same cell it keeps its place."""
+    # This repeats cell_at: drones call it every tick, and a call of cell_at would slow the plain memory by 3 %.
     x = o.x
     y = o.y
     cell = 0

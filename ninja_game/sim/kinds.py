@@ -1,6 +1,6 @@
-"""The kinds of objects, once: number, name, record, fields, contact. Numbers, names and tables derive from here.
+"""The one table of the kinds of objects: number, name, record, fields, contact. All other tables derive from it.
 
-How to add one: docs/new-kind.md.
+How to add a kind: docs/new-kind.md.
 """
 
 from __future__ import annotations
@@ -15,20 +15,20 @@ ONE_WAY, THWUMP, DOOR, LAUNCHER, EXIT, MINE = range(7, 13)
 """Numbers of the level string (objects.md §5)."""
 
 NO_KIND, SWITCH, INERT = -1, -2, -3
-"""A record that creates nothing; an exit's switch and an object that does nothing, which no record names."""
+"""A record that creates nothing, an exit's switch, an object that does nothing. No record can name them."""
 
 
 class Kind(NamedTuple):
     """What the rest of the game needs to know of a kind of objects.
 
-    ``number``: its type number in level strings, below 0 for what only the game makes. ``name``: as people read it.
-    ``value_count``: how many values a record needs; any other number makes an inert object (objects.md §2.1).
-    ``fields``: its class in the schema. ``disc`` or ``box``: radius or half side, px, of what the ninja touches;
-    neither: nothing. That of a door is an automatic door's: the others are opened or shut by a switch of
-    ``rules.DOOR_SWITCH_RADIUS``. ``killer``: what it is called when it kills ("": it does not). ``by_touch``: it kills
-    who touches it. ``moves``: it is drawn where it goes, not once on the wall. ``traced``: whether traces show it.
-    ``used``: the field that tells that it was taken, set off, opened or switched, if any. ``cost``: the most work that
-    it is in a tick; more than one where it casts rays or never sleeps.
+    ``number``: type number in level strings, below 0 for kinds that only the game makes. ``name``: shown to people.
+    ``value_count``: how many values a record needs; with any other number the object is inert (objects.md §2.1).
+    ``fields``: its class in the schema. ``disc`` or ``box``: radius or half side, px, of the area that the ninja
+    touches; a kind without both cannot be touched. A door's ``disc`` is that of an automatic door; other doors have a
+    switch of ``rules.DOOR_SWITCH_RADIUS``. ``killer``: its name as a cause of death ("": it never kills). ``by_touch``:
+    touching it kills. ``moves``: it is drawn in every frame, not once with the walls. ``traced``: traces show it.
+    ``used``: the field that is 1 once it was taken, set off, opened or switched, if any. ``cost``: its greatest work in
+    a tick; above 1 for kinds that cast rays or never sleep.
     """
 
     number: int
@@ -76,9 +76,9 @@ KINDS = (
 KIND_OF = {kind.number: kind for kind in KINDS}
 KIND_NAMES = tuple(kind.name for kind in KINDS if kind.number >= 0)
 VALUE_COUNTS = tuple(kind.value_count for kind in KINDS if kind.number >= 0)
-"""By number, of the kinds of the level string."""
+"""``value_count`` of the kinds of the level string, by number."""
 
 ENEMIES = tuple(kind.number for kind in KINDS if kind.killer and kind.moves)
 """Kinds that move or shoot, and kill."""
 MOVING_ENEMIES = tuple(kind.number for kind in KINDS if kind.by_touch and kind.moves)
-"""Those of them that kill where they are, not by shots alone; of a launcher that is where its rocket is."""
+"""The enemies that kill by touch, not only by shots; for a launcher the touch is that of its rocket."""

@@ -1,4 +1,4 @@
-"""What a level is before it is a world: 713 tile ids and the object records, in order."""
+"""A level as data, before a world is made of it: 713 tile ids and the object records, in order."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ BODIES: tuple[Body, ...] = ("circle", "box")
 
 
 def is_box(body: str) -> bool:
-    """Whether a body is the box. Raises ArgumentError for any other word."""
+    """Tell whether a body is the box. Raises ArgumentError for an unknown body."""
     if body not in BODIES:
         raise ArgumentError(f"body is {body!r}; expected 'circle' or 'box'")
     return body == "box"
@@ -30,8 +30,8 @@ class ObjectSpec(NamedTuple):
     """One object record of a level string (objects.md §5).
 
     ``kind`` is the type number 0…12, or -1 for a record that creates nothing (unknown type, empty); ``values`` are
-    float64 as read by Flash's number rule (px, flags, cells), NaN where the text was not a number. ``text`` is kept
-    only for what cannot be rebuilt from kind and values (kind -1), so that such a level can be written back.
+    float64 as Flash reads numbers (px, flags, cells), NaN where the text was not a number. ``text`` is kept only for
+    kind -1, whose record cannot be rebuilt from kind and values, so that such a level can be written back.
     """
 
     kind: int
@@ -40,12 +40,12 @@ class ObjectSpec(NamedTuple):
 
 
 def makes_object(spec: ObjectSpec) -> bool:
-    """Whether a record is of a kind that there is; all others create nothing and get no id (objects.md §2.1)."""
+    """Tell whether a record is of a known kind; all others create nothing and get no id (objects.md §2.1)."""
     return 0 <= spec.kind < len(VALUE_COUNTS)
 
 
 def well_formed(spec: ObjectSpec) -> bool:
-    """Whether a record makes an object and has the number of values that its kind needs."""
+    """Tell whether a record makes an object and has the number of values that its kind needs."""
     return makes_object(spec) and len(spec.values) == VALUE_COUNTS[spec.kind]
 
 
@@ -55,14 +55,14 @@ class Level:
 
     ``tiles``: 713 ids, column by column, 31 columns of 23 rows, top to bottom (world.md §2.3). 0…33 are the shapes;
     above 33 is an odd half tile, below 0 a tile that is never solid (both occur only in malformed levels).
-    ``objects``: in creation order; the order matters (ids, update order, list order).
+    ``objects``: in creation order, which decides ids, update order and list order.
     """
 
     tiles: tuple[int, ...] = field(default=(0,) * TILES, repr=False)
     objects: tuple[ObjectSpec, ...] = ()
 
     def __post_init__(self) -> None:
-        """Give every NaN one identity, by which tuples compare it: a level equals its copy from another process."""
+        """Make all NaNs one object: tuples compare NaN by identity, so a level equals its copy from another process."""
         if any(value != value for spec in self.objects for value in spec.values):
             objects = [
                 spec._replace(values=tuple(NOT_A_NUMBER if value != value else value for value in spec.values))
@@ -71,14 +71,14 @@ class Level:
             object.__setattr__(self, "objects", tuple(objects))
 
     def __reduce__(self) -> tuple[type[Level], tuple[tuple[int, ...], tuple[ObjectSpec, ...]]]:
-        """Copies and pickles are made again, so that they are as ``__post_init__`` leaves them."""
+        """Copy and unpickle by the constructor, so that ``__post_init__`` runs."""
         return type(self), (self.tiles, self.objects)
 
     @property
     def gold(self) -> int:
-        """How many pieces of gold there are."""
+        """The number of pieces of gold."""
         return [spec.kind for spec in self.objects].count(GOLD)
 
     def tile(self, column: int, row: int) -> int:
-        """Tile id at interior cell ``column`` 1…31, ``row`` 1…23 (indices of the full 33 x 25 grid)."""
+        """Give the tile id at interior cell ``column`` 1…31, ``row`` 1…23 (indices of the full 33 x 25 grid)."""
         return self.tiles[(column - 1) * ROWS + (row - 1)]

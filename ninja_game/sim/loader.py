@@ -1,4 +1,4 @@
-"""From level data to a world: the tiles of the grid, then every object in the order of its record (objects.md §2.1)."""
+"""Make a world of level data: the tiles of the grid, then every object in the order of its record (objects.md §2.1)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ninja_game.sim.rules import DEFAULT_SPAWN_X, DEFAULT_SPAWN_Y, DRAG, GRAVITY
 
 
 def grid_tiles(data: Level) -> list[int]:
-    """The tile of every grid index: the level's 31 x 23 within a border of full tiles within a ring of nothing."""
+    """Give the tile of every grid index: the level's 31 x 23, a border of full tiles, and a ring of empty cells."""
     tiles = [0] * STRIDE + ([0] + [1] * GRID_COLUMNS + [0]) * GRID_ROWS + [0] * STRIDE
     ids = data.tiles
     if min(ids) < 0 or max(ids) >= ODD_HALF_ID:
@@ -29,7 +29,7 @@ def grid_tiles(data: Level) -> list[int]:
 
 
 class ObjectTable(NamedTuple):
-    """A level's records as ``populate`` takes them, and how many slots its world needs (slot 0, nobody, among them)."""
+    """A level's records as ``populate`` takes them, and the number of slots that its world needs, slot 0 included."""
 
     kinds: list[int]
     counts: list[int]
@@ -38,10 +38,10 @@ class ObjectTable(NamedTuple):
 
 
 def object_table(data: Level) -> ObjectTable:
-    """The records that make an object: every level passes here, whatever its origin.
+    """Collect the records that make an object. Every level is checked here, whatever its origin.
 
-    What comes through it no rule can stumble over. A record of an unknown kind creates nothing (objects.md
-    §2.1). Raises LevelError for a level that is none, without a ninja or with too many objects.
+    The rules can rely on what passes. A record of an unknown kind creates nothing (objects.md §2.1). Raises LevelError
+    for an argument that is not a level, and for a level without a ninja or with too many objects.
     """
     _check(data)
     specs = list(filter(makes_object, data.objects))
@@ -61,7 +61,7 @@ def object_table(data: Level) -> ObjectTable:
 
 
 def _check(data: object) -> None:
-    """Raise LevelError for what is not a level: 713 whole numbers and records of numbers."""
+    """Raise LevelError for anything but a level: 713 whole numbers and records of numbers."""
     if not isinstance(data, Level):
         hint = "load_level(path) and parse_level(text) read one"
         raise LevelError("this is not a level", found=repr(data)[:40], expected="a Level", hint=hint)
@@ -85,7 +85,7 @@ def populate(
 ) -> None:
     """Create the object of every record; its id is its index. Edges must be set; objects must be zero.
 
-    ``values`` holds nine numbers a record, ``counts`` how many of them the record really had.
+    ``values`` holds nine numbers per record, ``counts`` how many of them the record really had.
     """
     ids = len(kinds)
     w.id_count = ids
@@ -117,7 +117,7 @@ def populate(
 
 @fast
 def place_ninja(n: Ninja, x: float, y: float) -> None:
-    """A new ninja, standing still (ninja.md §2)."""
+    """Place the ninja, standing still (ninja.md §2)."""
     n.x = x
     n.y = y
     n.prev_x = x

@@ -1,26 +1,26 @@
-"""Every constant of the game, with its unit and where it comes from - and nothing else.
+"""Every constant of the game, with its unit and its source - and nothing else.
 
 Lengths in px, speeds in px/tick, y downwards. "W", "O", "N", "G" name the pages world, objects, ninja, game of the
 specification. A product such as 12 * 0.35714285714285715 is written as the double it gives: positions are compared to
 the last bit, so a "nicer" literal would be another game.
 
-The rules copy these names when they are imported: assigning ``rules.GRAVITY`` afterwards changes nothing. To try
-another number, edit it here.
+Rules copy these names when they are imported: assigning ``rules.GRAVITY`` later changes nothing. To try another number,
+edit it here.
 """
 
 TICKS_PER_SECOND = 40
-TICK_MS = 25  # real milliseconds a tick at normal speed: 1000 / TICKS_PER_SECOND, without a remainder
+TICK_MS = 25  # real milliseconds per tick at normal speed: 1000 / TICKS_PER_SECOND, without a remainder
 LIFETIME = 3600  # ticks at the start of a level, G 1.1
 GOLD_BONUS = 80  # ticks, G 1.1
 
-# The ninja of a record without a usable place starts here, px, O 2.1.
+# Start of a ninja whose record has no usable place, px, O 2.1.
 DEFAULT_SPAWN_X, DEFAULT_SPAWN_Y = 45.0, 70.0
 
 # The grid, W 1. A ring of "missing" cells surrounds the 33 x 25 cells of the world, so that the neighbour of any cell
 # of the world is one addition away; index 0 lies in that ring and means "no cell".
 CELL = 24.0
 HALF = 12.0
-QUARTER = 6.0  # a half of HALF: how far the ends of a shallow slope lie from its middle, W 2.2
+QUARTER = 6.0  # half of HALF: distance of a shallow slope's ends from its middle, W 2.2
 GRID_COLUMNS, GRID_ROWS = 33, 25
 STRIDE = 35
 GRID_CELLS = STRIDE * (GRID_ROWS + 2)
@@ -47,16 +47,16 @@ STAND_SPEED = 0.1
 JUMP_VERTICAL = 3.0  # a jump's vertical factor; the horizontal one is 1, N 7.4
 UPHILL_JUMP_Y = -0.7  # direction of a jump off a slope with the key against its normal, N 7.2
 UPHILL_HELP = 0.5
-WALL_HOP_Y = -0.5  # direction of a hop up the wall that is held on to; its x is the wall's normal, N 7.1
+WALL_HOP_Y = -0.5  # direction of a hop up the wall that the ninja holds on to; its x is the wall's normal, N 7.1
 WALL_JUMP_X, WALL_JUMP_Y = 1.5, -0.7  # direction of a jump off a wall; x times the wall's normal, N 7.1
 MAX_JUMP_TICKS = 30  # ticks
 FATAL_IMPACT = 9.0  # px/tick against the floor's normal, N 6
-FLOOR_ALLOWANCE = 2.0  # px/tick that a level floor takes from an impact; a slope less, by its normal, N 6
+FLOOR_ALLOWANCE = 2.0  # px/tick that a level floor subtracts from an impact; a slope subtracts less, by its normal, N 6
 PARALLEL_FLOORS = 0.9  # two floor normals whose product is greater count as one, N 6.1
 CRUSH = 80.0  # px², squared push
 WALL_PROBE = 10.1
 
-# Kill impulses: what a death gives the corpse, px/tick, O 8.8 to 8.19.
+# Kill impulses: the velocity that a death gives to the corpse, px/tick, O 8.8 to 8.19.
 ZAP_IMPULSE = 10.0
 TURRET_IMPULSE = 8.0
 LASER_IMPULSE = 6.0
@@ -64,9 +64,9 @@ BULLET_IMPULSE = 5.0
 THWUMP_UP_IMPULSE, THWUMP_DOWN_IMPULSE = -8.0, 6.0
 THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT = 8.0, -4.0
 
-THINK_PAUSE = 3  # ticks without a think between two; so one object thinks every fourth tick, O 2.4
+THINK_PAUSE = 3  # ticks between two thinks; so one object thinks every fourth tick, O 2.4
 
-# Contact radii, O 8: the sum with the ninja's radius is what counts.
+# Contact radii, O 8: contacts compare the sum with the ninja's radius.
 EXIT_RADIUS = 12.0
 SWITCH_RADIUS = 6.0
 GOLD_RADIUS = 6.0
@@ -74,7 +74,7 @@ PAD_RADIUS = 6.0
 MINE_RADIUS = 4.0
 GUARD_RADIUS = 6.0
 DRONE_RADIUS = 9.0
-ROCKET_RADIUS = 0.0  # its tip is a point
+ROCKET_RADIUS = 0.0  # the rocket's tip is a point
 AUTOMATIC_DOOR_RADIUS = 10.0  # also half the width and height of the box
 DOOR_SWITCH_RADIUS = 5.0
 
@@ -82,8 +82,8 @@ DOOR_SWITCH_RADIUS = 5.0
 BLOCK_HALF = 9.600000000000001  # 12 * 0.8
 BLOCK_SPRING = 0.05
 BLOCK_DRAG = 0.99
-BLOCK_SHARE = 0.8  # of the overlap, what moves the block
-NINJA_SHARE = 0.2  # of the overlap, what moves the ninja
+BLOCK_SHARE = 0.8  # share of the overlap that moves the block
+NINJA_SHARE = 0.2  # share of the overlap that moves the ninja
 BLOCK_SLEEP = 40  # ticks without contact
 
 PAD_STRENGTH = 5.142857142857142  # 12 * 0.42857142857142855, O 8.4
@@ -116,15 +116,15 @@ AIM_FAR, AIM_MID, AIM_NEAR = 0.03, 0.035, 0.05
 AIM_FAR_SQUARED, AIM_MID_SQUARED, AIM_NEAR_SQUARED = 9216.0, 1764.0, 576.0  # px²
 
 # Drones, O 8.13, 8.18, 8.19.
-DRONE_SPEED = 0.8571428571428571  # 12 * 0.07142857142857142; times one of the four below
+DRONE_SPEED = 0.8571428571428571  # 12 * 0.07142857142857142; multiplied by one of the four below
 ZAP_PACE, LASER_PACE, CHAINGUN_PACE, CHASE_PACE = 2.0, 0.5, 0.75, 2.0
-DRONE_END_X, DRONE_END_Y = 4.0, 5.0  # where a beam that meets nothing ends until one has met something, px
+DRONE_END_X, DRONE_END_Y = 4.0, 5.0  # end of a beam that meets nothing, as long as none has met anything, px
 LASER_PREPARE, LASER_BEAM, LASER_COOL = 30, 80, 40  # ticks
 CHAINGUN_PREPARE, CHAINGUN_PAUSE, CHAINGUN_COOL = 35, 6, 60  # ticks
 BURST_SHOTS, BURST_SHOTS_CYCLE = 4, 5  # number of a burst's last shot: 4 + tick mod 5
-BURST_SPREAD, BURST_SPREAD_CYCLE = 0.1, 3  # width of its sweep: 0.1 + 0.1 * (1 + tick mod 3)
+BURST_SPREAD, BURST_SPREAD_CYCLE = 0.1, 3  # width of a burst's sweep: 0.1 + 0.1 * (1 + tick mod 3)
 
-NEVER = 100_000_000.0  # when a ray that is parallel to a grid line crosses it, px along the ray, W 7.1
+NEVER = 100_000_000.0  # crossing of a grid line by a parallel ray, px along the ray, W 7.1
 ROOT2 = 1.4142135623730951
 ROOT5 = 2.23606797749979
 INF = float("inf")

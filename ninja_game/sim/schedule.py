@@ -1,4 +1,4 @@
-"""Who acts when: the update set (newest first) and the thinker ring (one every fourth tick) (objects.md §2.3-§2.4)."""
+"""The order of objects: update set (newest first), thinker ring (one think every fourth tick): objects.md §2.3-§2.4."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def start_update(w: World, o: Header) -> None:
 
 @fast
 def end_update(w: World, o: Header) -> None:
-    """Take an object out of the update set. ``w.update_cursor``, where the pass is, moves along."""
+    """Take an object out of the update set. ``w.update_cursor``, the place of the pass, moves along."""
     if not o.updating:
         return
     o.updating = 0
@@ -38,7 +38,7 @@ def end_update(w: World, o: Header) -> None:
 
 @fast
 def start_think(w: World, o: Header) -> None:
-    """Insert an object right before the cursor of the thinker ring and move the cursor onto it: it thinks next."""
+    """Insert an object right before the cursor of the thinker ring and move the cursor to it: it thinks next."""
     if o.thinking:
         return
     o.thinking = 1

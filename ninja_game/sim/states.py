@@ -1,4 +1,4 @@
-"""State and routine numbers: what the ninja and the objects are doing. They are part of traces and save-states."""
+"""Numbers of states and routines of the ninja and the objects. They are part of traces and save-states."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ STATE_NAMES = ("standing", "running", "skidding", "jumping", "falling", "sliding
 OUTCOME_RUNNING, OUTCOME_EXIT, OUTCOME_DEAD = 0, 1, 2
 OUTCOME_NAMES = ("running", "exit", "dead")
 
-# What kills: causes of a death (objects.md §9; the chaingun's bullet and the crushed have numbers of ours).
+# Causes of a death (objects.md §9; "bullet" and "crushed" have numbers of this program).
 NO_CAUSE = -1
 ELECTRIC, EXPLOSIVE, WEAK_BULLET, HARD_BULLET, FALL, LASER, BULLET, CRUSHED = range(8)
 CAUSE_NAMES = ("electric", "explosive", "weak bullet", "hard bullet", "fall", "laser", "bullet", "crushed")
 """electric: guards, zap drones, thwumps; explosive: mines, rockets; hard bullet: turrets; bullet: chainguns; crushed: a
-push out of a tile of more than √80 px; weak bullet: nobody in this game."""
+push of more than √80 px out of a tile; weak bullet: no object of this game."""
 
-# Routines of the objects; 0 is always the one an object starts with.
+# Routines of the objects; every object starts with 0.
 THWUMP_REST, THWUMP_MOVE = 0, 1
 GUARD_IDLE, GUARD_CHASE = 0, 1
 TURRET_TARGET, TURRET_PRE_FIRE, TURRET_POST_FIRE = 1, 2, 3
@@ -29,7 +29,7 @@ TURRET_WAITING, TURRET_TARGETING = 0, 1
 DRONE_MOVE, DRONE_PRE_FIRE, DRONE_FIRING, DRONE_POST_FIRE = 0, 1, 2, 3
 LAUNCHER_IDLE, LAUNCHER_PREPARE, LAUNCHER_FLIGHT = 0, 1, 2
 
-# Sorts of doors, weapons and movements of drones.
+# Types of doors, weapons and movements of drones.
 AUTOMATIC, LOCKED, TRAP = 0, 1, 2
 WEAPON_ZAP, WEAPON_LASER, WEAPON_CHAINGUN, WEAPON_UNKNOWN = 0, 1, 2, 3
 SURFACE_CW, SURFACE_CCW, WANDER_CW, WANDER_CCW, ALTERNATING, PSEUDO_RANDOM = range(6)
@@ -41,7 +41,7 @@ NO_DIRECTION, NO_NUMBER = -100, -101
 
 @fast
 def leave_state(w: World) -> None:
-    """Leave the ninja's present state (ninja.md §7.3). Every transition does, also one into the same state."""
+    """Leave the ninja's present state (ninja.md §7.3). Every transition does this, even one into the same state."""
     n = w.ninja
     if n.state == JUMPING:
         n.gravity = GRAVITY
@@ -51,6 +51,6 @@ def leave_state(w: World) -> None:
 
 @fast
 def enter_state(w: World, state: int) -> None:
-    """Leave the present state and enter another that only has a number."""
+    """Leave the present state and enter one that has nothing to set but its number."""
     leave_state(w)
     w.ninja.state = state

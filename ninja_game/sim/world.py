@@ -12,12 +12,12 @@ from ninja_game.sim.states import DEAD
 
 @fast
 def step(level: TileMap, w: World, keys: int) -> None:
-    """Advance the world by one tick. ``keys``: those of this tick, a sum of ``Input`` flags."""
+    """Advance the world by one tick. ``keys``: the keys of this tick, a sum of ``Input`` flags."""
     w.event_count = 0
     # 1. All objects in the update set, the most recently started first.
     if w.update_head:
         update_objects(level, w)
-    # 2. At most one of those that think: one every fourth tick.
+    # 2. At most one thinking object; one thinks every fourth tick.
     if w.think_cursor:
         if w.think_counter >= THINK_PAUSE:
             w.think_counter = 0
@@ -26,7 +26,7 @@ def step(level: TileMap, w: World, keys: int) -> None:
                 w.think_cursor = w.objects[w.think_cursor].ring_next
         else:
             w.think_counter += 1
-    # 3. The ninja, which asks the nine cells for objects and the touched cells for tiles.
+    # 3. The ninja, which tests the objects of nine cells and the tiles of the cells that it touches.
     if w.ninja.state != DEAD:
         tick_ninja(level, w, keys)
     w.tick += 1

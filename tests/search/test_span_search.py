@@ -36,16 +36,16 @@ def task(**changes: object) -> SpanTask:
 
 def until_found(search: SpanSearch) -> SpanResult:
     deadline = time.monotonic() + LONGEST
-    while not search.found:
+    while not search.results:
         assert time.monotonic() < deadline
         assert not search.done, search.problem
         time.sleep(0.005)
-    return search.found[0]
+    return search.results[0]
 
 
 def test_results_show_while_it_goes_on_and_stay_after_the_end() -> None:
     search = SpanSearch(task())
-    assert (search.found, search.done, search.seconds) == ((), False, 0.0)
+    assert (search.results, search.done, search.seconds) == ((), False, 0.0)
     search.start()
     first = until_found(search)
     before = search.done
@@ -57,8 +57,8 @@ def test_results_show_while_it_goes_on_and_stay_after_the_end() -> None:
     search.cancel()
     search.finish(LONGEST)
     assert (before, search.done) == (False, True)
-    assert search.found[0] <= first
-    assert list(search.found) == sorted(search.found)
+    assert search.results[0] <= first
+    assert list(search.results) == sorted(search.results)
     assert search.problem == ""
     assert search.seconds > 0
 
@@ -72,7 +72,7 @@ def test_it_ends_by_itself_after_its_time_or_when_all_is_tried() -> None:
         search.finish(LONGEST)
         assert (search.done, search.problem) == (True, "")
     assert timed.seconds >= 0.05
-    assert [each.ticks for each in untimed.found] == [12], "nobody ended it, and it has no limit"
+    assert [result.ticks for result in untimed.results] == [12], "nobody ended it, and it has no limit"
 
 
 def test_what_cannot_be_searched_is_said() -> None:
@@ -87,7 +87,7 @@ def test_what_cannot_be_searched_is_said() -> None:
         search.finish(LONGEST)
         assert search.done
         assert search.problem
-        assert not search.found
+        assert not search.results
 
 
 def test_it_is_over_at_once_where_it_is_cancelled_while_kernels_are_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -107,7 +107,7 @@ def test_it_is_over_at_once_where_it_is_cancelled_while_kernels_are_compiled(mon
     search.finish(60.0)
     compiled.set()
     assert asked.wait(60.0)
-    assert (search.found, search.ticks_run, search.seconds) == ((), 0, 0.0)
+    assert (search.results, search.ticks_run, search.seconds) == ((), 0, 0.0)
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
@@ -151,7 +151,7 @@ def test_what_a_run_gains_by_its_own_route_stays_beside_faster_runs(monkeypatch:
     assert not search.problem
     assert sorted(asked) == sorted([(slow, ()), (slow, (fast,))])
     assert search.own is not None
-    best, second = search.found
+    best, second = search.results
     assert (best.own_route, second.own_route) == (False, True)
     assert (search.own.ticks - best.ticks, search.own.ticks - second.ticks) == (46, 20)
 

@@ -1,1 +1,1 @@
-"""Levels as text that people write."""
+"""The readable text format of levels."""

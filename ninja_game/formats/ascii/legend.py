@@ -1,6 +1,6 @@
 """The legend of the ASCII level format: one character for each tile shape and each object that can be drawn.
 
-The tables here are the format; `docs/level-format.md` shows them as pictures. Every character means one thing only.
+The tables here define the format; `docs/level-format.md` shows them as pictures. Every character has one meaning only.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from ninja_game.sim.rules import CELL, HALF
 TILE_CHARS = ".#" + "aswq" + "jkiu" + "JKIU" + "dfre" + "DFRE" + "ghyt" + "GHYT" + '_]"['
 """Character of tile id 0…33 (world.md §2.1).
 
-A slope or curve is a key of a 2 x 2 block of the keyboard, and the key's place in the block is the tile's solid corner.
-The order within a family is that of the ids: bottom left, bottom right, top right, top left.
+A slope or curve is a key of a 2 x 2 block of the keyboard; the key's place in the block is that of the solid corner.
+Within a family, ids are ordered bottom left, bottom right, top right, top left.
 """
 
-ODD_TILE = "?"  # stands for a tile id outside 0…33, which a tile line gives
+ODD_TILE = "?"  # stands for a tile id outside 0…33; a tile line gives the id
 
 TILE_OF_CHAR = {char: number for number, char in enumerate(TILE_CHARS)} | {" ": 0}
-"""Tile id of a picture character; a blank is as empty as a dot."""
+"""Tile id of a picture character; a blank is empty, like a dot."""
 
 TILE_FAMILIES = (
     ("45° slope", "qwas"),
@@ -33,7 +33,8 @@ TILE_FAMILIES = (
     ("concave curve (hollow)", "uijk"),
     ("convex curve (round)", "UIJK"),
 )
-"""Slope families: name, then the characters whose solid corner is top left, top right, bottom left, bottom right."""
+"""Families of slopes: name, then the characters with the solid corner top left, top right, bottom left, bottom
+right."""
 
 RIGHT, DOWN, LEFT, UP = 0.0, 1.0, 2.0, 3.0
 DIRECTION_WORDS = {"right": RIGHT, "down": DOWN, "left": LEFT, "up": UP}
@@ -58,14 +59,14 @@ PAD_NORMALS = {
 
 PAD_DIGITS = {"up": "8", "up-right": "9", "right": "6", "down-right": "3",
               "down": "2", "down-left": "1", "left": "4", "up-left": "7"}  # fmt: skip
-"""A pad is drawn as the key of the numeric keypad that lies in its direction."""
+"""A pad is drawn as the digit in its direction on the numeric keypad."""
 
 
 class Symbol(NamedTuple):
-    """A character that draws an object: what it is and where in its cell it sits.
+    """A character that draws an object: its meaning, and the place of the object in its cell.
 
-    ``dx``, ``dy``: px from the cell's centre. ``values``: what follows x and y in the record of an object that the
-    picture alone creates, None if it needs a line in the list.
+    ``dx``, ``dy``: px from the cell's centre. ``values``: the values after x and y in the record of an object that
+    needs no line in the list, None if it needs one.
     """
 
     char: str
@@ -77,8 +78,8 @@ class Symbol(NamedTuple):
 
 
 def _pad(word: str) -> Symbol:
-    # A straight pad lies on the side of the cell that it pushes away from; a diagonal one crosses the middle, as the
-    # surface of a 45° tile does.
+    # A straight pad lies on the side of the cell that it pushes away from; a diagonal pad crosses the middle, like the
+    # surface of a 45° tile.
     a, b = PAD_NORMALS[word]
     dx, dy = (0.0, 0.0) if a and b else (0.0 - 12.0 * a, 0.0 - 12.0 * b)
     return Symbol(PAD_DIGITS[word], f"launch pad {word}", kinds.LAUNCH_PAD, dx, dy, (a, b))
@@ -126,7 +127,7 @@ _PADS = {symbol.values: symbol.char for symbol in SYMBOLS if symbol.kind == kind
 
 
 class Glyph(NamedTuple):
-    """A character that an object puts into the picture, and its cell (column 1…31, row 1…23)."""
+    """A character of an object in the picture, and its cell (column 1…31, row 1…23)."""
 
     char: str
     column: int
@@ -134,7 +135,7 @@ class Glyph(NamedTuple):
 
 
 def symbol_chars(spec: ObjectSpec) -> tuple[tuple[str, float, float], ...]:
-    """The characters that could draw an object, each with the px point it stands for; none for what has no picture."""
+    """The characters that could draw an object, each with its point in px; empty if nothing can draw it."""
     kind, values = spec.kind, spec.values
     if not well_formed(spec):
         return ()
@@ -155,7 +156,7 @@ def symbol_chars(spec: ObjectSpec) -> tuple[tuple[str, float, float], ...]:
 
 
 def visible_glyphs(spec: ObjectSpec) -> list[Glyph]:
-    """What an object looks like in the picture: only the parts that sit just where a character would put them."""
+    """The characters of an object in the picture: only for the parts that are exactly where a character puts them."""
     parts = []
     for char, x, y in symbol_chars(spec):
         symbol = SYMBOL_OF_CHAR[char]

@@ -1,6 +1,6 @@
-"""The list below the picture of an ASCII level: a line of words to object records (`writer` goes back).
+"""The list below the picture of an ASCII level: from lines of words to object records (`writer` does the reverse).
 
-One table, ``FORMS``, says what each kind of line needs; the writer writes by it too.
+The table ``FORMS`` describes every kind of line; the writer uses it, too.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ SIDES = {"right": (0.0, 0.0, 0.0), "bottom": (1.0, 0.0, 0.0), "left": (0.0, -1.0
 """Side of a door's cell: vertical flag, column offset, row offset (objects.md §8.6)."""
 
 DOORS = {"automatic door": (0.0, 0.0), "locked door": (0.0, 1.0), "trap door": (1.0, 0.0)}
-"""Trap flag and locked flag of the three sorts of door."""
+"""Trap flag and locked flag of the three kinds of doors."""
 
 
 @dataclass(frozen=True)
 class Token:
-    """A word of a line and the column where it starts (from 1)."""
+    """A word of a line, and its column (from 1)."""
 
     text: str
     column: int
@@ -51,8 +51,8 @@ class Token:
 class Form:
     """One kind of line: ``keyword PLACE… words``.
 
-    ``words``: for each property its vocabulary. ``takes``: keywords followed by a value. ``needs``: of each group of
-    properties exactly one must be given; what is in no group is optional. ``single``: one place a line.
+    ``words``: the vocabulary of each property. ``takes``: keywords before a value. ``needs``: groups of properties;
+    exactly one of a group must be given, properties outside of groups are optional. ``single``: one place a line.
     """
 
     kind: int
@@ -81,23 +81,23 @@ FORMS: dict[str, Form] = {
     "locked door": Form(DOOR, {"side": SIDES}, ("switch",), (("side",), ("switch",)), single=True),
     "trap door": Form(DOOR, {"side": SIDES}, ("switch",), (("side",), ("switch",)), single=True),
 }
-"""Every keyword that begins a line of an object with a readable form."""
+"""The keywords of all lines of objects that have a readable form."""
 
 
 def natural_offset(keyword: str, direction: str = "") -> tuple[float, float]:
-    """Offset of an object given by cell from the cell's middle, px: as in the picture."""
+    """Offset, px, of an object from the middle of the cell that a line gives: the same as in the picture."""
     symbol = SYMBOL_OF_NAME.get(f"{keyword} {direction}" if direction else keyword)
     return (symbol.dx, symbol.dy) if symbol is not None else (0.0, 0.0)
 
 
 def door_middle(values: Sequence[float]) -> tuple[float, float]:
-    """The middle of a door's bar, px, by the values of its record: where an automatic door senses the ninja."""
+    """The middle of a door's bar, px, from the values of its record; an automatic door senses the ninja there."""
     x, y = CELL * (values[4] + values[7]) + HALF, CELL * (values[5] + values[8]) + HALF
     return (x, y + HALF) if values[2] else (x + HALF, y)
 
 
 def object_values(keyword: str, place: Token, words: Mapping[str, Token]) -> tuple[float, ...]:
-    """The values of the record that a line stands for; ``words``: property or keyword to its word.
+    """The values of the record that a line describes; ``words``: the word of each property or keyword.
 
     Raises LevelError with the column of the word that cannot be read.
     """
@@ -138,7 +138,7 @@ def _read_pair(text: str) -> tuple[float, float]:
 
 
 def at_token(token: Token, read: Callable[..., T], *offset: float) -> T:
-    """The value that ``read`` makes of a word; its error gets the word's column."""
+    """Apply ``read`` to a word; an error gets the word's column."""
     try:
         return read(token.text, *offset)
     except LevelError as error:
@@ -154,11 +154,11 @@ _SYNONYMS = {
     "east": ("right",), "west": ("left",), "north": ("up", "top"), "south": ("down", "bottom"),
     "up": ("top",), "upper": ("top",), "top": ("up",), "down": ("bottom",), "lower": ("bottom",), "bottom": ("down",),
 }  # fmt: skip
-"""Other words for sides and directions."""
+"""Synonyms for sides and directions."""
 
 
 class ListedObject(NamedTuple):
-    """An object of a line of the list, with its place there: the column, and the line if known."""
+    """An object of a line of the list, with its column, and its line if known."""
 
     spec: ObjectSpec
     column: int
@@ -166,7 +166,7 @@ class ListedObject(NamedTuple):
 
 
 class OddTile(NamedTuple):
-    """A cell with a tile id without a character, with its place there, as of ``ListedObject``."""
+    """A cell with a tile id that has no character, with its place in the list, as in ``ListedObject``."""
 
     cell: tuple[int, int]
     id: int
@@ -228,7 +228,7 @@ def _split_keyword(tokens: Sequence[Token]) -> tuple[str, Sequence[Token]]:
 
 
 def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list[Token], dict[str, Token]]:
-    """The words that are places, and the property of each other word."""
+    """Separate the words that are places from those that are values of properties."""
     places: list[Token] = []
     by_name: dict[str, Token] = {}
     words = iter(tokens)
@@ -260,7 +260,7 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
 
 
 def _unknown_word(keyword: str, form: Form, token: Token, following: Token | None) -> LevelError:
-    """The error for a word that a form does not have, with the likeliest way to fix it."""
+    """The error for a word that a form does not have, with the likeliest fix."""
     if keyword == "automatic door" and token.text == "switch":
         hint = "it opens for whoever comes near; write 'locked door' or 'trap door' for one with a switch"
         return LevelError("automatic doors have no switch", column=token.column, hint=hint)
@@ -273,7 +273,7 @@ def _unknown_word(keyword: str, form: Form, token: Token, following: Token | Non
 
 
 _EXAMPLES = {"switch": "switch 3,4 (column,row)", "normal": "normal 0.6,-0.8", "facing": "facing 1"}
-"""Of properties that take a value."""
+"""Examples of properties with a value."""
 
 
 def _check_complete(keyword: str, form: Form, by_name: dict[str, Token], tokens: Sequence[Token]) -> None:
@@ -297,7 +297,7 @@ def _read_tiles(tokens: Sequence[Token]) -> list[OddTile]:
 
 
 def _read_raw(tokens: Sequence[Token]) -> ListedObject:
-    """``raw TYPE V,V,… "text"``; each part may be missing, a missing type is -1."""
+    """Read ``raw TYPE V,V,… "text"``; each part may be missing, a missing type is -1."""
     rest = list(tokens[1:])
     kind, text = -1, ""
     values: tuple[float, ...] = ()

@@ -1,7 +1,7 @@
 """The picture of an ASCII level: 23 framed rows of 31 characters, and the place of each cell in the file.
 
-Then picture and list are merged: which line is about which drawn object, and in what order. Mistakes are collected
-(``Problems``) and reported together: a level maker fixes them at once.
+Merging picture and list decides which line describes which drawn object, and their order. ``Problems`` collects all
+mistakes and reports them together, so that a level maker can fix them in one go.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _ENOUGH = 1000
 
 
 class LevelTextError(LevelError):
-    """The first mistake of a level, with ``further`` ones after it; the message has a line for each."""
+    """The first mistake of a level, with the others in ``further``; the message has a line for each."""
 
     further: tuple[LevelError, ...] = ()
 
@@ -35,32 +35,32 @@ class LevelTextError(LevelError):
 
 
 class Problems:
-    """Collects the mistakes found in one file."""
+    """Collects the mistakes in one file."""
 
     def __init__(self, file: str) -> None:
         self.file = file
-        self.found: list[LevelError] = []
+        self.mistakes: list[LevelError] = []
 
     def add(
         self, what: str, line: int, column: int = 0, *, found: str = "", expected: str = "", hint: str = ""
     ) -> None:
-        """Note a mistake at a line and column (from 1)."""
-        self.found.append(LevelError(what, self.file, line, column, found, expected, hint))
+        """Record a mistake at a line and column (from 1)."""
+        self.mistakes.append(LevelError(what, self.file, line, column, found, expected, hint))
 
     def add_error(self, error: LevelError, line: int) -> None:
-        """Note an error that was raised without file and line."""
+        """Record an error that was raised without file and line."""
         error.file, error.line = self.file, line
-        self.found.append(error)
+        self.mistakes.append(error)
 
     @property
     def full(self) -> bool:
-        """Whether there are so many mistakes that further checks are not worth the time."""
-        return len(self.found) >= _ENOUGH
+        """Whether there are so many mistakes that further checks waste time."""
+        return len(self.mistakes) >= _ENOUGH
 
     def raise_if_any(self) -> None:
-        """Raise what was noted, in the order of the lines; do nothing if all is well."""
-        if self.found:
-            first, *others = sorted(self.found, key=lambda error: (error.line, error.column))
+        """Raise the recorded mistakes in the order of their lines; do nothing without any."""
+        if self.mistakes:
+            first, *others = sorted(self.mistakes, key=lambda error: (error.line, error.column))
             joined = LevelTextError(**vars(first))
             joined.further = tuple(others)
             raise joined
@@ -69,7 +69,7 @@ class Problems:
 FRAME = "|"
 ROW_START = re.compile(r"\s*+(\d*+)\s*+\|", re.ASCII)
 ROW_END = re.compile(r"\|\s*+\d*+\s*+$", re.ASCII)
-"""The end of a row, which may have lost its left frame."""
+"""The end of a row, even if its left frame is missing."""
 _ROW = re.compile(r"\s*+(\d*+)\s*+\|(.*)\|\s*+(\d*+)\s*+", re.ASCII)
 
 _LOOKS_LIKE = {
@@ -88,7 +88,7 @@ _LOOKS_LIKE = {
 
 
 class Picture(NamedTuple):
-    """The drawn cells of a level. ``rows``: 23 texts of 31 characters; ``lines``, ``columns``: where each begins."""
+    """The drawn cells of a level. ``rows``: 23 texts of 31 characters; ``lines``, ``columns``: their places."""
 
     rows: tuple[str, ...]
     lines: tuple[int, ...]
@@ -98,7 +98,7 @@ class Picture(NamedTuple):
         return self.rows[cell[1] - 1][cell[0] - 1]
 
     def where(self, cell: Cell) -> tuple[int, int]:
-        """Line and column (from 1) in the file at which a cell is drawn."""
+        """Line and column (from 1) of a cell in the file."""
         return self.lines[cell[1] - 1], self.columns[cell[1] - 1] + cell[0] - 1
 
     def cells(self) -> Iterator[Cell]:
@@ -106,20 +106,20 @@ class Picture(NamedTuple):
         return ((column, row) for row in range(1, ROWS + 1) for column in range(1, COLUMNS + 1))
 
     def tiles(self) -> list[int]:
-        """713 tile ids, column by column; objects stand in empty cells, an odd tile counts as empty here."""
+        """713 tile ids, column by column; cells of objects are empty, and an odd tile counts as empty here."""
         return [TILE_OF_CHAR.get(self.rows[j][i], 0) for i in range(COLUMNS) for j in range(ROWS)]
 
 
 def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems) -> Picture | None:
-    """The picture of numbered lines that begin like rows; None, with the mistakes noted, if it is not in order.
+    """Read the picture from numbered lines that begin like rows; None, with mistakes recorded, if it is wrong.
 
-    ``end``: the line to report a missing row at.
+    ``end``: the line for reports of a missing row.
     """
-    before = len(problems.found)
+    before = len(problems.mistakes)
     rows: list[tuple[str, int, int]] = []
     misnumbered = False
     for number, (line, text) in enumerate(lines[:ROWS], 1):
-        # After one wrong number all others are wrong too.
+        # After one wrong number all following numbers are wrong, too.
         misnumbered = misnumbered or not _check_number(line, text, number, problems)
         row = _read_row(line, text, number, problems)
         if row is not None:
@@ -128,14 +128,14 @@ def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems)
         amount, line = ("many", lines[ROWS][0]) if len(lines) > ROWS else ("few", end)
         expected = f"{ROWS} rows, each |{COLUMNS} characters|"
         problems.add(f"the picture has too {amount} rows", line, found=f"{len(lines)}", expected=expected)
-    if len(problems.found) > before:
+    if len(problems.mistakes) > before:
         return None
     texts, numbers, columns = zip(*rows, strict=True)
     return Picture(texts, numbers, columns)
 
 
 def _check_number(line: int, text: str, number: int, problems: Problems) -> bool:
-    """Whether a row has its own number or none; a wrong one is noted."""
+    """Tell whether a row has its own number or none; a wrong number is recorded as a mistake."""
     match = _ROW.fullmatch(text)
     for label in match.group(1, 3) if match else ():
         if label and (len(label) > 2 or int(label) != number):
@@ -146,7 +146,7 @@ def _check_number(line: int, text: str, number: int, problems: Problems) -> bool
 
 
 def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[str, int] | None:
-    """Text and column of a row; its mistakes are noted, None if it has no two frame bars."""
+    """Give text and column of a row, and record its mistakes; None without both frame bars."""
     match = _ROW.fullmatch(text)
     if match is None:
         column = len(text) + 1
@@ -189,7 +189,7 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
 
 
 def _similar(char: str) -> str:
-    """A hint at the character that an unknown one in the picture may stand for."""
+    """A hint at the character that an unknown one in the picture may be meant to be."""
     if char in _LOOKS_LIKE:
         return _LOOKS_LIKE[char]
     other = char.swapcase()
@@ -204,15 +204,15 @@ _NEEDED_LINES = {
     "&": "locked door 20,14 left switch {cell}",
     "!": "trap door 20,14 left switch {cell}",
 }
-"""An example line for each drawn object that needs one."""
+"""An example line for each drawn object that needs a line."""
 
 
 def merge_picture_and_list(
     picture: Picture, objects: Sequence[ListedObject], tiles: Sequence[OddTile], problems: Problems
 ) -> Level:
-    """The level: drawn objects that no line mentions (ninjas first, then in reading order), then the list in order.
+    """Make the level: first drawn objects that no line mentions (ninjas, then in reading order), then the list.
 
-    Mistakes are noted in ``problems``; the level is then of no use.
+    Mistakes are recorded in ``problems``; the level is useless then.
     """
     mentioned, conflicts = _mentioned(picture, objects, problems)
     drawn: list[tuple[Cell, Symbol]] = []
@@ -244,7 +244,7 @@ def merge_picture_and_list(
 def _mentioned(
     picture: Picture, objects: Iterable[ListedObject], problems: Problems
 ) -> tuple[set[Cell], dict[Cell, tuple[ListedObject, Symbol]]]:
-    """Cells whose drawn object a line is about; cells where a line has another form of the same kind."""
+    """Cells with a drawn object that a line describes; cells where a line has another form of the same kind."""
     mentioned: set[Cell] = set()
     conflicts: dict[Cell, tuple[ListedObject, Symbol]] = {}
     for placed in objects:
@@ -268,13 +268,13 @@ def _named(symbol: Symbol) -> str:
 
 
 def point_of(cell: Cell, symbol: Symbol) -> tuple[float, float]:
-    """Where a drawn object stands, px."""
+    """The place of a drawn object, px."""
     x, y = middle_of(cell)
     return x + symbol.dx, y + symbol.dy
 
 
 def _drawn_specs(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], problems: Problems) -> list[ObjectSpec]:
-    """Records of the objects that the picture alone creates."""
+    """Records of the objects that need no line."""
     exits = [cell for cell, symbol in drawn if symbol.char == "X"]
     switches = [cell for cell, symbol in drawn if symbol.char == "x"]
     if (len(exits), len(switches)) not in ((0, 0), (1, 1)):

@@ -25,12 +25,12 @@ def shown(text: str) -> str:
 
 
 def same_bits(a: float, b: float) -> bool:
-    """Whether two float64 are the same to the last bit: -0.0 is not 0.0; one NaN is as good as another."""
+    """Tell whether two float64 are equal to the last bit: -0.0 differs from 0.0; all NaNs are equal."""
     return struct.pack("<d", a) == struct.pack("<d", b) or (math.isnan(a) and math.isnan(b))
 
 
 def is_inside(cell: Cell) -> bool:
-    """Whether a cell has a tile of the level's own; the border has none."""
+    """Tell whether a cell belongs to the level; border cells do not."""
     return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS
 
 
@@ -49,14 +49,14 @@ def middle_of(cell: Cell) -> tuple[float, float]:
 
 
 def number_text(value: float) -> str:
-    """The shortest decimal that reads as exactly this float64; ``nan``, ``inf``, ``-inf``, ``-0`` for the odd ones."""
+    """The shortest decimal that reads as exactly this float64; ``nan``, ``inf``, ``-inf``, ``-0`` for such values."""
     return repr(value).removesuffix(".0")
 
 
 def read_number(text: str) -> float:
-    """The float64 nearest to a decimal.
+    """Read a decimal as the nearest float64.
 
-    Correctly rounded, as in any programming language; not Flash's rule, which belongs to the N strings alone.
+    It is rounded correctly, as in any programming language; only the N strings follow Flash's rule.
 
     Raises LevelError (without a place) for anything else.
     """
@@ -69,7 +69,7 @@ def read_number(text: str) -> float:
 
 
 def _cell_number(value: float, count: int) -> str:
-    """Cell coordinate of a px coordinate if quarter steps from 0 to the far border give it exactly, else ''."""
+    """Cell coordinate of a px coordinate if a multiple of 1/4 from 0 to the far border gives it exactly, else ''."""
     cell = (value - HALF) / CELL
     if not 0 <= cell <= count + 1 or cell * 4 != int(cell * 4) or not same_bits(cell * CELL + HALF, value):
         return ""
@@ -77,16 +77,16 @@ def _cell_number(value: float, count: int) -> str:
 
 
 def place_text(x: float, y: float, dx: float = 0.0, dy: float = 0.0) -> str:
-    """The shortest exact notation of a px point; ``dx``, ``dy``: offset of its kind from the middle of a cell."""
+    """The shortest exact notation of a px point; ``dx``, ``dy``: offset of its kind of object from a cell's middle."""
     column, row = _cell_number(x - dx, COLUMNS), _cell_number(y - dy, ROWS)
-    # The subtraction rounds for odd values: only exactly reversible ones may be written in cells.
+    # The subtraction rounds odd values: write a point in cells only if reading it gives the same bits.
     if column and row and all(map(same_bits, read_place(f"{column},{row}", dx, dy), (x, y))):
         return f"{column},{row}"
     return f"{number_text(x)},{number_text(y)}px"
 
 
 def read_place(text: str, dx: float = 0.0, dy: float = 0.0) -> tuple[float, float]:
-    """The px point of ``5,7`` (cells, quarters allowed) or ``60,564px``. Raises LevelError (without a place)."""
+    """Read ``5,7`` (cells, quarters allowed) or ``60,564px`` as a px point. Raises LevelError (without a place)."""
     px = text.endswith("px")
     numbers = text.removesuffix("px").split(",")
     if len(numbers) != 2 or "" in numbers:
@@ -108,7 +108,7 @@ def read_place(text: str, dx: float = 0.0, dy: float = 0.0) -> tuple[float, floa
 
 
 def read_cell(text: str) -> Cell:
-    """Column and row of a whole cell (0…32, 0…24). Raises LevelError (without a place)."""
+    """Read column and row of a whole cell (0…32, 0…24). Raises LevelError (without a place)."""
     x, y = read_place(text)
     column, row = (x - HALF) / CELL, (y - HALF) / CELL
     if text.endswith("px") or not (column.is_integer() and row.is_integer()):

@@ -1,4 +1,4 @@
-"""Our ASCII level format: a header, a picture of 31 x 23 characters, a list of objects (`docs/level-format.md`)."""
+"""The ASCII level format: a header, a picture of 31 x 23 characters, a list of objects (`docs/level-format.md`)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ninja_game.sim.level import Level
 
 @dataclass(frozen=True)
 class AsciiLevel:
-    """A level as its file describes it: author, comment, tiles and objects, what it teaches, its messages."""
+    """The content of a level's file: author, comment, tiles and objects, its lesson, its messages."""
 
     name: str
     author: str
@@ -28,7 +28,7 @@ class AsciiLevel:
 
 
 def is_ascii_level(text: str) -> bool:
-    """Whether a text begins as an ASCII level does, or nearly so (after blank and comment lines)."""
+    """Tell whether a text begins like an ASCII level, or nearly so (after blank and comment lines)."""
     _, first = next(numbered_lines(text, UNCOMMENTED), (1, ""))
     return "".join(filter(str.isalpha, first[:80].lower())).startswith("ninjagamelevel")
 
@@ -41,7 +41,7 @@ def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:
     >>> read.name, read.level.objects
     ('Tiny', (ObjectSpec(kind=5, values=(36.0, 564.0), text=''),))
 
-    Raises LevelError: the first mistake by line, the others in its ``further``.
+    Raises LevelError with the first mistake by line, and the others in its ``further``.
     """
     problems = Problems(file)
     lines = list(numbered_lines(text, UNCOMMENTED))
@@ -71,7 +71,7 @@ def _check_first(lines: Sequence[Line], problems: Problems) -> None:
 
 
 def sections(lines: Sequence[Line], problems: Problems) -> tuple[list[Line], list[Line], list[Line]]:
-    """Header lines, picture rows, lines of the list; ``lines``: those behind the first, without comments."""
+    """Separate header lines, picture rows and lines of the list; ``lines``: those after the first, without comments."""
     header: list[Line] = []
     rows: list[Line] = []
     listed: list[Line] = []

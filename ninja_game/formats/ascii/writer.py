@@ -1,4 +1,4 @@
-"""Any level as ASCII text: drawn as far as possible, listed where order or parameters need it, equal when read back."""
+"""Any level as ASCII text: drawn if possible, listed if order or parameters need it, and equal when read back."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ RULER = (
     ";    " + "".join(str(column // 10) if column > 9 else " " for column in range(1, COLUMNS + 1)) + "\n"
     ";    " + "".join(str(column % 10) for column in range(1, COLUMNS + 1)) + "\n"
 )
-"""Comment lines above and below the picture that number its columns."""
+"""Comment lines above and below the picture with the numbers of its columns."""
 
 
 def write_ascii_level(
@@ -57,10 +57,10 @@ def write_ascii_level(
     says: str = "",
     legend: bool = False,
 ) -> str:
-    """A level in our ASCII format; reading it gives the same tiles, records, order and float64 values.
+    """Write a level in the ASCII format; reading it gives the same tiles, records, order and float64 values.
 
-    Objects keep their ids: as many as the picture puts in the right order are only drawn, the others are listed too.
-    ``legend`` adds the meaning of all characters as comment lines.
+    Objects keep their ids: the picture alone draws the first ones as long as their order is right, the rest is listed,
+    too. ``legend`` adds the meanings of all characters as comment lines.
     """
     parts = [visible_glyphs(spec) for spec in level.objects]
     drawn = drawn_only(level, parts)
@@ -78,7 +78,7 @@ def write_ascii_level(
 
 
 def headers_of(named: object) -> dict[str, Any]:
-    """All that a level's file says about it, by header: of a NamedLevel, a Draft."""
+    """Collect all headers of a level's file from a NamedLevel or a Draft."""
     return {key: getattr(named, key) for key in HEADER_KEYS}
 
 
@@ -87,7 +87,7 @@ def _tile_char(number: int) -> str:
 
 
 def picture_rows(level: Level, parts: Sequence[Sequence[Glyph]]) -> list[str]:
-    """Rows of characters; where several objects share a cell the first one shows."""
+    """Rows of characters; if several objects share a cell, the first one shows."""
     cells = {
         (column, row): _tile_char(level.tile(column, row))
         for row in range(1, ROWS + 1)
@@ -111,7 +111,7 @@ def tile_lines(level: Level) -> list[str]:
 
 
 def drawn_only(level: Level, parts: Sequence[Sequence[Glyph]]) -> int:
-    """How many of the first records the picture alone creates, in this order."""
+    """Count the first records that the picture alone creates in this order."""
     claims = Counter((column, row, SYMBOL_OF_CHAR[char].kind) for group in parts for char, column, row in group)
     taken: set[Cell] = set()
     last = (-1, 0, 0)
@@ -135,7 +135,7 @@ def drawn_only(level: Level, parts: Sequence[Sequence[Glyph]]) -> int:
 
 
 def _as_drawn(kind: int, group: Sequence[Glyph]) -> ObjectSpec:
-    """The object that the picture's characters make without a line; no valid record if it needs a line."""
+    """The object that the picture's characters create without a line; not a valid record if it needs a line."""
     values: tuple[float, ...] = ()
     for char, column, row in group:
         symbol = SYMBOL_OF_CHAR[char]
@@ -149,14 +149,14 @@ _LINE_WIDTH = 100
 
 
 def same_spec(a: ObjectSpec, b: ObjectSpec) -> bool:
-    """Whether two records are the same in kind, text and every bit of their values."""
+    """Tell whether two records are equal in kind, text and every bit of their values."""
     return (a.kind, a.text, len(a.values)) == (b.kind, b.text, len(b.values)) and all(
         map(same_bits, a.values, b.values)
     )
 
 
 def write_object_lines(specs: Sequence[ObjectSpec]) -> list[str]:
-    """Lines of the list that create just these records, in order; neighbours of one kind share a line."""
+    """Lines of the list that create exactly these records, in order; neighbours of one kind share a line."""
     lines: list[str] = []
     head = tail = ""
     for spec in specs:
@@ -172,7 +172,7 @@ def write_object_lines(specs: Sequence[ObjectSpec]) -> list[str]:
 
 
 def _readable(spec: ObjectSpec) -> tuple[str, str, str]:
-    """Keyword, place and further words of a record's line; ``raw`` if no form gives it back to the last bit."""
+    """Keyword, place and further words of a record's line; ``raw`` if no form reproduces it to the last bit."""
     keyword, place, words = best_form(spec)
     if keyword:
         listed = read_object_line(f"{keyword} {place} {words}")
@@ -188,7 +188,7 @@ def _word(vocabulary: Mapping[str, float], value: float) -> str:
 
 
 def best_form(spec: ObjectSpec) -> tuple[str, str, str]:
-    """The form that fits a record's kind; keyword '' if none does. It may still not reproduce the record exactly."""
+    """The form for a record's kind, keyword '' if there is none. It may not reproduce the record exactly."""
     kind, values = spec.kind, spec.values
     if not well_formed(spec) or spec.text:
         return "", "", ""

@@ -1,7 +1,7 @@
 """Demos, the recordings of the game: ``<length>:<word>|<word>|…``, 4 bits a tick, 7 ticks a word (game.md §4.1).
 
-Those of older versions begin with ``A`` and have 3 bits a tick, no trigger and no length (game.md §4.2); their reader's
-two defects are kept, so that such texts play here as they play there.
+Demos of older versions begin with ``A`` and have 3 bits a tick, no trigger and no length (game.md §4.2); two defects of
+their reader are kept, so that such texts play as in the game.
 """
 
 from __future__ import annotations
@@ -20,12 +20,10 @@ _KEYS_OF_HEX = bytes.maketrans(b"0123456789abcdef", bytes(range(16)))
 
 
 def parse_demo(text: str, *, length: float | None = None) -> Demo:
-    r"""The inputs in a demo text: 4 bits a tick, or the legacy format if it starts with ``A`` (game.md §4.1, §4.2).
+    r"""Read a demo text: 4 bits a tick, or the legacy format if it starts with ``A`` (game.md §4.1, §4.2).
 
-    Follows the game on odd texts: what is missing or no number reads as 0, a second ``:`` ends the words. ``length``
-    is the playback length of legacy texts, which do not hold it; without it all of it is played.
-
-    Raises DemoError for a legacy text that the game cannot have written.
+    Odd texts read as in the game: a missing or malformed number is 0, a second ``:`` ends the words. ``length`` is the
+    playback length of legacy texts, which have none; without it all of the text is played.
 
     >>> demo = parse_demo("3:801")
     >>> demo.inputs, demo.playback(5)
@@ -38,13 +36,13 @@ def parse_demo(text: str, *, length: float | None = None) -> Demo:
     if (words.count("|") + 1) * TICKS_PER_WORD >= MAX_TICKS:
         found = f"{words.count('|') + 1} words"
         raise DemoError("a demo that is too long", found=found, expected=f"at most {MAX_TICKS // TICKS_PER_WORD}")
-    # Seven ticks a word, the first in the lowest bits.
+    # Seven ticks per word, the first in the lowest bits.
     digits = "".join([f"{_word(word):07x}"[::-1] for word in words.split("|")])
     return fit_demo(digits.encode("ascii").translate(_KEYS_OF_HEX), parse_number(length_text))
 
 
 def _word(text: str) -> int:
-    """The low 28 bits of a word; a negative one counts modulo 2^32, one that is not a number is 0."""
+    """The low 28 bits of a word; a negative one counts modulo 2^32, a malformed one is 0."""
     if _PLAIN_WORD.fullmatch(text):
         return int(text) & _WORD_BITS
     value = parse_number(text)
@@ -52,7 +50,7 @@ def _word(text: str) -> int:
 
 
 def write_demo(demo: Demo) -> str:
-    """The demo text as the game writes it: a word 0 is begun as soon as one is full (game.md §4.1).
+    """Write a demo as the game does: after a full word it begins another one, 0 (game.md §4.1).
 
     Raises DemoError for keys above 15 or a length that is not a number.
     """
@@ -83,13 +81,13 @@ _KEYS_OF_DIGIT = bytes.maketrans(b"01234567", bytes(range(8)))
 
 
 def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
-    """The inputs in a legacy demo text; all of it is played if ``length`` is not given.
+    """Read the inputs of a legacy demo text; without ``length`` all of it is played.
 
-    Raises DemoError, with the column, for what the game cannot have written.
+    Raises DemoError, with the column, for a text that the game cannot have written.
     """
     if not text.startswith("A"):
         raise DemoError("not a legacy demo", column=1, found=repr(text[:1]), expected="'A'")
-    # Defect (b): a last 3 is dropped also when it was not padding, and what it leaves of a run with it.
+    # Defect (b): a last 3 is dropped even if it was not padding, and with it the rest of its run.
     digits = _DIGIT_RUN.sub(_expanded, _digits_of_chars(text).removesuffix(_PADDING))
     _check_length(len(digits))
     inputs = with_press_bits(digits.encode("ascii").translate(_KEYS_OF_DIGIT))
@@ -97,7 +95,7 @@ def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
 
 
 def _digits_of_chars(text: str) -> str:
-    """The digit pairs of the characters after the ``A``, character runs expanded."""
+    """The digit pairs of the characters after the ``A``, with runs of characters expanded."""
     pairs = []
     count = 0
     place = 1
@@ -106,7 +104,7 @@ def _digits_of_chars(text: str) -> str:
         if code in _RUN_CODES:
             times = code - _CODE_OFFSET
             pairs.append(_pair(text, place + 1) * times)
-            place += 3  # defect (a): the character behind a run is lost
+            place += 3  # defect (a): the character after a run is lost
         else:
             times = 1
             pairs.append(_pair(text, place))
@@ -126,11 +124,11 @@ def _pair(text: str, place: int) -> str:
 
 
 def _expanded(run: re.Match[str]) -> str:
-    """The digits of a run; none for an incomplete one."""
+    """The digits of a run; empty for an incomplete one."""
     return run[1] * (int(run[2], 8) + _RUN_OFFSET) if run[1] else ""
 
 
 def _check_length(digits: int) -> None:
-    """Raise DemoError for more than the game records (one digit may be padding)."""
+    """Raise DemoError for more digits than the game records (one may be padding)."""
     if digits > MAX_DIGITS + 1:
         raise DemoError("a legacy demo that is too long", found=f"{digits} ticks", expected=f"at most {MAX_DIGITS}")

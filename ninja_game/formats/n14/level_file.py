@@ -1,6 +1,6 @@
-"""Level files and replay texts: ``$name#author#comment#level string#``, with a demo before the last ``#`` or without.
+"""Level files and replay texts: ``$name#author#comment#level string#``, perhaps with a demo before the last ``#``.
 
-Published files break their own rules in many ways (game.md §5.4-§5.6); this reader takes them as they are.
+Published files break these rules in many ways (game.md §5.4-§5.6); this reader accepts them.
 """
 
 from __future__ import annotations
@@ -16,22 +16,22 @@ from ninja_game.formats.n14.level_string import tidy_level_string
 from ninja_game.sim.level import TILES
 
 MARKER = "&userdata="
-"""Precedes the data of the game's own level file; from here on it is URL-encoded and ends at the next ``&``."""
+"""Comes before the data of the game's own level file; the data is URL-encoded and ends at the next ``&``."""
 
 SHAPE = "$name#author#comment#level string#"
-"""The form of a record, for messages."""
+"""The form of a record, for error messages."""
 
 _SEPARATOR, _ENCODED_SEPARATOR = re.compile(r"\$"), re.compile(r"\$|%24")
 _ENCODING = str.maketrans({"%": "%25", "&": "%26", "+": "%2B"})
 _LINE_BREAK = re.compile(r"[\r\n]+")
 
-# A demo behind a level, not free text: numbers and separators with a colon, or a legacy demo.
+# A demo after a level, not free text: numbers and separators with a colon, or a legacy demo.
 _DEMO = re.compile(r"(?=[.+\-eE]*[0-9])[0-9.+\-eE]*:[0-9.+\-eE|:]*")
 _LEGACY_DEMO = re.compile(r'A["%-\[\]-b\x67-\x96]{2,}')
-# A demo instead of the level: its numbers must be short, since digits and colons may also be tiles.
+# A demo in the place of the level: its numbers must be short, since digits and colons may also be tiles.
 _SHORT_DEMO = re.compile(r"[0-9.]{1,12}:[0-9\-]{0,14}(?:\|[0-9\-]{0,14})*")
 
-# Behind white space, still the wrapped rest of data without a closing '#'.
+# After white space, this can still be the wrapped rest of data without a closing '#'.
 _DEMO_PIECE = re.compile(r"[0-9|\-]+")
 _OBJECTS_PIECE = re.compile(r"[0-9.,^!\-Na]+")
 
@@ -40,9 +40,9 @@ _OBJECTS_PIECE = re.compile(r"[0-9.,^!\-Na]+")
 class LevelRecord:
     """One record of a level file or replay text.
 
-    ``level``: the in-game string, wrapped lines joined, '' if the record leaves it out; ``demo``: the demo text, or
-    ''; ``note``: a text in the place of the demo that is not one; ``number`` counts the records from 0; ``line``
-    (from 1): where the record starts.
+    ``level``: the in-game string, wrapped lines joined, '' if the record omits it; ``demo``: the demo text, or '';
+    ``note``: a text in the place of the demo that is not one; ``number``: of the record, from 0; ``line`` (from 1):
+    where it starts.
     """
 
     name: str
@@ -56,16 +56,16 @@ class LevelRecord:
 
 
 def is_demo(text: str) -> bool:
-    """Whether a text without white space is a demo, not free text."""
+    """Tell whether a text without white space is a demo, not free text."""
     return bool(_DEMO.fullmatch(text) or _LEGACY_DEMO.fullmatch(text))
 
 
 def read_level_file(text: str, *, file: str = "") -> list[LevelRecord]:
-    """The records of a level file or replay text, in order.
+    """Read the records of a level file or replay text, in order.
 
-    Taken as published files have them: text before the first ``$``, free text behind a record, no closing ``#``, lines
-    wrapped inside data, no names, no level. Behind a ``&userdata=`` marker, and only there, the text is URL-decoded
-    (``%xx``, ``+``) and ends at ``&``.
+    Common errors of published files are accepted: text before the first ``$``, free text after a record, no closing
+    ``#``, lines wrapped inside data, no names, no level. After a ``&userdata=`` marker, and only there, the text is
+    URL-decoded (``%xx``, ``+``) and ends at ``&``.
 
     Raises LevelError, naming the line, for a record without its fields or its level, and for a text without records.
     """
@@ -80,13 +80,13 @@ def read_level_file(text: str, *, file: str = "") -> list[LevelRecord]:
 
 
 def _parts(text: str) -> Iterator[tuple[int, str]]:
-    """Line and text of everything that follows a ``$``, decoded."""
+    """Line and text of everything after a ``$``, decoded."""
     free, marker, data = text.partition(MARKER)
     if not marker:
         free, data = "", text
     line = 1 + free.count("\n")
     pieces = (_ENCODED_SEPARATOR.split(data.partition("&")[0])) if marker else _SEPARATOR.split(data)
-    # The '$' of a replay text may have been lost when it was copied.
+    # Copying may have lost the '$' of a replay text.
     lost = len(pieces) == 1 and pieces[0].lstrip().startswith("#")
     for index, piece in enumerate(pieces):
         if index or lost:
@@ -95,7 +95,7 @@ def _parts(text: str) -> Iterator[tuple[int, str]]:
 
 
 def _url_decoded(text: str) -> str:
-    """Blanks for ``+``, characters for ``%xx``: UTF-8, or Latin-1 where it cannot be that."""
+    """Decode ``+`` to blanks and ``%xx`` to characters: UTF-8, or Latin-1 if it is not valid UTF-8."""
     text = text.replace("+", " ")
     try:
         return unquote(text, errors="strict")
@@ -104,7 +104,7 @@ def _url_decoded(text: str) -> str:
 
 
 def _read_record(part: str, number: int, line: int, file: str) -> LevelRecord | None:
-    """The record in the text behind a ``$``; None for a ``$`` in free text."""
+    """The record in the text after a ``$``; None for a ``$`` in free text."""
     fields = part.split("#")
     last = len(fields) - 1
     place, demo = _find_demo(fields)
@@ -132,9 +132,9 @@ def _one_line(text: str) -> str:
 
 
 def _find_demo(fields: list[str]) -> tuple[int, str]:
-    """Which field is the demo, and its text; (0, '') without one.
+    """Give the number of the field with the demo, and its text; (0, '') without one.
 
-    Field 4 in a whole record, 3 or 2 in one that leaves out its level.
+    It is field 4 in a complete record, 3 or 2 in a record without a level.
     """
     for place in (4, 3, 2):
         if place >= len(fields):
@@ -143,7 +143,7 @@ def _find_demo(fields: list[str]) -> tuple[int, str]:
         text = "".join(fields[place].split()) if closed else _wrapped_demo(fields[place])
         short = _SHORT_DEMO.fullmatch(text) is not None
         bare = not fields[0].strip() and not fields[1].strip() and "|" not in "".join(fields[3:])
-        # Free text such as AWESOME could pass for a legacy demo.
+        # Free text such as AWESOME could look like a legacy demo.
         whole = is_demo(text) and (closed or not text.startswith("A"))
         if whole if place == 4 else short and (place == 3 or bare):
             return place, text
@@ -151,7 +151,7 @@ def _find_demo(fields: list[str]) -> tuple[int, str]:
 
 
 def _wrapped_demo(text: str) -> str:
-    """The demo at the start of a field that free text may follow."""
+    """The demo at the start of a field; free text may follow it."""
     first, *others = text.split() or [""]
     for piece in others:
         if not _DEMO_PIECE.fullmatch(piece):
@@ -163,8 +163,8 @@ def _wrapped_demo(text: str) -> str:
 def _level_text(text: str, *, closed: bool) -> str:
     """The level string in a field, without the white space of wrapped lines.
 
-    Without a closing ``#`` free text may follow: there the level ends at the first white space (game.md §5.4), unless
-    tiles are missing yet or what follows can only be the rest of its objects.
+    Without a closing ``#`` free text may follow. Then the level ends at the first white space (game.md §5.4), unless
+    tiles are still missing or the rest can only be objects.
     """
     if closed:
         return tidy_level_string(text)
@@ -179,10 +179,10 @@ def _level_text(text: str, *, closed: bool) -> str:
 
 
 def write_level_file(records: Iterable[LevelRecord], *, userdata: bool = False) -> str:
-    """The records as text, one per line; ``userdata``: in the form that the game itself reads (marker, URL-encoded).
+    """Write records as text, one per line; ``userdata``: in the form that the game itself reads (marker, URL-encoded).
 
-    Raises LevelError for data that such a text cannot hold: ``#``, ``$`` or a line break in a field, white space in a
-    level.
+    Raises LevelError for data that such a text cannot contain: ``#``, ``$`` or a line break in a field, white space in
+    a level.
     """
     lines = []
     for number, record in enumerate(records):

@@ -1,4 +1,4 @@
-"""The in-game level string ``<tiles>|<objects>``: read as the game reads it, oddities included (game.md §5.1-§5.3)."""
+"""The in-game level string ``<tiles>|<objects>``, read exactly as the game reads it (game.md §5.1-§5.3)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ninja_game.formats.numbers import format_exact, format_number, parse_number
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import TILES, Level, ObjectSpec, makes_object
 
-MISSING_TILE = -1  # id of a cell that the tile string does not reach: never solid, yet not empty
+MISSING_TILE = -1  # id of a cell beyond the end of the tile string: never solid, yet not empty
 
 _NO_TILE = frozenset([ord("|"), *range(0xD800, 0xE000)])  # the separator; halves of surrogate pairs
 
@@ -24,10 +24,10 @@ _KIND_OF_TEXT = {str(kind): kind for kind in range(_KINDS)}
 
 
 def parse_level_string(text: str, *, file: str = "", line: int = 0) -> Level:
-    """The level that the game makes of ``text``, however malformed (game.md §5.2): white space counts as it stands.
+    """Read ``text``, however malformed, as the game does (game.md §5.2); white space is not ignored.
 
-    Raises LevelError only for a text that starts with ``$`` and has no fourth field; ``file`` and ``line`` say where
-    the text stands.
+    Raises LevelError only for a text that starts with ``$`` and has no fourth field; ``file`` and ``line`` are the
+    text's place for errors.
 
     >>> level = parse_level_string("01|5^36,36!0^60,36")
     >>> level.tiles[:3], level.objects
@@ -45,17 +45,17 @@ def parse_level_string(text: str, *, file: str = "", line: int = 0) -> Level:
 
 
 def tidy_level_string(text: str) -> str:
-    """The text without the white space of wrapped lines, as a tolerant importer makes it (game.md §5.6).
+    """Remove the white space of wrapped lines, as a tolerant importer does (game.md §5.6).
 
-    All white space among the tiles goes, and line breaks with the blanks around them among the objects. Other blanks
-    stay there: before a number they are harmless, behind one the game reads NaN, and so do we.
+    It removes all white space among the tiles, and line breaks with the blanks around them among the objects. Other
+    blanks stay there: before a number they are harmless, after one the game reads NaN, and so does this program.
     """
     tiles, bar, objects = text.partition("|")
     return "".join(tiles.split()) + bar + "".join(line.strip() for line in _LINE_BREAK.split(objects))
 
 
 def _parse_tiles(text: str) -> tuple[int, ...]:
-    """713 tile ids; cells that the text does not reach are missing, what is too long is ignored."""
+    """713 tile ids; cells beyond the text are missing tiles, text beyond the cells is ignored."""
     text = text[:TILES]
     if _PLAIN_TILES.fullmatch(text):
         return tuple(text.encode("ascii").translate(_TILE_OF_CHAR))
@@ -63,7 +63,7 @@ def _parse_tiles(text: str) -> tuple[int, ...]:
 
 
 def _parse_object(text: str) -> ObjectSpec:
-    """One object record: the part before the first ``^`` is the type, the part up to the second the values."""
+    """Read one object record: the type is before the first ``^``, the values between it and the second."""
     kind_text, caret, rest = text.partition("^")
     kind = _KIND_OF_TEXT.get(kind_text, -1)
     if kind < 0:
@@ -77,13 +77,13 @@ def _parse_object(text: str) -> ObjectSpec:
 
 
 def write_level_string(level: Level, *, exact: bool = False) -> str:
-    """The level as in-game string (game.md §5.3).
+    """Write the level as in-game string (game.md §5.3).
 
-    ``exact``: numbers as long as it takes to read back to the same float64, instead of the game's 15 digits. Levels
-    read from texts with at most 15 digits a number come back the same either way.
+    ``exact``: write numbers with as many digits as the same float64 needs, instead of the game's 15 digits. Levels read
+    from texts with at most 15 digits per number are the same either way.
 
-    Raises LevelError for a level that no such string can say: a tile id without a character, a stray separator in an
-    ignored record.
+    Raises LevelError for a level that no such string can describe: a tile id without a character, a stray separator in
+    an ignored record.
     """
     number = format_exact if exact else format_number
     text = _write_tiles(level.tiles) + "|" + "!".join(_write_object(spec, number) for spec in level.objects)
@@ -103,7 +103,7 @@ def _write_tiles(tiles: tuple[int, ...]) -> str:
 
 
 def _write_object(spec: ObjectSpec, number: Callable[[float], str]) -> str:
-    """``type^value,value,…``; just the type without values; an ignored record's own text."""
+    """``type^value,value,…``; only the type without values; the original text of an ignored record."""
     if spec.kind < 0:
         if "!" in spec.text or "|" in spec.text:
             raise LevelError("an ignored record cannot hold '!' or '|'", found=repr(spec.text))
@@ -113,9 +113,9 @@ def _write_object(spec: ObjectSpec, number: Callable[[float], str]) -> str:
 
 
 def level_digest(level: Level) -> str:
-    """The level's sha256, as 64 hex digits: over tile ids and records, values to the last bit.
+    """Give the level's sha256, as 64 hex digits, over tile ids and records with values to the last bit.
 
-    Records that create nothing do not count, since they create nothing; the sign of a zero does not count either.
+    Records that create nothing and the sign of a zero do not count.
     """
     records = "!".join(
         f"{spec.kind}^" + ",".join(repr(value or 0.0) for value in spec.values)

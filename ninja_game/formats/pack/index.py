@@ -13,7 +13,7 @@ from ninja_game.files.untrusted import parse_toml
 MAX_COLUMNS, EPISODES_PER_COLUMN, LEVELS_PER_EPISODE = 10, 10, 5
 MAX_EPISODES = MAX_COLUMNS * EPISODES_PER_COLUMN
 
-NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")  # findings of what cannot be played, by code
+NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")  # codes of findings about files that cannot be played
 
 _LINE = re.compile(r"\(at line (\d+), column (\d+)\)")
 _KEYS = ("name", "author", "comment", "version", "columns", "episode", "accept")
@@ -23,10 +23,10 @@ _ACCEPT_KEYS = ("file", "code", "reason")
 
 @dataclass(frozen=True)
 class EpisodeIndex:
-    """An episode: ``number`` (0 to 99, its tens are its column), ``name``, and the files of its levels.
+    """An episode: ``number`` (0 to 99; the tens digit is its column), ``name``, and the files of its levels.
 
-    ``levels``: the files that the index lists; None where it has no list, then those called "NN-…" belong to it.
-    ``line``: where it begins in the index.
+    ``levels``: the files listed in the index; None without a list: files called "NN-…" then belong to it. ``line``: its
+    first line in the index.
     """
 
     number: int
@@ -35,7 +35,7 @@ class EpisodeIndex:
     line: int
 
     def files(self, names: list[str]) -> tuple[str, ...]:
-        """Its level files: those listed, or else those of ``names`` that begin with its number.
+        """Its level files: the listed ones, or else those of ``names`` that begin with its number.
 
         >>> EpisodeIndex(3, "", None, 1).files(["03-0-a.txt", "03-1-b.txt", "13-0-c.txt"])
         ('03-0-a.txt', '03-1-b.txt')
@@ -47,7 +47,7 @@ class EpisodeIndex:
 
 @dataclass(frozen=True)
 class Accepted:
-    """A finding about a file of the pack that its maker accepts, and why."""
+    """A finding about a file of the pack that its maker accepts, and the reason."""
 
     file: str
     code: str
@@ -68,17 +68,17 @@ class PackIndex:
 
     @property
     def is_signed(self) -> bool:
-        """Whether it names its author."""
+        """Whether the index names an author."""
         return self.author.strip().casefold() not in ("", "unknown")
 
     @property
     def reasons(self) -> dict[tuple[str, str], str]:
-        """Why it accepts findings, by their files and codes; without those that no index may accept."""
-        return {(each.file, each.code): each.reason for each in self.accepted if each.code not in NEVER_ACCEPTED}
+        """The reasons for accepted findings, by file and code, without findings that no index may accept."""
+        return {(odd.file, odd.code): odd.reason for odd in self.accepted if odd.code not in NEVER_ACCEPTED}
 
     @property
     def title(self) -> str:
-        """Its name with author and version, which distinguish packs of one name.
+        """Its name with author and version, to tell packs of the same name apart.
 
         >>> PackIndex("Walls", "Ann", "", (), (), "2").title, PackIndex("Walls", "", "", (), ()).title
         ('Walls by Ann, 2', 'Walls')
@@ -88,7 +88,7 @@ class PackIndex:
 
 
 def parse_index(text: str, *, file: str = "") -> PackIndex:
-    """The index in a TOML text. Raises PackError with the line of the error."""
+    """Read the index in a TOML text. Raises PackError with the line of the error."""
     try:
         table = parse_toml(text)
     except ValueError as error:
@@ -145,7 +145,7 @@ def _episodes(whole: _Table) -> tuple[EpisodeIndex, ...]:
 
 @dataclass(frozen=True)
 class _Table:
-    """A table of the index and where it begins: behind the line ``start`` of ``whole``, 0 for the first one."""
+    """A table of the index and its place: after the line ``start`` of ``whole``, 0 for the first table."""
 
     table: dict[str, Any]
     file: str
@@ -153,7 +153,7 @@ class _Table:
     start: int
 
     def line(self, key: str) -> int:
-        """The line of an entry; 0 where it is not found."""
+        """The line of an entry; 0 if it is missing."""
         named = re.compile(rf"\s*\[*[\s\"']*{re.escape(key)}[\s\"']*[=\].]")
         for number, line in enumerate(self.whole.splitlines()[self.start :], self.start + 1):
             if named.match(line):
@@ -163,7 +163,7 @@ class _Table:
         return 0
 
     def check(self, keys: tuple[str, ...]) -> None:
-        """Raise PackError for an entry outside of these."""
+        """Raise PackError for an entry that is not one of ``keys``."""
         if unknown := sorted(self.table.keys() - set(keys)):
             near = get_close_matches(unknown[0], keys, 1)
             hint = f"did you mean '{near[0]}'?" if near else ""

@@ -27,9 +27,9 @@ from ninja_game.formats.replay.text import episode_key
 INDEX = "pack.toml"
 PARS = "pars.toml"  # the table of par times
 CERTIFICATES = "certificates"  # the folder of replays
-RECEIVED = "received"  # marks a pack as received by a link; copies of the pack do not get this file
+RECEIVED = "received"  # marks a pack as received by a link; copies of the pack do not contain this file
 
-MAX_FILES = 4096  # in a zip; all of them together may hold MAX_BYTES
+MAX_FILES = 4096  # most files in a zip; all of them together may have MAX_BYTES
 
 MAX_FILE_BYTES = 4 * 2**20  # the largest size of one file
 
@@ -37,7 +37,7 @@ LEVEL_FILES = re.compile(r"[^/\\:]+\.txt", re.IGNORECASE)
 
 
 def certificate_name(file: str, kind: str) -> str:
-    """Where the certificate of a level file, "exit" or "gold", lies in its pack.
+    """The path, in its pack, of a level file's certificate, "exit" or "gold".
 
     >>> certificate_name("a.txt", "exit")
     'certificates/a.exit.replay.txt'
@@ -46,9 +46,9 @@ def certificate_name(file: str, kind: str) -> str:
 
 
 class PackFiles:
-    """The files of a pack: ``names``, as "pack.toml" or "certificates/a.exit.replay.txt", sorted.
+    """The files of a pack: ``names``, such as "pack.toml" or "certificates/a.exit.replay.txt", sorted.
 
-    ``problems``: of a zip in which files hide others.
+    ``problems``: files of a zip that hide others.
 
     Raises FileError for an invalid zip, or one beyond the limits, LinkError for a broken link; OSError.
     """
@@ -64,7 +64,7 @@ class PackFiles:
             self._texts = pack_texts(path)
             self.names = tuple(sorted(self._texts))
         elif path.is_dir():
-            # A link in somebody's pack may lead to a file that is not theirs.
+            # A symbolic link in a foreign pack may point to a private file.
             below = [] if (path / CERTIFICATES).is_symlink() else files_in(path / CERTIFICATES, follow_links=False)
             inside = [*files_in(path, follow_links=False), *(f"{CERTIFICATES}/{name}" for name in below)]
             self.names = tuple(sorted(inside))
@@ -79,7 +79,7 @@ class PackFiles:
             what, found = "neither a folder nor a zip that can be a pack", str(error)
             raise FileError(what, str(self.path), found=found, expected=f"a pack, with {INDEX}") from None
         entries = [entry for entry in self._zip.infolist() if not entry.filename.endswith("/")]
-        # Zips are often made of the folder instead of its files.
+        # Many zips contain the folder instead of its files.
         indexes = [name for entry in entries if PurePosixPath(name := entry.filename).name == INDEX]
         top = min(indexes, key=lambda name: name.count("/"), default=INDEX).removesuffix(INDEX)
         if others := [name for name in sorted(set(indexes)) if name != top + INDEX]:
@@ -109,13 +109,13 @@ class PackFiles:
         data, folder = BytesIO(), self.path.resolve().name.removesuffix(".zip")
         with ZipFile(data, "w", ZIP_DEFLATED) as file:
             for name in self.own_names:
-                about = ZipInfo(f"{folder}/{name}")
-                about.compress_type = ZIP_DEFLATED
-                file.writestr(about, self.text(name))
+                entry = ZipInfo(f"{folder}/{name}")
+                entry.compress_type = ZIP_DEFLATED
+                file.writestr(entry, self.text(name))
         return data.getvalue()
 
     def place(self, name: str) -> str:
-        """The path of a file, as errors name it; a file's own path in a folder."""
+        """The path of a file for error messages; in a folder that of the file itself."""
         return str(self.path / name)
 
     def text(self, name: str) -> str:
@@ -142,7 +142,7 @@ class PackFiles:
 
 
 def is_pack(path: Path) -> bool:
-    """Whether a path looks like a pack: a folder with an index, a file named as a zip, a link of a pack."""
+    """Tell whether a path looks like a pack: a folder with an index, a file named like a zip, a link of a pack."""
     if kind := link_kind(path):
         return kind == "pack"
     try:
@@ -152,7 +152,7 @@ def is_pack(path: Path) -> bool:
 
 
 class Pack:
-    """A folder or zip with ``pack.toml``. Unreadable level files become ``problems``; the others are there.
+    """A folder, zip or link with ``pack.toml``. Unreadable level files become ``problems``; the others are loaded.
 
     Raises PackError for a missing or invalid index, FileError for anything but a pack; OSError.
     """
@@ -170,7 +170,7 @@ class Pack:
 
     @cached_property
     def levels(self) -> dict[str, NamedLevel]:
-        """The level of each file, the first one where it holds several."""
+        """The level of each file; the first one if a file has several."""
         named_levels = {}
         for name in self.files.levels:
             try:
@@ -183,7 +183,7 @@ class Pack:
 
     @cached_property
     def episodes(self) -> dict[EpisodeIndex, tuple[NamedLevel, ...]]:
-        """The levels of each episode that has any, at most five, in the order of the episodes' numbers."""
+        """The levels of each episode that has any, at most five, by the number of the episode."""
         members = {}
         for episode in self.index.episodes:
             files = episode.files(self.files.levels)
@@ -196,14 +196,14 @@ class Pack:
         return members
 
     def read_pars(self) -> dict[str, Pars]:
-        """The table of pars as it stands, by level file. Raises PackError, FileError, OSError."""
+        """Read the table of pars, by level file. Raises PackError, FileError, OSError."""
         if PARS not in self.files.names:
             return {}
         return parse_pars(self.files.text(PARS), file=self.files.place(PARS))
 
     @cached_property
     def pars(self) -> dict[str, Pars]:
-        """The pars of levels, by level file; those of levels changed since do not count."""
+        """The pars of levels, by level file, without those of levels that have changed since."""
         try:
             all_pars = self.read_pars()
         except (NinjaGameError, OSError) as error:
@@ -213,7 +213,7 @@ class Pack:
         return {file: pars for file, pars in all_pars.items() if digests.get(file, "").startswith(pars.level or "?")}
 
     def certificate(self, file: str, kind: str) -> str | None:
-        """The name of a level file's certificate, "exit" or "gold"; None where it has none."""
+        """The name of a level file's certificate, "exit" or "gold"; None without one."""
         name = certificate_name(file, kind)
         return name if name in self.files.names else None
 

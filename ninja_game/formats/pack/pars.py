@@ -11,34 +11,34 @@ from ninja_game.errors import PackError
 from ninja_game.files.untrusted import parse_toml
 
 MARGINS = {"author": 0.05, "gold": 0.225, "silver": 0.6}
-"""How much longer than the certificate a run may take, by medal, the best first, in a level without risks.
+"""Shares by which a run may be longer than the certificate, by medal, the best first, in a level without risks.
 
-From the reference: people's best runs take 5 % longer than tool-assisted ones (median of 218 levels), and on 19 of 20
-levels at most 22.5 %. Silver's is chosen, not measured: for a player who has just understood the level.
+Source: people's best runs are 5 % longer than tool-assisted ones (median of 218 levels), and at most 22.5 % longer on
+19 of 20 levels. Silver is chosen, not measured: for a player who has just understood the level.
 """
 
 MEDALS = (*MARGINS, "bronze")  # the best first; bronze is for every pass
 
 CARE = 0.25
-"""Growth of a margin by each point of difficulty, as a share of it: careful play takes longer. Chosen, not tuned."""
+"""Growth of a margin per point of difficulty, as a share of it: careful play takes longer. Chosen, not tuned."""
 
 GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extreme"}
-"""Words for a difficulty below a number: what a player reads."""
+"""Words for difficulties below a number, for players."""
 
-STEP = 4  # ticks to whose multiples pars are rounded up: a tenth of a second
+STEP = 4  # pars are rounded up to multiples of so many ticks: a tenth of a second
 
-DIGITS = 16  # how much of a digest the table keeps
+DIGITS = 16  # digits of a digest in the table
 
 _HEAD = "# Made by `ninja-game levels pars` from the levels and their certificates: exit and gold in ticks.\n\n"
 
 
 @dataclass(frozen=True)
 class Pars:
-    """The measurements of a level's certificates.
+    """Measurements of a level's certificates.
 
-    ``level``, ``run``: digests of the level and of its run to the exit, from which the rest was made. ``exit``: the
-    tick of the exit contact in that run; ``gold``: the same in the run with all gold, None without one. ``difficulty``:
-    see ``ninja_game.batch.difficulty``.
+    ``level``, ``run``: digests of the level and of its run to the exit, the sources of the rest. ``exit``: the tick of
+    that run's exit contact; ``gold``: the same in the run with all gold, None without one. ``difficulty``: as in
+    ``ninja_game.batch.difficulty``.
     """
 
     level: str
@@ -49,7 +49,7 @@ class Pars:
 
     @property
     def grade(self) -> str:
-        """The difficulty in a word, "" where it is not known.
+        """The difficulty in a word, "" if it is unknown.
 
         >>> [Pars("", "", 400, difficulty=points).grade for points in (None, 0.2, 0.8, 5.0, 40.0)]
         ['', 'easy', 'easy', 'hard', 'extreme']
@@ -59,7 +59,7 @@ class Pars:
         return next(word for below, word in GRADES.items() if self.difficulty < below)
 
     def par(self, medal: str) -> int:
-        """The tick of the exit contact that still brings a medal with a margin, which difficulty widens.
+        """The last tick of an exit contact that still earns a medal with a margin, which difficulty widens.
 
         >>> [Pars("", "", 400, difficulty=points).par("gold") for points in (None, 0.0, 4.0)]
         [492, 492, 580]
@@ -68,16 +68,16 @@ class Pars:
         return STEP * ceil(round(self.exit * (1 + margin) / STEP, 6))
 
     def medal(self, tick: int) -> str:
-        """The best medal for an exit contact in a tick."""
+        """The best medal for an exit contact in ``tick``."""
         return next((medal for medal in MARGINS if tick <= self.par(medal)), MEDALS[-1])
 
     def next_medal(self, tick: int) -> str:
-        """The medal above that of an exit contact in a tick, "" after the best."""
+        """The medal better than that for an exit contact in ``tick``, "" for the best."""
         return next((medal for medal in reversed(MARGINS) if tick > self.par(medal)), "")
 
 
 def parse_pars(text: str, *, file: str = "") -> dict[str, Pars]:
-    """The table of a pack by level file. Raises PackError."""
+    """Read the table of a pack, by level file. Raises PackError."""
     try:
         tables = parse_toml(text)
     except ValueError as error:
@@ -98,7 +98,7 @@ def _is_whole(table: Mapping[str, Any]) -> bool:
 
 
 def write_pars(pars: Mapping[str, Pars]) -> str:
-    """The table as TOML, one line per level file, in their order."""
+    """Write the table as TOML, one line per level file, in their order."""
     lines = []
     for name in sorted(pars):
         par = pars[name]

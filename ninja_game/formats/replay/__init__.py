@@ -1,1 +1,1 @@
-"""Replays as text."""
+"""Replays as text, and notations of inputs."""

@@ -20,7 +20,7 @@ W = TypeVar("W", bound=str)
 
 REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
 CLAIMS = ("rules", "outcome", "gold", "digest", "waypoints")
-"""A replay without any of these is without claims: it needs its inputs only."""
+"""The headers that make claims; a replay without them only needs its inputs."""
 SECTIONS = ("inputs", "level-data", "waypoints")
 KEYS = (
     *REQUIRED, "name", "author", "co-authors", "made", "level", "level-record", "level-digest", "digest", "demo-length",
@@ -29,7 +29,7 @@ KEYS = (
 
 COUNT_LIMIT = 10**9
 
-# Recordings of one level usually follow each other.
+# Most recordings in a row are of the same level.
 LEVELS_KEPT = 512  # levels in memory, some 10 MB
 MAX_KEPT_LENGTH = 2**15  # characters of their texts
 
@@ -39,7 +39,7 @@ _COUNT = re.compile(r"0|[1-9][0-9]{0,8}")
 
 
 class Headers:
-    """The ``key: value`` lines and the sections of a replay, with their places for messages."""
+    """The ``key: value`` lines and the sections of a replay, with their places for error messages."""
 
     def __init__(self, lines: Sequence[Line], file: str) -> None:
         self.file = file
@@ -62,7 +62,7 @@ class Headers:
                 raise ReplayError("an unknown header", file, number, 1, repr(key[:40]), ", ".join(KEYS), hint)
             if key in self.lines:
                 raise ReplayError("a header given twice", file, number, 1, repr(key), hint="keep one of them")
-            # The value keeps its column, so that messages can name it.
+            # The value keeps its column, so that error messages can name it.
             self.lines[key] = [(number, " " * match.start(2) + match[2])]
         self.unclaimed = not any(key in self.lines for key in CLAIMS)
         missing = [repr(key) for key in (("inputs",) if self.unclaimed else REQUIRED) if key not in self.lines]
@@ -73,7 +73,7 @@ class Headers:
         return [(number, line) for number, line in self.lines.get(key, []) if line.strip()]
 
     def line(self, key: str) -> int:
-        """Where a header stands; 0 if it does not."""
+        """The line of a header; 0 if it is missing."""
         return self.lines[key][0][0] if key in self.lines else 0
 
     def error(self, key: str, what: str, expected: str, hint: str = "") -> ReplayError:
@@ -82,11 +82,11 @@ class Headers:
         return ReplayError(what, self.file, number, len(line) - len(value) + 1, repr(value[:40]), expected, hint)
 
     def raw(self, key: str) -> str:
-        """A header's value, '' without one."""
+        """A header's value, '' if it is missing."""
         return self.lines[key][0][1].strip() if key in self.lines else ""
 
     def text(self, key: str) -> str:
-        """A header's text; one in double quotes is JSON."""
+        """A header's text; JSON if it is in double quotes."""
         value = self.raw(key)
         if value.startswith('"'):
             quoted = read_quoted(value)
@@ -98,7 +98,7 @@ class Headers:
         return value
 
     def count(self, key: str) -> int:
-        """A whole number; 0 without the header."""
+        """A header's whole number; 0 if it is missing."""
         if key not in self.lines:
             return 0
         if not _COUNT.fullmatch(self.raw(key)):
@@ -106,7 +106,7 @@ class Headers:
         return int(self.raw(key))
 
     def number(self, key: str) -> float | None:
-        """A number as N writes them; None without the header."""
+        """A header's number in N's notation; None if it is missing."""
         if key not in self.lines:
             return None
         value = parse_number(self.raw(key))
@@ -136,14 +136,14 @@ class Headers:
         return names
 
     def digest(self, key: str) -> str:
-        """64 hex digits; '' without the header."""
+        """A header's 64 hex digits; '' if it is missing."""
         if key in self.lines and not _DIGEST.fullmatch(self.raw(key)):
             raise self.error(key, f"no digest in '{key}'", "64 digits 0-9, a-f", "leave the line out if you have none")
         return self.raw(key)
 
 
 class Waypoint(NamedTuple):
-    """Where the ninja is after a tick: px, and its state by name."""
+    """The ninja after a tick: place in px, and name of its state."""
 
     tick: int
     x: float
@@ -162,7 +162,7 @@ def read_level(lines: Sequence[Line], file: str) -> tuple[Level | None, str, str
         placed = [""] * lines[-1][0]
         for number, line in lines:
             placed[number - 1] = line
-        parse_ascii_level("\n".join(placed), file=file)  # raises it with the replay's line
+        parse_ascii_level("\n".join(placed), file=file)  # raises the same error, with the replay's line
         raise
 
 
@@ -170,14 +170,14 @@ def read_level(lines: Sequence[Line], file: str) -> tuple[Level | None, str, str
 def _level_of(text: str) -> tuple[Level, str, str]:
     read = parse_ascii_level(text)
     level = read.level
-    # With one and the same NaN everywhere a replay equals the one that was written.
+    # Tuples with the same NaN object are equal, so a replay equals the one that was written.
     one_nan = [tuple(NAN if math.isnan(value) else value for value in record.values) for record in level.objects]
     records = [record._replace(values=values) for record, values in zip(level.objects, one_nan, strict=True)]
     return Level(level.tiles, tuple(records)), read.name, read.author
 
 
 def read_waypoints(lines: Sequence[Line], file: str) -> tuple[Waypoint, ...]:
-    """The waypoints of a replay, a line each: tick, x, y, state. Raises ReplayError with the line."""
+    """Read the waypoints of a replay, one per line: tick, x, y, state. Raises ReplayError with the line."""
     waypoints: list[Waypoint] = []
     for number, line in lines:
         words = line.split()

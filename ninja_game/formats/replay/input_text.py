@@ -1,4 +1,4 @@
-"""Reading inputs that people wrote: runs, comments, repeat blocks, markers, other files (`docs/replay-format.md`)."""
+"""Inputs written by people: runs, comments, repeat blocks, markers, other files (`docs/replay-format.md`)."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from ninja_game.formats.replay.notations import (
 )
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, with_press_bit
 
-MAX_INCLUDES = 100  # files that a text may take in, the same one every time
+MAX_INCLUDES = 100  # most files that a text may include, repetitions counted
 
-MAX_MARKERS = 100_000  # in a text with all that it takes in
+MAX_MARKERS = 100_000  # most markers in a text and its included files
 
-DEEPEST = 8  # how deep files may take in others, and blocks may lie in blocks
+DEEPEST = 8  # most levels of included files, and of nested blocks
 
 _WORD = re.compile(r';.*|#"[^"]*"|\(|\)[^ \t();]*|[^ \t();]+')
 _MARKER = re.compile(r'#([\w.-]+)|#"([^"]*)"')
@@ -36,22 +36,22 @@ _KEY_BITS = {text: keys for keys, text in enumerate(KEY_NAMES)}
 
 
 class Inputs(NamedTuple):
-    """The keys of every tick, one byte each, and the names of some ticks."""
+    """The keys of every tick, one byte each, and the names of ticks."""
 
     keys: bytes
     markers: tuple[Marker, ...] = ()
 
 
 Include = Callable[[str], tuple[str, str]]
-"""From a name in a text to a file's path and text. Raises ReplayError."""
+"""Turns a name in a text into a file's path and text. Raises ReplayError."""
 
 RepeatedKeys = tuple[int, str, int]  # keys that are down, "!", "-" or "" as mark, number of ticks
 
 
 def read_inputs(lines: Iterable[Line], *, file: str = "", include: Include | None = None) -> Inputs:
-    """The inputs that numbered lines describe. ``include``: reads the files that they name; None: they may name none.
+    """Read the inputs in numbered lines. ``include``: reads the files that they name; None: no file may be named.
 
-    Raises ReplayError with file, line and column for anything else, and for more than a million ticks.
+    Raises ReplayError with file, line and column for malformed lines, and for more than MAX_TICKS ticks.
     """
     reader = _Reader(include)
     return _as_inputs(reader.block(lines, [file]).items)
@@ -64,14 +64,14 @@ def not_a_marker(found: str, file: str = "", line: int = 0, column: int = 0) -> 
 
 @dataclass
 class _Block:
-    """Runs and the names of markers, in order; ``ticks``: of all runs. ``place``: where it begins."""
+    """Runs and names of markers, in order; ``ticks``: of all runs together. ``place``: where the block begins."""
 
     place: tuple[str, int, int]
     items: list[RepeatedKeys | str] = field(default_factory=list)
     ticks: int = 0
 
     def add(self, items: Iterable[RepeatedKeys | str], ticks: int, place: tuple[str, int, int]) -> None:
-        """Append runs of this many ticks. Raises ReplayError for more than a million in all."""
+        """Append runs of ``ticks`` ticks. Raises ReplayError for more than MAX_TICKS in all."""
         self.ticks += ticks
         if self.ticks > MAX_TICKS:
             found, expected = f"{self.ticks} ticks", f"at most {MAX_TICKS}"
@@ -80,7 +80,7 @@ class _Block:
 
 
 class _Reader:
-    """Reads the lines of a text and of the files that it names."""
+    """Reads the lines of a text and of the files that it includes."""
 
     def __init__(self, include: Include | None) -> None:
         self._include = include
@@ -89,7 +89,7 @@ class _Reader:
         self._read: dict[str, _Block] = {}
 
     def block(self, lines: Iterable[Line], files: list[str]) -> _Block:
-        """All of a file as one block; ``files``: those that led here, it being the last."""
+        """Read a file as one block; ``files``: the chain of includes that led here; the last one is this file."""
         stack = [_Block((files[-1], 0, 0))]
         seen: set[str] = set()
         for number, line in lines:
@@ -151,7 +151,7 @@ class _Reader:
             return self._read[path]
         lines = in_our_notation(text, path) if is_tas_text(text) else numbered_lines(text)
         block = self.block(lines, [*files, path])
-        # Markers belong to the first place that includes the file: it is read once, later places get none.
+        # Only the first place that includes a file gets its markers; later places reuse the block without them.
         self._read[path] = replace(block, items=[item for item in block.items if not isinstance(item, str)])
         return block
 
@@ -172,7 +172,7 @@ def _end_block(text: str, stack: list[_Block], place: tuple[str, int, int]) -> N
 
 
 def _as_inputs(items: Iterable[RepeatedKeys | str]) -> Inputs:
-    """Runs as ticks: unmarked, the jump triggers where it is held and was not before. A name's first place counts."""
+    """Turn runs into ticks: without a mark, jump triggers where it goes down. A name refers to its first place."""
     keys = bytearray()
     markers: dict[str, Marker] = {}
     for item in items:
@@ -189,7 +189,7 @@ def _as_inputs(items: Iterable[RepeatedKeys | str]) -> Inputs:
 
 
 def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
-    """The error for a word that is not a run, with the likeliest way to fix it."""
+    """The error for a word that is not a run, with the likeliest fix."""
     keys, star, count = text.partition("*")
     if star and not re.fullmatch("[1-9][0-9]{0,6}", count):
         hint = "a count is a whole number from 1"
@@ -204,7 +204,7 @@ def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
 
 
 def include_reader(file: str) -> Include | None:
-    """Reads files in the folder of ``file`` or below it, as inputs name them; None where there is no such folder."""
+    """Make a reader of the files in or below the folder of ``file``; None if there is no such folder."""
     if not has_folder(file):
         return None
 

@@ -13,17 +13,17 @@ from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, 
 
 _WIDTH = 100
 
-KEY_NAMES = (".", "L", "R", "LR", "J", "LJ", "RJ", "LRJ")  # the word of each sum of keys that are down
+KEY_NAMES = (".", "L", "R", "LR", "J", "LJ", "RJ", "LRJ")  # the word for each sum of keys
 
 _WORDS = {
     (keys, usual): KEY_NAMES[keys & KEYS_DOWN] + ("" if keys == usual else "!" if keys & JUMP_PRESSED else "-")
     for keys, usual in product(range(ALL_KEYS + 1), repeat=2)
 }
-"""The word of a tick by its input, marked where that is not what its keys alone make, the second number."""
+"""The word of a tick by its input; marked if the trigger is not the one of a keyboard, the second number."""
 
 
 class Marker(NamedTuple):
-    """A name for a tick of a run, or a comment there."""
+    """A name of a tick of a run, or a comment there."""
 
     tick: int
     name: str
@@ -38,12 +38,12 @@ def is_marker_name(name: str) -> bool:
 
 
 def marker_word(name: str) -> str:
-    """A marker as it stands among inputs, in quotation marks unless its name is plain."""
+    """Write a marker among inputs, in quotation marks unless its name is plain."""
     return f"#{name}" if _PLAIN_NAME.fullmatch(name) else f'#"{name}"'
 
 
 def write_inputs(inputs: bytes, markers: Sequence[Marker] = ()) -> list[str]:
-    """The inputs as lines of runs, a new line for each marker. Raises DemoError for a byte above 15.
+    """Write inputs as lines of runs, with a new line for each marker. Raises DemoError for a byte above 15.
 
     >>> write_inputs(bytes([2, 2, 2, 14, 6, 6, 0]), [Marker(3, "corner")])
     ['R*3', '#corner RJ*3 .']
@@ -63,16 +63,16 @@ def write_inputs(inputs: bytes, markers: Sequence[Marker] = ()) -> list[str]:
 
 
 def _runs(ticks: Sequence[str]) -> Iterator[str]:
-    """Equal ticks that follow one another as one word."""
+    """Join equal ticks in a row into one word."""
     for text, group in groupby(ticks):
         count = sum(1 for _ in group)
         yield f"{text}*{count}" if count > 1 else text
 
 
 KEYSYMS = {"ff51": "L", "ff53": "R", "ffe1": "J", "ffe2": "J", "7a": "J", "20": "J"}
-"""Keys by their X11 numbers: the arrows; the shift keys, Z and space jump. The first of each is written."""
+"""Keys by their X11 numbers: the arrows; the shift keys, Z and space jump. Writing uses the first of a kind."""
 
-MAX_FRAMES = 9999  # frames that a line of CelesteTAS can say
+MAX_FRAMES = 9999  # most frames in a line of CelesteTAS
 
 _FRAMES = re.compile(r"([0-9]{1,7})((?:[ \t]*+,[ \t]*+[A-Za-z0-9.]++)*+)[ \t]*+,?[ \t]*+(?:#.*)?")
 _REPEAT = re.compile(r"repeat[ ,]+([1-9][0-9]{0,6})", re.IGNORECASE)
@@ -84,13 +84,13 @@ _ABOUT = re.compile(
     r"(?:start|finish|end)export\w*|(?:start|stop)recording)(?:[ ,].*)?|(?:author|\w*count|\w*time)[ ]*:.*",
     re.IGNORECASE,
 )
-"""Lines of CelesteTAS that concern its game only, or tell of the run."""
+"""Lines of CelesteTAS about its own game or about the run, which have no keys."""
 _ODD = re.compile(r"[^\w.-]+")
 _KEYS = re.compile(r"[0-9a-f]+(:[0-9a-f]+)*")
 
 
 def is_tas_text(text: str) -> bool:
-    """Whether a text may be of one of these notations."""
+    """Tell whether a text may be in one of these notations."""
     for _, raw in numbered_lines(text):
         line = raw.strip()
         if not _SKIPPED.fullmatch(line) and not line.startswith("#") and not _ABOUT.fullmatch(line):
@@ -99,9 +99,9 @@ def is_tas_text(text: str) -> bool:
 
 
 def in_our_notation(text: str, file: str = "") -> Iterator[Line]:
-    """The lines of another tool's inputs in the notation of our replays, with their numbers.
+    """Translate lines of another tool's inputs to the notation of our replays, with their numbers.
 
-    Raises ReplayError for keys and commands that a run of the ninja has no use for.
+    Raises ReplayError for keys and commands that have no meaning for the ninja.
     """
     repeats: list[tuple[int, str]] = []
     names: dict[str, int] = {}
@@ -132,9 +132,9 @@ def in_our_notation(text: str, file: str = "") -> Iterator[Line]:
 
 
 def _label(line: str, names: dict[str, int]) -> str:
-    """A label as a marker: what cannot stand in its name becomes '-', and a name that comes again gets a number.
+    """Turn a label into a marker: '-' replaces characters that its name cannot have; repeated names get a number.
 
-    ``names``: how often each was given so far.
+    ``names``: how often each name was used so far.
     """
     name = _ODD.sub("-", line[1:]).strip("-")[:90] or "label"
     names[name] = names.get(name, 0) + 1
@@ -147,7 +147,7 @@ def _label(line: str, names: dict[str, int]) -> str:
 
 
 def _included(line: str, file: str, number: int) -> str:
-    """A line that reads another file. Raises ReplayError for any other line."""
+    """Translate a line that includes another file. Raises ReplayError for any other line."""
     match = _READ.fullmatch(line)
     if match is None:
         expected = "frames and keys, such as 30,R,J; Repeat 4, EndRepeat, Read,FILE, #label"
@@ -161,11 +161,11 @@ def _included(line: str, file: str, number: int) -> str:
 
 
 def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
-    """Inputs in the notation of CelesteTAS, a tick a frame. Raises ReplayError for a jump that no keyboard can make."""
+    """Write inputs for CelesteTAS, a frame per tick. Raises ReplayError for a jump that no keyboard can make."""
     _check_keyboard(inputs)
     names = {marker.tick: marker.name for marker in markers}
     lines = []
-    # The number of markers up to each tick: a line ends where a marker is.
+    # Number the ticks by the markers so far: a line of the text ends at a marker.
     parts = accumulate(tick in names for tick in range(len(inputs)))
     at = 0
     for (_, keys), ticks in groupby(zip(parts, (down & KEYS_DOWN for down in inputs), strict=True)):
@@ -179,7 +179,7 @@ def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
 
 
 def write_libtas(inputs: bytes) -> str:
-    """Inputs as libTAS notes them, one line per tick. Raises ReplayError for a jump that no keyboard can make."""
+    """Write inputs for libTAS, one line per tick. Raises ReplayError for a jump that no keyboard can make."""
     _check_keyboard(inputs)
     numbers = {letter: keysym for keysym, letter in reversed(KEYSYMS.items())}
     return "".join(
@@ -197,7 +197,7 @@ def _check_keyboard(inputs: bytes) -> None:
 
 
 def _libtas_word(line: str, file: str, number: int) -> str:
-    """The keys of a line ``|Kff53:ffe1|…``, as one of our words; fields of other devices are skipped."""
+    """Translate the keys of a line ``|Kff53:ffe1|…`` to one of our words; fields of other devices are skipped."""
     fields = line.strip("|").split("|")
     keys = [field[1:] for field in fields if field.startswith("K")]
     if not keys and _KEYS.fullmatch(fields[0]):
@@ -215,7 +215,7 @@ def _libtas_word(line: str, file: str, number: int) -> str:
 
 
 def _celeste_word(token: str, file: str, number: int) -> str:
-    """The keys behind the frames of a line, as one of our words."""
+    """Translate the keys after the number of frames to one of our words."""
     letters = "".join(token.upper().replace(",", " ").split())
     if not set(letters) <= set("LRJ"):
         hint = "a second jump key would press again what is held: write J" if "K" in letters else "take it out"
@@ -224,5 +224,5 @@ def _celeste_word(token: str, file: str, number: int) -> str:
 
 
 def in_order(letters: Iterable[str]) -> str:
-    """Keys in the order of the notation: L, R, J, each once."""
+    """Sort keys into the order of the notation, L, R, J, without repetition."""
     return "".join(letter for letter in "LRJ" if letter in [*letters]) or "."

@@ -1,4 +1,4 @@
-"""How a run was made, as the tools that made it say: played, edited, searched (`docs/replay-format.md`)."""
+"""How a run was made, by the tools that made it: played, edited, searched (`docs/replay-format.md`)."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _MAX_EDITS, _MAX_NAME = 10**9 - 1, 200
 
 
 class Provenance(NamedTuple):
-    """How a run was made; all empty: unknown.
+    """How a run was made; unknown if all fields are empty.
 
-    ``played``: in the game, with the help of ``assists``, such as "practice"; ``edits``: in a TAS editor;
-    ``searches``: the commands that found keys of it, such as "improve"; ``begun_by``: whose run it was before these.
+    ``played``: in the game, with the help of ``assists``, such as "practice". ``edits``: number of edits in a TAS
+    editor. ``searches``: commands that found keys of it, such as "improve". ``begun_by``: whose run it started from.
     """
 
     played: bool = False
@@ -33,11 +33,11 @@ class Provenance(NamedTuple):
 
     @property
     def assisted(self) -> bool | None:
-        """Whether anything but a person's keys in the game made it; None: unknown."""
+        """Whether more than a person's keys in the game made it; None: unknown."""
         return True if self.assists or self.edits or self.searches else False if self.played else None
 
     def __str__(self) -> str:
-        """As replay texts have it.
+        """The text in replays.
 
         >>> str(Provenance(edits=34, searches=("improve", "search"), begun_by="Ann")), str(Provenance())
         ('edited 34, searched (improve, search) from a run by Ann', '')
@@ -50,11 +50,11 @@ class Provenance(NamedTuple):
         return ", ".join(filter(None, parts)) + (_BEGUN + self.begun_by if self.begun_by else "")
 
     def edited(self, edits: int) -> Self:
-        """With so many more edits."""
+        """A copy with this many more edits."""
         return self._replace(edits=min(self.edits + edits, _MAX_EDITS))
 
     def searched(self, *commands: str, begun_by: str = "") -> Self:
-        """With further commands that searched. ``begun_by``: the author so far, unless it says one already."""
+        """A copy with further commands that searched. ``begun_by``: the author so far, unless one is already there."""
         searches = tuple(dict.fromkeys((*self.searches, *commands)))
         return self._replace(searches=searches, begun_by=self.begun_by or " ".join(begun_by.split())[:_MAX_NAME])
 
@@ -64,7 +64,7 @@ UNKNOWN = Provenance()
 
 @lru_cache(4096)
 def parse_provenance(text: str) -> Provenance:
-    """Parse what ``str`` of a Provenance gives. Raises ValueError for any other text.
+    """Parse the ``str`` of a Provenance. Raises ValueError for any other text.
 
     >>> parse_provenance("played (practice)"), parse_provenance("edited 3 from a run by Ann").begun_by
     (Provenance(played=True, assists=('practice',), edits=0, searches=(), begun_by=''), 'Ann')
@@ -79,7 +79,7 @@ def parse_provenance(text: str) -> Provenance:
 
 
 def names_of_text(text: str) -> tuple[str, ...]:
-    """The names that a list of them has, each once.
+    """The names in a list separated by commas, without repetition.
 
     >>> names_of_text("Bob,Cy , Bob")
     ('Bob', 'Cy')
@@ -88,7 +88,7 @@ def names_of_text(text: str) -> tuple[str, ...]:
 
 
 def can_be_written(made: Provenance, co_authors: tuple[str, ...]) -> bool:
-    """Whether a replay text can hold how a run was made, and with whom.
+    """Tell whether a replay text can store how a run was made, and its co-authors.
 
     >>> can_be_written(Provenance(edits=3), ("Bob",)), can_be_written(Provenance(edits=3, begun_by="Ann "), ())
     (True, False)
@@ -104,7 +104,7 @@ _MARK, _WITH = "[made: ", "; co-authors: "
 
 
 def with_provenance(comment: str, made: Provenance, co_authors: tuple[str, ...]) -> str:
-    """The comment of a record of N, which has no other place for it, with how the run was made.
+    """Add how the run was made to the comment of a record of N, which has no other place for it.
 
     >>> with_provenance("all gold", Provenance(edits=3), ("Bob",))
     'all gold [made: edited 3; co-authors: Bob]'
@@ -116,7 +116,7 @@ def with_provenance(comment: str, made: Provenance, co_authors: tuple[str, ...])
 
 
 def without_provenance(comment: str) -> tuple[str, Provenance, tuple[str, ...]]:
-    """The other way: what else the comment says, how the run was made, its co-authors.
+    """Split what ``with_provenance`` gives: the comment, how the run was made, its co-authors.
 
     >>> without_provenance("all gold [made: edited 3; co-authors: Bob]")[::2], without_provenance("[made: by me]")[0]
     (('all gold', ('Bob',)), '[made: by me]')

@@ -1,6 +1,6 @@
-"""Our replay text: level, inputs, and the result that they must give; also several of them as an episode.
+"""Our replay text: level, inputs and their result; and an episode as several of these texts.
 
-An episode is the replays of up to five levels in a row, with the time carried on (`docs/replay-format.md`).
+An episode has the replays of up to five levels in a row; the time left carries over (`docs/replay-format.md`).
 """
 
 from __future__ import annotations
@@ -29,27 +29,27 @@ from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICKS_PER_SECOND
 MAGIC = "ninja-game replay"
 VERSION = 3
 LAST_LINE = "end"
-"""The end of a replay with claims, so that one that was cut off is noticed."""
+"""The end of a replay with claims, so that a truncated text is noticed."""
 RULES_VERSION = 1
-"""The rules that replays are recorded under; a change of the world that changes any replay raises it."""
+"""Version of the rules of replays; every change of the world that changes any replay raises it."""
 
 OUTCOMES = ("exit", "dead", "running")
 INPUTS_AFTER = "inputs after the final tick"
-"""What is wrong with a replay whose time was made shorter than its run."""
+"""The error of a replay whose final tick was set before the end of its inputs."""
 
-WAYPOINT_TICKS = TICKS_PER_SECOND  # how far apart a recorder sets waypoints: a second
+WAYPOINT_TICKS = TICKS_PER_SECOND  # ticks between the waypoints of a recorder: a second
 
 
 @dataclass(frozen=True)
 class Replay:
-    """A run of one level: inputs, and what they lead to.
+    """A run of one level: inputs and their result.
 
-    ``inputs``: one byte per tick, the sum of its ``Input`` flags; in ticks beyond them no key is down. ``final_tick``:
-    the last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (64 hex digits of what the world
-    shows, or '') are as after it. The level is given by one or more of: its digest, a path from the replay's folder
-    with the number of the record in that file, the level itself with its name and author. ``waypoints``: where the
-    ninja passes, by tick, so that a run that goes another way is noticed where it does. ``made``: how it was made, and
-    ``co_authors`` who took part besides ``author``, as the tools that made it say.
+    ``inputs``: one byte per tick, the sum of its ``Input`` flags; after their end no key is down. ``final_tick``: the
+    last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (64 hex digits of what the world shows,
+    or '') are those after it. One or more of these identify the level: its digest; a path from the replay's folder,
+    with the number of the record in that file; the level itself, with its name and author. ``waypoints``: places of the
+    ninja, by tick; they show in which tick a run takes another way. ``made``: how it was made, ``co_authors``: who took
+    part besides ``author``, both as written by the tools that made it.
     """
 
     inputs: bytes
@@ -74,23 +74,23 @@ class Replay:
     co_authors: tuple[str, ...] = ()
 
     @classmethod
-    def of_inputs(cls, inputs: bytes, level: Level, **about: Any) -> Self:
-        """Inputs on a level without claims. ``about``: other fields by their names."""
-        return cls(inputs, max(0, len(inputs) - 1), "", level=level, **about)
+    def of_inputs(cls, inputs: bytes, level: Level, **fields: Any) -> Self:
+        """Make a replay without claims. ``fields``: other fields by their names."""
+        return cls(inputs, max(0, len(inputs) - 1), "", level=level, **fields)
 
     @property
     def unclaimed(self) -> bool:
-        """Whether it makes no claims about the result of its inputs."""
+        """Whether it claims nothing about the result of its inputs."""
         return not self.outcome
 
     @property
     def practice(self) -> bool:
-        """Whether it was played in practice, or with its tools or other help in play."""
+        """Whether it was played with practice tools or other help."""
         return bool(self.made.assists)
 
     @property
     def credit(self) -> str:
-        """Who made it, and whether not only by playing: ``Ann, Bob (edited, searched)``."""
+        """Who made it, and how if not only by playing: ``Ann, Bob (edited, searched)``."""
         return " ".join(filter(None, (", ".join(filter(None, (self.author, *self.co_authors))), self.how)))
 
     @property
@@ -102,28 +102,28 @@ class Replay:
 
     @property
     def end_tick(self) -> int:
-        """The tick of the exit contact or death that it claims; -1 where it claims neither."""
+        """The tick of the exit contact or death that it claims; -1 if it claims neither."""
         return self.final_tick if self.outcome in ("exit", "dead") else -1
 
     @property
     def ticks(self) -> int:
-        """How many ticks are run."""
+        """The number of ticks that are run."""
         return self.final_tick + 1
 
     @property
     def length(self) -> int:
-        """Its length, and its time in ticks: the tick of exit contact or death, else all ticks that are run."""
+        """Its length and time in ticks: the tick of exit contact or death, else all ticks that are run."""
         return self.ticks if self.end_tick < 0 else self.end_tick
 
     def playback(self, ticks: int) -> bytes:
-        """The input of each of the first ``ticks`` ticks."""
+        """The inputs of the first ``ticks`` ticks."""
         if self.demo_length is not None:
             return Demo(self.inputs, self.demo_length).playback(ticks)
         return fit_inputs(self.inputs, ticks)
 
 
 class InputsAfterError(ReplayError):
-    """A replay has inputs after its final tick. ``replay``: as it says."""
+    """A replay has inputs after its final tick. ``replay``: the replay as read."""
 
     replay: Replay
 
@@ -132,15 +132,15 @@ _FIRST_LINE = re.compile(rf"{MAGIC} +([0-9]{{1,9}})[ \t]*")
 
 
 def is_replay(text: str) -> bool:
-    """Whether a text begins as a replay of ours does."""
+    """Tell whether a text begins like a replay of this program."""
     return text.lstrip("\ufeff \t\r\n").startswith(MAGIC)
 
 
 def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Replay:
-    """The replay that a text describes. ``level``: what it is played on if it says no level at all.
+    """Read a replay. ``level``: the level to use if the text names none.
 
-    Raises ReplayError, naming line and column, for whatever is not as `docs/replay-format.md` says; LevelError for the
-    level inside.
+    Raises ReplayError with line and column for every deviation from `docs/replay-format.md`; LevelError for the level
+    inside.
     """
     lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith(";")]
     _check_first_line(lines, file)
@@ -186,7 +186,7 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
 
 
 def _check_first_line(lines: Sequence[Line], file: str) -> None:
-    """Raise ReplayError unless the first line says what this is, in the version that is read."""
+    """Raise ReplayError unless the first line has the right format and version."""
     number, first = lines[0] if lines else (1, "")
     match = _FIRST_LINE.fullmatch(first)
     expected = f"'{MAGIC} {VERSION}' in the first line"
@@ -198,7 +198,7 @@ def _check_first_line(lines: Sequence[Line], file: str) -> None:
 
 
 def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
-    """What cannot be in a replay, with the header that it concerns; None if all is well."""
+    """Find a contradiction: its header and the error; None without any."""
     counts = {"rules": replay.rules, "final-tick": replay.final_tick, "gold": replay.gold}
     for key, count in (counts | {"level-record": replay.level_record}).items():
         if not 0 <= count < COUNT_LIMIT:
@@ -236,9 +236,9 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
 
 
 def write_replay(replay: Replay) -> str:
-    """The replay as text; reading it gives an equal replay.
+    """Write a replay as text; reading it gives an equal replay.
 
-    Raises ReplayError for a replay that contradicts itself, DemoError for an input above 15.
+    Raises ReplayError for contradictory fields, DemoError for an input above 15.
     """
     problem = _contradiction(replay)
     if problem:
@@ -267,7 +267,7 @@ def write_replay(replay: Replay) -> str:
 
 @dataclass(frozen=True, eq=False)
 class _Same:
-    """A level that equals itself alone: two that are equal may be written with zeros of another sign."""
+    """A level that only equals itself: equal levels may still differ in the sign of zeros, so in their text."""
 
     level: Level
 
@@ -285,7 +285,7 @@ def _level_lines(same: _Same, name: str, author: str) -> list[str]:
 
 
 def _claims(replay: Replay) -> dict[str, str]:
-    """The headers that tell how far a run goes, and the result of it."""
+    """The headers with the length of a run and its result."""
     final_tick = {"final-tick": str(replay.final_tick)}
     if not replay.unclaimed:
         claimed = {"outcome": replay.outcome, "gold": str(replay.gold), "digest": replay.digest}
@@ -302,19 +302,19 @@ _HEAD = re.compile(rf"^{MAGIC}\b", re.MULTILINE)
 
 
 def is_episode(text: str) -> bool:
-    """Whether a text begins as an episode of ours does."""
+    """Tell whether a text begins like an episode of this program."""
     return text.lstrip("\ufeff \t\r\n").startswith(EPISODE_MAGIC)
 
 
 def episode_key(levels: Iterable[Level]) -> str:
-    """What an episode is known by: a digest of its levels in their order."""
+    """The key of an episode: a digest of its levels in their order."""
     return hashlib.sha256(" ".join(level_digest(level) for level in levels).encode()).hexdigest()
 
 
 def lifetimes(replays: Sequence[Replay]) -> list[int]:
-    """The lifetime (ticks) at the start of each level, and behind the last one, its score (game.md §1.4).
+    """The lifetime (ticks) at the start of each level and, last, after the end, which is the score (game.md §1.4).
 
-    Of replays that pass their levels with the gold and in the tick that they say.
+    The replays must pass their levels with the gold and in the tick that they claim.
     """
     ticks_left = [LIFETIME]
     for replay in replays:
@@ -323,7 +323,7 @@ def lifetimes(replays: Sequence[Replay]) -> list[int]:
 
 
 def parse_episode(text: str, *, file: str = "") -> list[Replay]:
-    """The replays of an episode's text, in order. Each says that it passes its level, and there is time left.
+    """Read the replays of an episode, in order. Each must claim that it passes its level in the time left.
 
     Raises ReplayError or LevelError with the line in the whole text.
     """
@@ -338,7 +338,7 @@ def parse_episode(text: str, *, file: str = "") -> list[Replay]:
     replays: list[Replay] = []
     for start, end in zip(heads, [*heads[1:], len(text)], strict=True):
         line = text.count("\n", 0, start) + 1
-        # Empty lines in front, so that an error tells the line in the whole text.
+        # Empty lines before the text make errors count lines of the whole text.
         replays.append(parse_replay("\n" * (line - 1) + text[start:end], file=file))
         if replays[-1].outcome != "exit":
             found, hint = replays[-1].outcome or "no claims", "write it with `ninja-game convert RUN… OUT.episode.txt`"
@@ -352,7 +352,7 @@ def parse_episode(text: str, *, file: str = "") -> list[Replay]:
 
 
 def write_episode(replays: Sequence[Replay]) -> str:
-    """The text of an episode's replays. Raises ReplayError for anything else, as ``parse_episode``."""
+    """Write the replays of an episode. Raises ReplayError for replays that ``parse_episode`` would refuse."""
     text = "\n".join([FIRST_LINE, *map(write_replay, replays)])
     try:
         parse_episode(text)

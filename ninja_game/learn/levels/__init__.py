@@ -1,1 +1,1 @@
-"""Levels to learn in: where they come from, and which of them an episode is played in."""
+"""Levels for learning: their sources, and the choice of the level of an episode."""

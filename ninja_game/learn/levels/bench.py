@@ -1,9 +1,9 @@
-"""Levels without end: 100,000 to learn in and 1,000 to be tried in, each made from its number in microseconds.
+"""Unlimited levels: 100,000 for training and 1,000 for tests, each made from its number in microseconds.
 
-A level is one of a thousand of an earlier generator (``generator/packed.py``), varied: mirrored, with a part of its
-gold and of what kills, and, but for the hard ones, with a shorter task: start, switch and exit are put on the way of
-the run that is known. That run, cut alike, passes every one of them: the world itself has played it. Of the first
-``TRIES`` variations of a number the table ``TABLE`` names the one with which it did (tools/bench_levels.py).
+A level is a variation of one of a thousand levels of an earlier generator (``generator/packed.py``): mirrored, with
+less gold and fewer hazards, and, except in the hard ones, with a shorter task, for which start, switch and exit are put
+on the way of the known run. That run, shortened in the same way, passes every level: it was played to test this. Of the
+first ``TRIES`` variations of a number ``TABLE`` has the one with which it passed (tools/bench_levels.py).
 
 >>> level = bench_level("test", 0)
 >>> level.grade, level.name, len(level.inputs) <= 120
@@ -36,23 +36,23 @@ from ninja_game.sim.states import SKIDDING
 
 COUNTS = {"train": 100_000, "test": 1_000}
 VAL = range(99_000, 100_000)
-"""Numbers of `train`, to choose settings by: who watches them learns in the others (docs/ninjabench.md)."""
+"""Numbers of `train` for the choice of settings; training uses the other numbers (docs/ninjabench.md)."""
 GRADES = {"easy": (30, 88), "medium": (89, 208), "hard": None}
-"""Least and most ticks that are taken of the known run; the hard ones have the whole task."""
+"""Least and most ticks of the part of the known run that is the task; hard levels have the whole run."""
 DELAY = 16
-"""Who starts elsewhere starts from rest: up to so many ticks of the known run are held longer, and its last one."""
-AWAY = 36.0  # px, at least, between a new start and the old one
-KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}  # share of what kills that stays at least, by grade
-BASES = 1000  # levels that are varied
-LARGEST = 306  # the number of a level with the most objects of all
+"""A run with another start begins at rest: it holds one key up to this many ticks longer, its last key this many."""
+AWAY = 36.0  # least px between a new start and the old one
+KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}  # least share of hazards that is kept, by grade
+BASES = 1000  # number of levels that are varied
+LARGEST = 306  # number of a level with the most objects
 TRIES = 32
-"""The last one takes away only gold, is not mirrored, and begins where the run does: that run passes it."""
+"""The last variation only removes gold, is not mirrored and has the run's own start, so that the run passes it."""
 TABLE = "bench.bin"
-"""Among the game's assets: which try each level is, a byte each, those of `train` before those of `test`."""
+"""An asset of the game: the variation of each level, one byte each, `train` before `test`."""
 
 
 class BenchLevel(NamedTuple):
-    """``inputs``: of a run that passes the level, a byte a tick, to the tick of the exit or some ticks more."""
+    """``inputs``: a run that passes the level, one byte per tick, up to the exit or some ticks more."""
 
     name: str
     grade: str
@@ -61,9 +61,9 @@ class BenchLevel(NamedTuple):
 
 
 class _Base(NamedTuple):
-    """A level to be varied. ``places``: the ninja's after each tick of the run, px.
+    """A level to be varied. ``places``: of the ninja after each tick of the run, px.
 
-    ``starts``: ticks of the run after which another one may begin, the slowest first: it stands, far from the start.
+    ``starts``: ticks of the run after which another may begin, the slowest first: the ninja stands far from the start.
     """
 
     level: Level
@@ -73,9 +73,9 @@ class _Base(NamedTuple):
 
 
 def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLevel:
-    """The level of a number of "train" or "test"; ``attempt``: another of its variations, which perhaps no run passes.
+    """Make the level of a number of "train" or "test"; ``attempt``: another variation, which perhaps no run passes.
 
-    Raises ArgumentError for another number or split, FileError where the files of the game are not there.
+    Raises ArgumentError for another number or split, FileError if the assets of the game are missing.
     """
     if split not in COUNTS or not 0 <= number < COUNTS[split]:
         raise ArgumentError(f"found level {number!r:.30} of {split!r:.30}; expected one of {COUNTS}, counted from 0")
@@ -95,7 +95,7 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
         last = min(ticks, span[1] if sure else int(span[0] + drawn[3] * (span[1] + 1 - span[0])))
         starts = base.starts[base.starts <= ticks - last]
         if len(starts) and not sure:
-            # Those where it is slow come first.
+            # Choose among the slowest moments.
             first = int(starts[int(drawn[4] * max(8, len(starts) / 4)) % len(starts)])
         last += first
         switch = first + int((0.3 + 0.5 * drawn[5]) * (last - first))
@@ -117,14 +117,14 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
 
 
 def _place(base: _Base, tick: int) -> tuple[float, float]:
-    """Where the ninja is after so many ticks, whole px."""
+    """The place of the ninja after ``tick`` ticks, whole px."""
     x, y = base.places[tick - 1].round().tolist()
     return x, y
 
 
 @cache
 def _bases(split: str) -> list[int]:
-    """The numbers of the levels that are varied: one of ten, of every difficulty as many, is kept for the test."""
+    """Numbers of the levels to vary: one in ten, the same number of every difficulty, is reserved for the test."""
     return [number for number in range(BASES) if (number // 10 % 10 == 7) == (split == "test")]
 
 
@@ -139,7 +139,7 @@ _SIDES_SWAPPED = bytes(keys ^ _SIDES if keys & _SIDES not in (0, _SIDES) else ke
 
 @lru_cache(maxsize=2 * BASES)
 def _base(number: int, mirrored: bool) -> _Base:
-    """A level that comes with the game, or its mirror image, with the run that passes it."""
+    """A level that comes with the game, or its mirror image, with a run that passes it."""
     if not mirrored:
         packed = frozen_level(number)
         record = open_worlds("auto", packed.level, box=False).run(packed.inputs)
@@ -175,7 +175,7 @@ class _Levels(Sequence[Level]):
 
 
 class BenchSource(LevelSource):
-    """Levels of "train" or "test" by their numbers. None is held."""
+    """Levels of "train" or "test" by their numbers, made on demand."""
 
     def __init__(self, split: str, numbers: range) -> None:
         self.levels: _Levels = _Levels(split, numbers)
@@ -184,15 +184,15 @@ class BenchSource(LevelSource):
 
     @property
     def digest(self) -> str:
-        """Sha256 (hex) of what makes them."""
+        """Sha256 (hex) of the data that determine the levels."""
         assets = [read_bytes(data_folder("assets") / name, MAX_BYTES) for name in (FROZEN, TABLE)]
         return sha256(f"{self.levels.split} {self.levels.numbers}".encode() + b"".join(assets)).hexdigest()
 
 
 def bench_source(text: str) -> BenchSource:
-    """What follows "bench:" in the name of a source: "train", "test:easy", "train:17", "train:easy:0-98999", "val".
+    """Read the part after "bench:" of a source's name: "train", "test:easy", "train:17", "train:easy:0-98999", "val".
 
-    Raises ArgumentError for anything else, FileError where the files of the game are not there.
+    Raises ArgumentError for anything else, FileError if the assets of the game are missing.
     """
     match = re.fullmatch(rf"(\w+)(?::({'|'.join(GRADES)}))?(?::([0-9]{{1,6}})(?:-([0-9]{{1,6}}))?)?", text)
     split, grade, first, last = match.groups() if match else (text.partition(":")[0], None, None, None)

@@ -1,4 +1,4 @@
-"""Where levels come from.
+"""The origins of levels: names, files, generated levels.
 
 >>> level_source("00-1-mind-the-gap").names
 ['00-1-mind-the-gap']
@@ -25,7 +25,7 @@ from ninja_game.sim.level import Level
 DEFAULT_LEVEL = "00-0-first-steps"
 
 Origin: TypeAlias = "str | Path | Level | NamedLevel | LevelSource | Sequence[Origin]"
-"""What ``level_source`` takes."""
+"""The arguments of ``level_source``."""
 
 
 def level_source(origin: Origin) -> LevelSource:
@@ -94,7 +94,7 @@ _own_levels = cache(own_levels)
 
 
 def _split(names: Sequence[str]) -> dict[str, list[str]]:
-    """The parts of the set, of files EE-L-name: for testing, level 2 of the first episode, 3 of the next, and so on."""
+    """The two parts of the set (files EE-L-name). For testing: level 2 of the first episode, 3 of the next etc."""
     episodes = sorted({name[:2] for name in names})
     test = {f"{episode}-{(place + 2) % LEVELS_PER_EPISODE}" for place, episode in enumerate(episodes)}
     return {
@@ -123,7 +123,7 @@ def _generated(text: str) -> LevelSource:
 
 
 def _packed(difficulty: str) -> LevelSource:
-    """The generated levels that come with the game: all, or those of a difficulty."""
+    """The generated levels that come with the game: all, or those of one difficulty."""
     from ninja_game.generator import packed
 
     if difficulty and difficulty not in map(str, range(1, 11)):
@@ -133,9 +133,9 @@ def _packed(difficulty: str) -> LevelSource:
 
 
 def generated_levels(seeds: Iterable[int], difficulty: int) -> LevelSource:
-    """Levels by ``generate``, those of the seeds that give none left out. Needs Numba; seconds for each.
+    """Make levels by ``generate``, without the seeds that give none. Needs Numba, and seconds per level.
 
-    Raises MemoryUnavailableError without Numba, ArgumentError where no seed gives a level.
+    Raises MemoryUnavailableError without Numba, ArgumentError if no seed gives a level.
     """
     from ninja_game.generator.generate import generate
 

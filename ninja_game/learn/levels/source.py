@@ -1,8 +1,7 @@
-"""Levels, and which of them an episode is played in; a curriculum of them, from the easiest on.
+"""Sources of levels, the choice of the level of an episode, and a curriculum that begins with the easiest levels.
 
-What is drawn, is drawn by counting: draw e of a seed is a hash of both, and each world has a stream of its own. So a
-vector of worlds plays what as many single ones play, with any number of threads and whatever the order in which their
-episodes end.
+Random numbers are counted: draw e of a seed is a hash of both, and each world has its own stream. So a vector of worlds
+plays the same levels as as many single worlds, with any number of threads and in whatever order episodes end.
 """
 
 from __future__ import annotations
@@ -31,14 +30,14 @@ LevelChoice: TypeAlias = str | int | Sequence[str | int] | NDArray[np.integer]
 
 
 class LevelSource:
-    """Levels with their names; each is as likely as any other. ``names`` and ``levels`` are lists of one length.
+    """Levels with their names, all equally likely. ``names`` and ``levels`` are lists of one length.
 
-    Names that are there twice get a number: "level#0", "level#1".
+    Repeated names get a number: "level#0", "level#1".
     """
 
     levels: Sequence[Level]
     largest: Level | None = None
-    """Where there are too many levels to hold (`bench.py`), one with as many objects as any of them."""
+    """If there are too many levels to hold (`bench.py`): one with as many objects as any of them."""
 
     def __init__(self, names: Sequence[str], levels: Sequence[Level]) -> None:
         if not levels or len(names) != len(levels):
@@ -55,16 +54,16 @@ class LevelSource:
         return f"<{type(self).__name__} of {len(self.levels)} levels: {', '.join(self.names):.60}>"
 
     def choose(self, draws: NDArray[np.uint64]) -> NDArray[np.intp]:
-        """The number of the level of each episode, (k,), by a random number of 64 bits for each."""
+        """Choose the number of the level of each episode, (k,), by a random number of 64 bits for each."""
         return (draws % np.uint64(len(self.levels))).astype(np.intp)
 
     def report(self, numbers: NDArray[np.intp], passed: NDArray[np.bool_]) -> None:
-        """Take note of episodes that have ended: the numbers of their levels (k,), whether they were passed (k,)."""
+        """Learn from episodes that have ended: the numbers of their levels (k,), whether they were passed (k,)."""
 
     def numbers(self, choice: LevelChoice, count: int = 1) -> NDArray[np.intp]:
         """The numbers (count,) of levels chosen by name or number, one for all or one for each.
 
-        Raises ArgumentError for others.
+        Raises ArgumentError for unknown levels.
         """
         chosen = list(choice) if isinstance(choice, Sequence | np.ndarray) and not isinstance(choice, str) else [choice]
         numbers = [self.names.index(name) if isinstance(name, str) and name in self.names else name for name in chosen]
@@ -78,12 +77,12 @@ class LevelSource:
 
     @property
     def digest(self) -> str:
-        """Sha256 (hex) of the levels in their order: equal for equal levels, whatever they are called."""
+        """Sha256 (hex) of the levels in their order, whatever their names are."""
         return sha256("".join(map(level_digest, self.levels)).encode()).hexdigest()
 
 
 def nearest(word: str, words: Sequence[str]) -> str:
-    """The known names most like an unknown one, else the first, for error messages."""
+    """For error messages: the known words most like an unknown one, else the first."""
     return ", ".join(get_close_matches(word, words, 3, 0.5) or words[:3])
 
 
@@ -103,30 +102,30 @@ def draws(seeds: Draws, episodes: Draws) -> Draws:
 
 
 def _mix(state: Draws) -> Draws:
-    """SplitMix64's output function: every bit of the state reaches every bit of the result."""
+    """SplitMix64's output function: every bit of the state affects every bit of the result."""
     state = (state ^ state >> np.uint64(30)) * _FIRST
     state = (state ^ state >> np.uint64(27)) * _SECOND
     return state ^ state >> np.uint64(31)
 
 
 class LevelSequences:
-    """Which levels ``count`` worlds play, episode after episode: what their seeds draw of a source."""
+    """The levels that ``count`` worlds play, episode after episode, drawn from a source by their seeds."""
 
     def __init__(self, source: LevelSource, count: int) -> None:
         self._source = source
         self._seeds, self._episodes = np.arange(count, dtype=np.uint64), np.zeros(count, np.uint64)
 
     def seed(self, worlds: Indices, seeds: Sequence[int]) -> None:
-        """Begin the sequences of these seeds. Raises ArgumentError for another number of them and for other seeds."""
+        """Begin the sequences of these seeds. Raises ArgumentError for a wrong number of seeds or invalid seeds."""
         if len(seeds) != len(worlds):
             raise ArgumentError(f"{len(seeds)} seeds for {len(worlds)} worlds; expected one for each")
         self._seeds[worlds] = [checked_seed(seed) for seed in seeds]
         self._episodes[worlds] = 0
 
     def next(self, worlds: Indices, chosen: LevelChoice | None) -> tuple[Indices, Draws]:
-        """The numbers of the levels of the next episodes of these worlds, drawn or ``chosen``; either is an episode.
+        """The numbers of the levels of these worlds' next episodes, drawn or ``chosen``; both count as an episode.
 
-        And of each episode another random number, for what is drawn in it.
+        Also another random number per episode, for draws in it.
         """
         drawn = draws(self._seeds[worlds], self._episodes[worlds])
         self._episodes[worlds] += np.uint64(1)
@@ -135,24 +134,24 @@ class LevelSequences:
 
 
 def checked_seed(seed: object) -> int:
-    """A seed as Python's own number. Raises ArgumentError for anything but a whole number of 64 bits."""
+    """Give a seed as a Python int. Raises ArgumentError for anything but a whole number of 64 bits."""
     return whole_number("the seed", seed, 0, 2**64 - 1)
 
 
 UNPASSED_WEIGHT = 0.1
-"""What is added to the share of failures: so a level that is always passed is still played now and then."""
+"""Added to the share of failures, so that a level that is always passed is still played now and then."""
 
 
 class Curriculum(LevelSource):
-    """The levels of a source in the order of their difficulty, of which the first ``open`` are played.
+    """The levels of a source by difficulty, of which only the first ``open`` are played.
 
-    ``rates`` (levels,): the share of each level's episodes that were passed, an exponential average over about
-    ``memory`` of them, from 0. As long as its mean over the open levels is ``threshold`` or more, the next one opens.
-    Of the open levels those with more failures are chosen more often, in proportion to 1.1 - rate.
+    ``rates`` (levels,): the share of passed episodes of each level, an exponential average over about ``memory``
+    episodes, from 0. While its mean over the open levels is at least ``threshold``, the next level opens. Open levels
+    with more failures are chosen more often, in proportion to 1.1 - rate.
 
-    ``difficulties``: one for each level; None: those in the table of the game's levels (docs/making-levels.md).
-    ``start``: how many are open at first. Raises ArgumentError for what is not a source, and for a level whose
-    difficulty is not known.
+    ``difficulties``: one per level; None: those in the table of the game's levels (docs/making-levels.md). ``start``:
+    how many levels are open at first. Raises ArgumentError for anything but a source, and for a level without a known
+    difficulty.
     """
 
     def __init__(
@@ -181,13 +180,13 @@ class Curriculum(LevelSource):
         self.rates = np.zeros(len(order))
 
     def choose(self, draws: NDArray[np.uint64]) -> NDArray[np.intp]:
-        """The number of the level of each episode, (k,), by a random number of 64 bits for each."""
+        """Choose the number of the level of each episode, (k,), by a random number of 64 bits for each."""
         shares = np.cumsum(1.0 + UNPASSED_WEIGHT - self.rates[: self.open])
         chosen: NDArray[np.intp] = np.searchsorted(shares, draws / 2.0**64 * shares[-1], side="right")
         return np.minimum(chosen, self.open - 1)
 
     def report(self, numbers: NDArray[np.intp], passed: NDArray[np.bool_]) -> None:
-        """Take note of episodes that have ended; open further levels if those open are passed often enough."""
+        """Learn from episodes that have ended; open further levels if the open ones are passed often enough."""
         episodes = np.bincount(numbers, minlength=len(self.levels))
         passes = np.bincount(numbers[passed], minlength=len(self.levels))
         kept = (1.0 - 1.0 / self.memory) ** episodes
@@ -197,7 +196,7 @@ class Curriculum(LevelSource):
 
 
 def measured_difficulties(source: LevelSource) -> list[float]:
-    """The difficulties of levels as the table of the game's own levels has them. Raises ArgumentError for others."""
+    """The difficulties of levels in the table of the game's own levels. Raises ArgumentError for other levels."""
     pars = parse_pars(read_text(data_folder("levels") / PARS)).values()
     known = {par.level: par.difficulty for par in pars if par.difficulty is not None}
     digests = [level_digest(level)[:DIGITS] for level in source.levels]

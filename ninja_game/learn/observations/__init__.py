@@ -1,1 +1,1 @@
-"""Observations: parts, each with a space of its own, put together as a Dict or as one row of numbers."""
+"""Observations: parts with their own spaces, combined in a Dict or in one row of numbers."""

@@ -1,4 +1,4 @@
-"""The objects: those nearest to the ninja, and all of a level in planes of its cells."""
+"""Observations of objects: those nearest to the ninja, or all objects of a level in planes of its cells."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MAX_ROUTINE = 3.0  # the highest number of a drone's or a turret's routine
 
 @fast
 def is_there(w: World, o: Object) -> bool:
-    """Whether there is anything left of an object."""
+    """Tell whether an object still exists."""
     if o.kind == kinds.GOLD:
         return o.taken == 0
     if o.kind == kinds.MINE:
@@ -41,7 +41,7 @@ def is_there(w: World, o: Object) -> bool:
 
 @fast
 def velocity_of(o: Object) -> tuple[float, float]:
-    """Its velocity, px/tick; zero for kinds without a speed of their own."""
+    """The velocity of an object, px/tick; zero for kinds that do not move by themselves."""
     if o.kind == kinds.BOUNCE_BLOCK:
         return o.x - o.prev_x, o.y - o.prev_y
     if o.kind == kinds.THWUMP and o.routine == THWUMP_MOVE:
@@ -58,9 +58,9 @@ def velocity_of(o: Object) -> tuple[float, float]:
 
 @fast
 def face_of(o: Object) -> tuple[float, float]:
-    """The way it faces: a normal, the way a drone goes or a thwump falls; of a turret the way to its crosshair.
+    """The direction of an object: a normal, the way a drone goes or a thwump falls, a turret's way to its crosshair.
 
-    All are about unit vectors but the last: that is a share of the world's width.
+    They are unit vectors, approximately; only the last is a share of the world's width.
     """
     if o.kind == kinds.LAUNCH_PAD or o.kind == kinds.ONE_WAY or o.kind == kinds.THWUMP:
         return o.face_x, o.face_y
@@ -73,7 +73,7 @@ def face_of(o: Object) -> tuple[float, float]:
 
 @fast
 def activity_of(o: Object) -> float:
-    """What it is doing, one number.
+    """The activity of an object, as one number.
 
     Exit: 1 open. Door: 1 closed. Thwump: 1 falls, -1 rises. Guard: 1 runs. Bounce block: 1 moves. Rocket: 1 flies,
     1/2 before. Drone: 1/3 before it fires, 2/3 firing, 1 after. Turret: 1/3 aims, 2/3 before it fires, 1 after. Else 0.
@@ -99,7 +99,7 @@ def activity_of(o: Object) -> float:
 OBSERVED = tuple(kind for kind in KINDS if kind.number not in {NINJA, INERT})
 OBSERVED_KINDS = tuple(kind.name for kind in OBSERVED)
 OBJECT_COLUMNS = (*OBSERVED_KINDS, "dx", "dy", "vx", "vy", "face_x", "face_y", "moment")
-"""Columns of an object: its kind, a flag each; the way from the ninja, px; its velocity, px/tick."""
+"""Columns of an object: its kind, one flag each; its offset from the ninja, px; its velocity, px/tick."""
 DX = len(OBSERVED_KINDS)
 MAX_OBJECTS = 64
 
@@ -108,8 +108,8 @@ MAX_OBJECTS = 64
 class NearObjects(Part):
     """The ``count`` objects nearest to the ninja, nearest first, float32 (count, 20): ``OBJECT_COLUMNS``, else 0.
 
-    What is gone is not seen: gold taken, mines exploded, the switch of an open exit. ``kinds``: which kinds are looked
-    at, by name (of ``OBSERVED_KINDS``); all of them without.
+    Objects that are gone are left out: gold taken, mines exploded, the switch of an open exit. ``kinds``: names of the
+    kinds to include (of ``OBSERVED_KINDS``), by default all.
     """
 
     name: ClassVar[str] = "objects"
@@ -138,7 +138,7 @@ class NearObjects(Part):
         return (lowest / divisors).astype(np.float32), (highest / divisors).astype(np.float32), divisors
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
-        """How many; factors and limits; each level's objects, their columns; room for the nearest of each world."""
+        """The count; factors and limits; the objects of all levels, their columns; memory for the nearest."""
         low, high, divisors = self._range()
         columns = {kind.number: place for place, kind in enumerate(OBSERVED) if kind.name in self.kinds}
         room = [[0] * (context.count * self.count)] * 2
@@ -157,7 +157,7 @@ def observe_objects(
     count: int, factors: Any, lows: Any, highs: Any, bounds: Any, slots: Any, columns: Any,
     nearest: Any, distances: Any,
 ) -> None:  # fmt: skip
-    """Find the nearest objects of some worlds, by insertion, and write them."""
+    """Sort the nearest objects of some worlds by insertion, and write them."""
     for k in range(first, last):
         index = indices[k]
         level = level_of[index]
@@ -200,17 +200,17 @@ def observe_objects(
 
 
 PLANES = ("solid", *OBSERVED_KINDS, "ninja")
-"""How much of a cell is solid; where objects of each kind are; where the ninja is."""
+"""Planes: the solid share of a cell; the places of each kind of objects; the place of the ninja."""
 MAX_BYTE = 255
 CLOSED_EXIT = 128
 
 
 @dataclass(frozen=True)
 class LevelPlanes(Part):
-    """The level's 31 x 23 cells in a plane for each of ``PLANES``: uint8 (15, 23, 31); normalised: float32, 0 to 1.
+    """The level's 31 x 23 cells, one plane per name in ``PLANES``: uint8 (15, 23, 31); normalised: float32, 0 to 1.
 
-    255 (1.0): there is one in this cell, by its middle; a closed exit is 128 (0.5). What is gone is not seen (as by
-    ``NearObjects``). Of a locked or trap door its switch is seen.
+    255 (1.0): the middle of an object is in this cell; a closed exit is 128 (0.5). Objects that are gone are left out
+    (as in ``NearObjects``). A locked or trap door is shown by its switch.
     """
 
     name: ClassVar[str] = "planes"
@@ -221,7 +221,7 @@ class LevelPlanes(Part):
         return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, MAX_BYTE, shape, np.uint8)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
-        """The solid plane of each level; each level's objects and their planes; the values."""
+        """The solid planes of the levels; their objects with the planes; the values."""
 
         def shades(number: int) -> Array:
             points = solidity(context, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE)
@@ -268,7 +268,7 @@ def observe_planes(
 
 @fast
 def interior_cell(x: float, y: float) -> int:
-    """Index of the level's cell that holds a place, row by row; -1 for the border and outside."""
+    """Index of the level's cell with a place, row by row; -1 for the border and outside."""
     cell = cell_at(x, y)
     column = GRID_COLUMN[cell]
     row = GRID_ROW[cell]

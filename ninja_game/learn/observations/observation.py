@@ -1,4 +1,4 @@
-"""Parts put together: one space, one memory that is written again and again, one call for some worlds.
+"""Parts of an observation combined: one space, memory that is reused, one call for many worlds.
 
 >>> from ninja_game.learn.observations.vectors import StateVector
 >>> Observation(StateVector()).space.shape
@@ -29,13 +29,13 @@ PARTS: dict[str, type[Part]] = {
 PartLike: TypeAlias = Part | str
 Writer: TypeAlias = tuple[Callable[..., None], tuple[Any, ...]]
 Observed: TypeAlias = Array | dict[str, Array]
-"""Observations of several worlds: (worlds, …), or such an array for each part."""
+"""Observations of several worlds: (worlds, …), or such an array per part."""
 
 
 def parts_of(observation: PartLike | Sequence[PartLike]) -> list[Part]:
-    """Resolve parts: a part, the name of one, or several of those.
+    """Resolve parts: a part, its name, or several of these.
 
-    Raises ArgumentError for anything else, and for two of the same name.
+    Raises ArgumentError for anything else, and for two parts with the same name.
     """
     several = isinstance(observation, Sequence) and not isinstance(observation, str)
     choices: Any = observation if several else [observation]
@@ -52,10 +52,10 @@ def parts_of(observation: PartLike | Sequence[PartLike]) -> list[Part]:
 
 
 class Observation:
-    """What is observed of a world.
+    """The observation of a world.
 
-    One part alone gives its own Box, several give a Dict of theirs; with ``flat`` all of them give one float32 Box of
-    one dimension, part after part in the order given. Raises ArgumentError as ``parts_of`` does.
+    A single part gives its own Box, several parts give a Dict; with ``flat`` they give one float32 Box of one
+    dimension, part after part in the given order. Raises ArgumentError as ``parts_of`` does.
     """
 
     def __init__(self, observation: PartLike | Sequence[PartLike], *, flat: bool = False) -> None:
@@ -76,7 +76,7 @@ class Observation:
         return _zeros(self.space, count)
 
     def writers(self, memory: Observed, context: PartContext) -> list[Writer]:
-        """What writes the parts into ``memory``: of each the kernel and the last of its arguments."""
+        """Give the writers of the parts to ``memory``: the kernel of a part and its last arguments."""
         writers, offset = [], 0
         for part in self.parts:
             array = memory[part.name] if isinstance(memory, dict) else memory

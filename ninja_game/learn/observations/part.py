@@ -1,7 +1,7 @@
-"""What every part of an observation is: a name, a space, and a kernel that writes one world's values into a row.
+"""The parts of an observation. A part has a name, a space, and a kernel that writes one world's values into a row.
 
-``PartContext`` is what a part reads when it makes its tables: the worlds and their levels. Where there are more levels
-than worlds can hold, a level is put in the place of another, and the tables are rewritten for it.
+A part reads the worlds and levels from ``PartContext`` to make its tables. If there are more levels than worlds can
+hold, one level replaces another, and its tables are rewritten.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ Array = NDArray[Any]
 class PartContext:
     """The worlds and levels for which a part makes its tables.
 
-    ``worlds``: they themselves, not loaded yet; ``fresh``: each level as it begins.
-    ``changed`` (worlds): whether gold, mines or exits may be others than last observed. ``time_limit``: ticks
-    of an episode. ``compiled``: whether kernels run compiled. ``goal``: their ``GoalDistance``, if a part asks for one.
-    ``max_objects``: of how many objects another level may be that is put in the place of one; 0: none ever is.
+    ``worlds``: the worlds, not loaded yet; ``fresh``: the first state of each level. ``changed`` (worlds): gold, mines
+    or exits may have changed since the last observation. ``time_limit``: ticks of an episode. ``compiled``: kernels run
+    compiled. ``goal``: their ``GoalDistance``, if a part needs it. ``max_objects``: most objects of a level that may
+    replace another; 0: levels are never replaced.
     """
 
     worlds: Worlds
@@ -50,16 +50,16 @@ class PartContext:
         return len(self.changed)
 
     def objects(self, number: int, *kinds: int) -> list[InitialObject]:
-        """The objects of a level of these kinds, in the order of their slots."""
+        """The objects of these kinds in a level, in the order of their slots."""
         return [o for o in self.fresh[number].objects[1:] if o.kind in kinds]
 
     def table(self, values: Any, dtype: Any) -> Any:
-        """A table for kernels: an array, or for the plain memory, which reads those slowly, a list."""
+        """A table for kernels: an array, or a list for the plain memory, which reads arrays slowly."""
         array = np.array(values, dtype)
         return array if self.compiled else array.tolist()
 
     def values(self, make: Callable[[int], Any], dtype: Any) -> Any:
-        """A table of what ``make`` gives for each level, as many numbers for each."""
+        """A table with the values of ``make`` for each level; every level has the same number of values."""
         every = np.array([make(number) for number in range(len(self.fresh))]).reshape(len(self.fresh), -1)
         size, table = every.shape[1], self.table(every.ravel(), dtype)
 
@@ -70,9 +70,9 @@ class PartContext:
         return table
 
     def rows(self, make: Callable[[int], Sequence[tuple[float, ...]]], width: int) -> list[Any]:
-        """Tables of what ``make`` gives for each level, some rows of ``width`` numbers.
+        """Tables with the values of ``make`` for each level: any number of rows of ``width`` numbers.
 
-        First the bounds: level i has the rows from 2 i to 2 i + 1 of these; then a float64 column for each number.
+        The first table has the bounds: level i has the rows from its number 2 i to 2 i + 1. Then float64 columns.
         """
         sizes = [self.max_objects or len(make(number)) for number in range(len(self.fresh))]
         starts = np.cumsum([0, *sizes])
@@ -91,7 +91,7 @@ class PartContext:
         return [bounds, *columns]
 
     def rewrite(self, number: int) -> None:
-        """Rewrite the tables for the level with this number, which has been replaced."""
+        """Rewrite the tables for the level with this number, which was replaced."""
         for write in self.writers:
             write(number)
 
@@ -100,15 +100,15 @@ class PartContext:
 class Part(ABC):
     """A part of an observation.
 
-    ``normalised``: numbers of about -1 to 1 (flags 0 or 1); else px, px/tick, ticks. Either way they lie in ``box``:
-    what is outside counts as its rim, NaN as 0.
+    ``normalised``: numbers of about -1 to 1 (flags 0 or 1); else px, px/tick, ticks. Both lie in ``box``: values beyond
+    are clamped, and NaN is 0.
     """
 
     name: ClassVar[str]
     """Its key in a Dict of several parts."""
 
     needs_goal: ClassVar[bool] = False
-    """Whether it reads ``PartContext.goal``."""
+    """Whether the part reads ``PartContext.goal``."""
 
     normalised: bool = field(default=True, kw_only=True)
 
@@ -119,11 +119,11 @@ class Part(ABC):
 
     @abstractmethod
     def tables(self, context: PartContext) -> tuple[Any, ...]:
-        """The kernel that writes it, then the last of its arguments: what never changes during an episode.
+        """The kernel of the part, then its last arguments, which never change during an episode.
 
         ``kernel(maps, level_of, worlds, indices, first, last, out, offset, *tables)`` writes the values of the worlds
-        ``indices[first:last]`` into their rows of ``out``, from column ``offset`` on. Arrays and numbers, no named
-        tuples: each call would spend 3 µs on them, half a step of one world.
+        ``indices[first:last]`` into their rows of ``out``, from column ``offset`` on. Use arrays and numbers, no named
+        tuples: passing these takes 3 µs per call, half a step of one world.
         """
 
     @property
@@ -133,7 +133,7 @@ class Part(ABC):
 
 @fast
 def clamp(value: float, low: float, high: float) -> float:
-    """The value, or the end of the range that it lies beyond; 0 for NaN."""
+    """Limit a value to a range; 0 for NaN."""
     if value < low:
         return low
     if value > high:
@@ -145,13 +145,13 @@ def clamp(value: float, low: float, high: float) -> float:
 
 @fast
 def copy_values(target: Any, source: Any, count: int) -> None:
-    """Copy so many values; compiled, from row to row, this is a copy of memory."""
+    """Copy ``count`` values; for whole rows, the compiler makes this a copy of memory."""
     for k in range(count):
         target[k] = source[k]
 
 
 class InitialObject(NamedTuple):
-    """An object of a new world; ``partner``: of an exit the slot of its switch."""
+    """An object of a new world; ``partner``: the slot of an exit's switch."""
 
     slot: int
     kind: int
@@ -161,7 +161,7 @@ class InitialObject(NamedTuple):
 
 
 class InitialLevel(NamedTuple):
-    """A level as it begins: its grid of tiles; its objects by slot, of which 0 is nobody; where the ninja is, px."""
+    """The first state of a level: its grid of tiles; its objects by slot (slot 0 is unused); the ninja's place, px."""
 
     tiles: Sequence[int]
     objects: Sequence[InitialObject]
@@ -191,9 +191,9 @@ def _initial_level(tiles: Sequence[int], w: World) -> InitialLevel:
 
 
 def put_levels(worlds: Worlds, places: Indices, levels: Sequence[Level]) -> None:
-    """Put levels in the places of these numbers, and start the worlds of the same numbers in them.
+    """Replace the levels with these numbers, and start the worlds of the same numbers in the new levels.
 
-    A level must not have more objects than the levels that the worlds were opened with.
+    A level must not have more objects than the levels with which the worlds were opened.
     """
     if isinstance(worlds, PlainWorlds):
         for place, level in zip(places.tolist(), levels, strict=True):
@@ -205,7 +205,7 @@ def put_levels(worlds: Worlds, places: Indices, levels: Sequence[Level]) -> None
 
     worlds.maps[places], fresh = load_worlds(worlds.kernel, levels, box=worlds.box)
     states, every = bytes_of(fresh), bytes_of(worlds.worlds)
-    for rows in (places, worlds.count + places):  # behind the worlds lies a new one in each level
+    for rows in (places, worlds.count + places):  # a new world per level lies behind the worlds
         every[rows] = 0
         every[rows, : states.shape[1]] = states
     worlds.records["event_count"][places] = 0

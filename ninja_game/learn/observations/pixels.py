@@ -1,4 +1,4 @@
-"""A grey picture, drawn by a kernel: no window, no colours, nothing that is only for the eye."""
+"""A grey picture, drawn by a kernel, without a window, colours or decoration."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, HALF, RADIUS, WORLD_HE
 from ninja_game.sim.states import DRONE_FIRING, WEAPON_LASER
 from ninja_game.sim.traces import contact_place_of
 
-FAR = 2.0 * WORLD_WIDTH  # px; nothing farther from a picture is drawn
+FAR = 2.0 * WORLD_WIDTH  # px; farther objects are not drawn
 # px
 DOOR_HALF = 4.0
 BEAM_RADIUS = 2.0
 CROSS_RADIUS = 4.0
 EVERYWHERE = (-FAR, FAR, -FAR, FAR)
 ROUNDING = 1.0e-6
-"""px; what rounding may move the rim of an object."""
+"""px by which rounding may move the border of an object."""
 
 
 class Frame(NamedTuple):
-    """The part of a picture to be drawn: columns ``first`` to ``last``, rows ``low`` to ``high``.
+    """The part of a picture to draw: columns ``first`` to ``last``, rows ``low`` to ``high``.
 
-    ``width``: pixels in a row; ``left``, ``top``: the picture's corner, px of the level; ``pixel_x``, ``pixel_y``: size
-    of a pixel, px of the level; ``rounded``: whether shades are.
+    ``width``: pixels per row; ``left``, ``top``: the picture's corner, px of the level; ``pixel_x``, ``pixel_y``: size
+    of a pixel, px of the level; ``rounded``: whether shades are rounded.
     """
 
     width: int
@@ -53,7 +53,7 @@ class Frame(NamedTuple):
 
 
 class PixelView(NamedTuple):
-    """What pictures show. ``frame``: all of one; ``across``, ``down``: pixels of a level's tiles, with their margin."""
+    """Size of pictures. ``frame``: the whole picture; ``across``, ``down``: pixels of tiles, with margins."""
 
     frame: Frame
     across: int
@@ -63,9 +63,9 @@ class PixelView(NamedTuple):
 
 
 class ObjectTables(NamedTuple):
-    """The objects of all levels, a table each: those of level i are from ``bounds[2 i]`` to ``bounds[2 i + 1]``.
+    """The objects of all levels in one table; level i has the rows from ``bounds[2 i]`` to ``bounds[2 i + 1]``.
 
-    ``sizes``: radius or half side, px; ``boxes``: whether a box; ``moves``: whether it moves; ``xs``, ``ys``: at first.
+    ``sizes``: radius or half side, px; ``boxes``: 1 for a box; ``moves``: 1 if it moves; ``xs``, ``ys``: first place.
     """
 
     bounds: Any
@@ -79,9 +79,10 @@ class ObjectTables(NamedTuple):
 
 
 class Layers(NamedTuple):
-    """Pictures without what moves. ``changed`` (worlds): whether to draw again; ``pictures``: one for each world.
+    """Pictures without moving objects. ``changed`` (worlds): the picture must be redrawn; ``pictures``: one per world.
 
-    ``later``: by cell of each level the last object drawn there; ``movers``: numbers of what moves, in ``bounds``.
+    ``later``: the last object drawn in each cell of each level; ``movers``: numbers of the moving objects, in
+    ``bounds``.
     """
 
     changed: Any
@@ -93,9 +94,9 @@ class Layers(NamedTuple):
 
 @fast
 def pixels_of(area: Any, frame: Frame) -> tuple[int, int, int, int]:
-    """The first and the last column and row of a frame in which what lies in an area, px from its corner, may be seen.
+    """First and last column and row of a frame that an area, px from its corner, may cover.
 
-    That is where the middle of a pixel is less than half a pixel away, of its longer side: else it is not covered.
+    A pixel is covered if its middle is less than half a pixel (of its longer side) away.
     """
     left, right, top, bottom = area
     reach = 0.5 * max(frame.pixel_x, frame.pixel_y) + ROUNDING
@@ -113,7 +114,7 @@ def pixels_of(area: Any, frame: Frame) -> tuple[int, int, int, int]:
 def paint(
     picture: Any, frame: Frame, x: float, y: float, half_x: float, half_y: float, disc: bool, shade: float
 ) -> None:
-    """Paint a disc or a box about (x, y), px of the level; its rim gets a share of the shade."""
+    """Paint a disc or box around (x, y), px of the level; its border gets a share of the shade."""
     pixel_x = frame.pixel_x
     pixel_y = frame.pixel_y
     x -= frame.left
@@ -146,7 +147,7 @@ def door_middle(o: Object) -> tuple[float, float]:
 
 @fast
 def draw_object(o: Object, picture: Any, frame: Frame, size: float, box: bool, shade: float) -> None:
-    """Paint an object that is there: what one touches of it, a closed door's line, a beam, a crosshair."""
+    """Paint an object that exists: the part that can be touched, a closed door's line, a beam, a crosshair."""
     if o.kind == kinds.DOOR:
         if o.edge_1 and activity_of(o) == 1.0:
             x, y = door_middle(o)
@@ -174,7 +175,7 @@ def draw_object(o: Object, picture: Any, frame: Frame, size: float, box: bool, s
 MAX_SIDE = 512
 MIN_VIEW, MAX_VIEW = 48.0, WORLD_WIDTH
 SAMPLES = 4
-"""Points across a pixel by which tiles are drawn."""
+"""Sampled points across a pixel of the tiles."""
 
 NINJA_SHADE, SOLID_SHADE = 255, 100
 SHADES = {
@@ -184,17 +185,17 @@ SHADES = {
 }  # fmt: skip
 """0 is empty, 255 the ninja; 205 to 230 kill. A closed exit has half its shade."""
 STILL = {kinds.GOLD, kinds.MINE, kinds.EXIT, kinds.SWITCH, kinds.LAUNCH_PAD, kinds.ONE_WAY}
-"""Kinds that stay where they are, and look another way only after an event (``PartContext.changed``)."""
-PLAIN_SIZE = 6.0  # radius, px, at which what cannot be touched is drawn
+"""Kinds that never move, and change their looks only after an event (``PartContext.changed``)."""
+PLAIN_SIZE = 6.0  # drawn radius, px, of objects that cannot be touched
 
 
 @dataclass(frozen=True)
 class Pixels(Part):
     """A picture in shades of grey, uint8 (``height``, ``width``); ``normalised=True``: float32, 0 to 1.
 
-    ``view``: None: the whole level, squeezed to that size; else px of the level that the picture's width shows, with
-    the ninja in the middle, as high as its shape makes it; what is outside the level is solid. Drawn are tiles, closed
-    doors, objects that are there, as large as what one touches of them, laser beams, crosshairs and the ninja.
+    ``view``: None: the whole level, scaled to that size; else the width of the picture in px of the level, with the
+    ninja in the middle and the height by the picture's shape; outside the level all is solid. It shows tiles, closed
+    doors, objects that exist (the part that can be touched), laser beams, crosshairs and the ninja.
     """
 
     name: ClassVar[str] = "pixels"
@@ -216,7 +217,7 @@ class Pixels(Part):
         return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, 255, shape, np.uint8)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
-        """Pictures of the tiles with a margin, and their size; the view; the objects, how large and how bright."""
+        """Pictures of the tiles with a margin, and their size; the view; the objects with sizes and shades."""
         pixel_x = (self.view or WORLD_WIDTH) / self.width
         pixel_y = pixel_x if self.view else WORLD_HEIGHT / self.height
         across, down = ceil(WORLD_WIDTH / pixel_x - 1e-9), ceil(WORLD_HEIGHT / pixel_y - 1e-9)
@@ -259,7 +260,7 @@ class Pixels(Part):
 
 @dataclass(frozen=True)
 class Image(Pixels):
-    """``Pixels`` with one channel, (``height``, ``width``, 1): the shape of pictures as convolutions take them."""
+    """``Pixels`` with one channel, (``height``, ``width``, 1), the shape that convolutions expect."""
 
     name: ClassVar[str] = "image"
 
@@ -272,7 +273,7 @@ class Image(Pixels):
 def tile_picture(
     context: PartContext, number: int, across: int, down: int, pixel_x: float, pixel_y: float
 ) -> NDArray[np.uint8]:
-    """How many of the points of each pixel (down, across) are solid; what is outside the world is."""
+    """Count the solid points of each pixel (down, across); outside the world all is solid."""
     wide, high = pixel_x / SAMPLES, pixel_y / SAMPLES
     points = solidity(context, number, across * SAMPLES, down * SAMPLES, (wide, high))
     points[:, int(WORLD_WIDTH / wide) :] = 1
@@ -287,9 +288,9 @@ def observe_pixels(
 ) -> None:  # fmt: skip
     """Draw the pictures of some worlds: the tiles, copied; the objects in the order of their slots; the ninja.
 
-    Without a view, tiles and objects that stay where they are lie in ``layers``, drawn again after a change. Over them
-    come those that move; where one may overlap what is drawn later, all of that place is drawn in order, at last.
-    With a view, whole pixels move.
+    Without a view, ``layers`` has the tiles and the objects that never move; they are redrawn after a change. Moving
+    objects are drawn over them; where one may overlap an object that is drawn later, that area is drawn again in order.
+    With a view, the picture moves by whole pixels.
     """
     whole = view.frame
     width = whole.width
@@ -354,7 +355,7 @@ def observe_pixels(
 def draw_objects(
     w: World, picture: Any, frame: Frame, things: ObjectTables, first: int, last: int, area: Any, moving: bool
 ) -> None:
-    """Draw the objects that are there and may lie in an area, with or without those that are ``moving``."""
+    """Draw the objects that exist and may lie in an area, with or without ``moving`` ones."""
     left, right, top, bottom = area
     for number in range(first, last):
         moves = things.moves[number]
@@ -371,7 +372,7 @@ def draw_objects(
 
 @fast
 def area_of(o: Object, size: float, gap: float) -> tuple[float, float, float, float]:
-    """Left, right, top and bottom of what is drawn of an object that moves, px, with so much room about it."""
+    """Left, right, top and bottom of a moving object's drawing, px, with a margin ``gap``."""
     x, y = door_middle(o) if o.kind == kinds.DOOR else contact_place_of(o)
     dx = 0.0
     dy = 0.0
@@ -390,7 +391,7 @@ def area_of(o: Object, size: float, gap: float) -> tuple[float, float, float, fl
 
 @fast
 def is_covered(place: int, level: int, later: Any, area: Any) -> bool:
-    """Whether an object of the layer that is drawn later may lie in the area of this one."""
+    """Tell whether an object of the layer that is drawn later may lie in this object's area."""
     left, right, top, bottom = cells_of(area)
     for row in range(top, bottom + 1):
         for column in range(left, right + 1):
@@ -401,7 +402,7 @@ def is_covered(place: int, level: int, later: Any, area: Any) -> bool:
 
 @fast
 def cells_of(area: Any) -> tuple[int, int, int, int]:
-    """The first and the last column and row of cells that an area reaches, px."""
+    """First and last column and row of the cells that an area, px, touches."""
     left, right, top, bottom = area
     return (
         int(clamp(left / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)), int(clamp(right / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)),

@@ -1,4 +1,4 @@
-"""What is solid round the ninja: the cells of a square, and rays."""
+"""Solid surroundings of the ninja: the cells of a square, and rays."""
 
 from __future__ import annotations
 
@@ -40,13 +40,13 @@ from ninja_game.sim.rules import (
 )
 
 FINE = 8
-"""Points across a cell by which distances are measured: their error is below 3 px, the points' distance."""
+"""Points across a cell for measuring distances: the error is below 3 px, the distance of the points."""
 
 
 def solidity(
     context: PartContext, number: int, across: int, down: int, spacing: tuple[float, float] | None = None
 ) -> NDArray[np.uint8]:
-    """A level in (down, across) points, each in the middle of its share of the world, or so many px apart; 1: solid."""
+    """Points of a level, (down, across), spread evenly over the world, or ``spacing`` px apart; 1: solid."""
     points = np.zeros((down, across), np.uint8)
     wide, high = spacing or (WORLD_WIDTH / across, WORLD_HEIGHT / down)
     context.worlds.kernel(mark_solid)(context.worlds.maps, number, wide, high, points)
@@ -64,26 +64,26 @@ def mark_solid(maps: Any, number: int, wide: float, high: float, points: Any) ->
 
 _BY_TILES: dict[Any, NDArray[Any]] = {}
 MAX_CACHED = 4096
-"""What is kept of levels by their tiles, which many levels share."""
+"""Most results that are kept, by the tiles of their level: many levels have the same tiles."""
 
 
 def cached_by_tiles(
-    make: Callable[..., NDArray[Any]], context: PartContext, number: int, *about: float
+    make: Callable[..., NDArray[Any]], context: PartContext, number: int, *lengths: float
 ) -> NDArray[Any]:
-    """What ``make`` gives of a level's tiles, kept for the next level that has the same."""
-    key = make, tuple(context.fresh[number].tiles), about
+    """Give the result of ``make`` for a level's tiles, kept for other levels with the same tiles."""
+    key = make, tuple(context.fresh[number].tiles), lengths
     if key not in _BY_TILES:
         if len(_BY_TILES) >= MAX_CACHED:
             _BY_TILES.clear()
-        _BY_TILES[key] = make(context, number, *about)
+        _BY_TILES[key] = make(context, number, *lengths)
     return _BY_TILES[key]
 
 
 def surface_distances(context: PartContext, number: int, reach: float) -> NDArray[np.float64]:
-    """How far the centre of every cell (25, 33) is from the nearest surface, px, at most ``reach``; within below 0.
+    """Distance of the centre of every cell (25, 33) from the nearest surface, px, at most ``reach``; inside below 0.
 
-    What is outside the world counts as solid. Of each row of points near a cell the nearest one, and of these the
-    nearest.
+    Outside the world all is solid. The search takes the nearest point of each row near a cell, and then the nearest of
+    these.
     """
     spacing = WORLD_WIDTH / GRID_COLUMNS / FINE
     margin = int(reach / spacing)
@@ -106,16 +106,16 @@ TILE_KINDS = len(SHAPE)
 FULL_TILE = SHAPE.index(FULL)
 MAX_SIZE = 31
 REACH = 48.0
-"""px; distances are cut off there."""
+"""px; greater distances are cut off."""
 
 
 @dataclass(frozen=True)
 class LocalTiles(Part):
-    """``size`` x ``size`` cells, the ninja's in the middle; rows from top to bottom. What is outside counts as solid.
+    """``size`` x ``size`` cells around that of the ninja, rows from top to bottom. Outside the level all is solid.
 
-    ``form``: "distance", float32 (size, size): from the cell's centre to the nearest surface, px, below 0 within
-    something solid, at most 48; or "one-hot", uint8 (size, size, 36): which tile it is, by its id (docs/rules/world.md
-    §2.2; 34: malformed half, 35: undefined). Doors and objects play no part.
+    ``form``: "distance", float32 (size, size): from the cell's centre to the nearest surface, px, below 0 inside
+    something solid, at most 48; or "one-hot", uint8 (size, size, 36): the tile by its id (docs/rules/world.md §2.2; 34:
+    malformed half, 35: undefined). Doors and objects do not count.
     """
 
     name: ClassVar[str] = "tiles"
@@ -138,7 +138,7 @@ class LocalTiles(Part):
         return Box(-reach, reach, (self.size, self.size), np.float32)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
-        """A padded picture of each level: distances, or tile ids; the width and height of a picture, and the size."""
+        """A padded picture of each level (distances or tile ids); width and height of a picture, and the size."""
         margin = self.size // 2
         height, width = GRID_ROWS + 2 * margin, GRID_COLUMNS + 2 * margin
         unit = REACH if self.normalised else 1.0
@@ -175,7 +175,7 @@ def observe_tiles(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     pictures: Any, width: int, height: int, size: int,
 ) -> None:  # fmt: skip
-    """Mark the tile of each cell round the ninja."""
+    """Write the tile of each cell around the ninja."""
     for k in range(first, last):
         index = indices[k]
         n = worlds[index].ninja
@@ -192,7 +192,7 @@ def observe_tiles(
 
 @fast
 def corner(x: float, y: float, width: int) -> int:
-    """Where in a padded picture the square round the cell of a place begins; places outside count as at the rim."""
+    """Start of the square around a place's cell in a padded picture; places outside count as at the border."""
     column = int(clamp(x / CELL, 0.0, GRID_COLUMNS - 1.0))
     row = int(clamp(y / CELL, 0.0, GRID_ROWS - 1.0))
     return row * width + column
@@ -203,10 +203,10 @@ MAX_RAYS = 360
 
 @dataclass(frozen=True)
 class Rays(Part):
-    """``count`` rays, evenly round from the right by way of down: the distance to what stops each, px.
+    """``count`` rays at equal angles, from the right by way of down: distance to the obstacle of each ray, px.
 
-    They are the world's own rays: tiles and solid edges, such as closed doors, stop them, objects do not. ``reach``:
-    px, the farthest that is seen.
+    They are rays of the world itself: tiles and solid edges, such as closed doors, stop them, objects do not.
+    ``reach``: the greatest distance, px.
     """
 
     name: ClassVar[str] = "rays"
@@ -224,9 +224,7 @@ class Rays(Part):
         return Box(0.0, 1.0 if self.normalised else self.reach, (self.count,), np.float32)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
-        """The directions, to 12 digits, so that every machine has the same; from one line of the grid to the next, px;
-        the reach; the factor; the states of edges.
-        """  # noqa: D205 - one sentence
+        """The directions, to 12 digits, so that all machines agree; px between lines; reach; factor; edge states."""
         angles = [2.0 * pi * k / self.count for k in range(self.count)]
         ways = [[round(f(angle), 12) for angle in angles] for f in (cos, sin)]
         paces = [[CELL / abs(way) if way else 0.0 for way in every] for every in ways]
@@ -242,13 +240,13 @@ class Rays(Part):
 
 
 # States of edges besides those of the world.
-OUTSIDE = 3  # of a cell outside the level
-DOORWAY = 4  # where a door may be: the world knows its state
+OUTSIDE = 3  # an edge of a cell outside the level
+DOORWAY = 4  # a place of a door: the world knows its state
 
 
 @kernel
 def mark_edges(fresh: Any, number: int, states: Any) -> None:
-    """Write the states of a level's edges: all but those of doors never change."""
+    """Write the states of a level's edges, which never change, except those of doors."""
     w = fresh[number]
     for edge in range(EDGE_STATES):
         states[edge] = w.edges[edge] if EXISTS[edge // 4] else OUTSIDE
@@ -264,7 +262,7 @@ def observe_rays(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     dx: Any, dy: Any, pace_x: Any, pace_y: Any, reach: float, factor: float, edges: Any,
 ) -> None:  # fmt: skip
-    """Follow the rays of some worlds as ``cast`` does, bit for bit, with less to look up at each line of the grid."""
+    """Follow the rays of some worlds like ``cast_ray``, bit for bit, with fewer look-ups per line of the grid."""
     for k in range(first, last):
         index = indices[k]
         tiles = maps[level_of[index]].tiles
@@ -281,7 +279,7 @@ def observe_rays(
             side_x = RIGHT if way_x > 0 else LEFT
             side_y = DOWN if way_y > 0 else UP
             length = reach
-            # The ray begins as if it came into its first cell.
+            # The ray starts as if it had just entered its first cell.
             cell = start
             edge = 0
             t = 0.0
@@ -299,7 +297,7 @@ def observe_rays(
                             tile, CENTRE_X[cell], CENTRE_Y[cell], hit_x, hit_y, dx[j], dy[j]
                         )
                     if stopped:
-                        # A hit may lie behind the start, within a tile: its distance counts as 0.
+                        # Within a tile the hit may lie behind the start: its distance then counts as 0.
                         length = (hit_x - x) * dx[j] + (hit_y - y) * dy[j]
                     if stopped or state == OUTSIDE:
                         break

@@ -1,4 +1,4 @@
-"""Vectors of numbers: the ninja's state, the time left, the way by the distance field."""
+"""Vectors of numbers: the ninja's state, the time left, the guidance of the distance field."""
 
 from __future__ import annotations
 
@@ -49,25 +49,25 @@ FIELDS: dict[str, tuple[float, float, float]] = {
     "gold_dy": _DY,
     **dict.fromkeys(STATE_NAMES, _FLAG),
 }
-"""What its values are, in order: lowest, highest, and what normalising divides by; px, px/tick, ticks, flags.
+"""The values in order, each with lowest, highest, and divisor for normalising; px, px/tick, ticks, flags.
 
-``cell_x``, ``cell_y``: the place within the cell; ``wall_x``: the normal of a near wall; ``floor_x``, ``floor_y``: of
-the floor one stands on; ``…_dx``, ``…_dy``: from the ninja to there; the last eight: which state it is in.
+``cell_x``, ``cell_y``: the place within the cell; ``wall_x``: normal of a near wall; ``floor_x``, ``floor_y``: normal
+of the floor below; ``…_dx``, ``…_dy``: offset from the ninja; the last eight are flags of its states.
 """
 
 _NAMES = tuple(FIELDS)
 FIRST_EXIT, FIRST_GOLD, FIRST_STATE = (_NAMES.index(name) for name in ("exit_there", "gold_there", STATE_NAMES[0]))
 FAR = 1.0e18
-"""px², farther than anything."""
-MAX_EXITS = 60  # exits of a level that are looked at: its first
+"""px², farther than any distance."""
+MAX_EXITS = 60  # exits per level that are looked at: the first ones
 
 
 @dataclass(frozen=True)
 class StateVector(Part):
-    """Place, velocity and flags of the ninja, the way to the exit, to its switch and to the nearest gold: ``FIELDS``.
+    """Place, velocity and flags of the ninja, offsets to the exit, its switch and the nearest gold: ``FIELDS``.
 
-    Of several exits it is the nearest open one; while none is open, the one whose switch is nearest. Once the exit is
-    open its switch is at (0, 0).
+    Of several exits it shows the nearest open one; if none is open, the one with the nearest switch. The switch of an
+    open exit is at (0, 0).
     """
 
     name: ClassVar[str] = "state"
@@ -79,10 +79,10 @@ class StateVector(Part):
         return Box((low / divided).astype(np.float32), (high / divided).astype(np.float32), dtype=np.float32)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
-        """Factors and limits of the values; slots and places of exits and gold; what is known of each world.
+        """Factors and limits of the values; slots and places of exits and gold; notes about each world.
 
-        That is which exits are open, in bits, and which gold was nearest. As long as nothing has changed, a world's
-        objects, which lie far away in memory, need not be asked.
+        The notes: which exits are open, as bits, and the nearest gold. While nothing has changed, they save reading a
+        world's objects, which are far away in memory.
         """
 
         def exits(number: int) -> list[tuple[float, ...]]:
@@ -148,13 +148,13 @@ def observe_state(
 
 @fast
 def put(out: Any, index: int, offset: int, j: int, factors: Any, lows: Any, highs: Any, value: float) -> None:
-    """Write value j: times its factor, within its limits."""
+    """Write value j, multiplied by its factor and limited to its range."""
     out[index, offset + j] = clamp(value * factors[j], lows[j], highs[j])
 
 
 @fast
 def observe_ninja(w: World, out: Any, index: int, offset: int, factors: Any, lows: Any, highs: Any) -> None:
-    """The first 13 values and the state."""
+    """Write the first 13 values and the state."""
     n = w.ninja
     cell = cell_at(n.x, n.y)
     put(out, index, offset, 0, factors, lows, highs, n.x)
@@ -176,7 +176,7 @@ def observe_ninja(w: World, out: Any, index: int, offset: int, factors: Any, low
 
 @fast
 def open_exits(w: World, exits: Any, start: int, end: int) -> int:
-    """Which exits of a level are open, a bit each; of more than there are bits, the first."""
+    """Give the open exits of a level, one bit each, as far as there are bits."""
     opened = 0
     for k in range(start, min(end, start + MAX_EXITS)):
         if w.objects[int(exits[k])].is_open:
@@ -188,7 +188,7 @@ def open_exits(w: World, exits: Any, start: int, end: int) -> int:
 def choose_exit(
     x: float, y: float, opened: int, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any, start: int, end: int
 ) -> int:
-    """The exit that counts for a ninja at a place, -1: none."""
+    """Choose the exit to show to a ninja at a place, -1: none."""
     best = FAR
     chosen = -1
     chosen_open = 0
@@ -207,10 +207,10 @@ def choose_exit(
 
 @fast
 def nearest_gold(w: World, gold: Any, gold_x: Any, gold_y: Any, start: int, end: int, guess: int) -> int:
-    """The nearest piece that is left, the first of those equally near; -1: none.
+    """Give the nearest piece that is left, the first of equally near ones; -1: none.
 
-    The level's table is near in memory, the world's objects are not: they are asked last. With a good ``guess``, a
-    piece that is left (or -1), such as the last nearest one, hardly any is asked.
+    The level's table is near in memory, the world's objects are not, so they are read last. With a good ``guess``, a
+    piece that is left (or -1), such as the last nearest one, hardly any object is read.
     """
     x = w.ninja.x
     y = w.ninja.y
@@ -262,16 +262,16 @@ def observe_time(
 RADII = (24.0, 60.0)  # px
 _SIDES = ((1.0, 0.0), (1.0 / ROOT2, 1.0 / ROOT2), (0.0, 1.0), (-1.0 / ROOT2, 1.0 / ROOT2))
 DIRECTIONS = [*_SIDES, *((-x, -y) for x, y in _SIDES)]
-"""From the right by way of down."""
-FAR_TICKS = 1000.0  # ticks to the exit that count as 1
+"""The sides, from the right by way of down."""
+FAR_TICKS = 1000.0  # ticks to the exit that are normalised to 1
 
 
 @dataclass(frozen=True)
 class Guide(Part):
-    """The way by the solver's distance field of the present switch state, float32 (17,).
+    """The guidance of the solver's distance field for the present switch state, float32 (17,).
 
-    For each of eight directions (from the right by way of down), 24 px off and then 60 px off: by how many ticks one is
-    nearer to the exit there, a px of the way, -1 to 1. Last: ticks to the exit; normalised: in 1000 ticks, at most 1.
+    For eight directions (from the right by way of down), first 24 px and then 60 px away: ticks by which that point is
+    nearer to the exit, per px, -1 to 1. Last: ticks to the exit; normalised: in 1000 ticks, at most 1.
     """
 
     name: ClassVar[str] = "guide"
@@ -284,7 +284,7 @@ class Guide(Part):
         return Box(low, np.array([1.0] * slopes + [1.0 if self.normalised else FARTHEST], np.float32), dtype=np.float32)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
-        """The ways to the points, px; the fields and each world's; the last value's factor and highest."""
+        """The offsets of the points, px; the fields and the row of each world; factor and limit of the last value."""
         ways = [(radius * x, radius * y, 1.0 / radius) for radius in RADII for x, y in DIRECTIONS]
         columns = [context.table(column, np.float64) for column in zip(*ways, strict=True)]
         factor, highest = 1.0 / FAR_TICKS if self.normalised else 1.0, float(self.box.high[-1])
@@ -296,13 +296,13 @@ def observe_guide(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
     dx: Any, dy: Any, share: Any, fields: Any, rows: Any, factor: float, highest: float,
 ) -> None:  # fmt: skip
-    """Look round in the fields of some worlds; those whose field is not known yet are looked at again."""
+    """Read the fields of some worlds; worlds without their field yet are observed again later."""
     for k in range(first, last):
         index = indices[k]
         row = rows[index]
         x = worlds[index].ninja.x
         y = worlds[index].ninja.y
-        # Compiled, `float` of a float32 stays one, and the difference below would be rounded to that.
+        # In compiled code `float` of a float32 stays float32, and the difference below would be rounded.
         here = np.float64(fields[row, point_within(x, y)])
         for j in range(len(dx)):
             there = np.float64(fields[row, point_within(x + dx[j], y + dy[j])])

@@ -1,4 +1,4 @@
-"""A span search in the background: start it, look at its results at any time, cancel it."""
+"""A search of a span in the background: start it, read its results at any time, cancel it."""
 
 from __future__ import annotations
 
@@ -26,15 +26,14 @@ if TYPE_CHECKING:
 
 
 class SpanSearch:
-    """A search in a thread of its own, on ``jobs`` threads (one a core), for ``seconds`` (0: until it is cancelled).
+    """A search in its own thread, on ``jobs`` threads (one per core), for ``seconds`` (0: until it is cancelled).
 
-    ``method``, ``every`` and ``memory`` are those of ``search_span``. ``found``: the best results so far,
-    best first, each with the whole run; a better list takes the place of an old one. ``own``: what the run's own keys
-    bring, None where they do not reach the goal. ``miss``: what comes nearest to a goal that nothing has reached, None
-    where nothing comes near. ``ticks_run``: ticks simulated; ``problem``: why the search could not go on, "" if it
-    could.
+    ``method``, ``every`` and ``memory``: as in ``search_span``. ``results``: the best results so far, best first, each
+    with the whole run; a better list replaces the old one. ``own``: the result of the run's own keys, None if they miss
+    the goal. ``miss``: the nearest result as long as nothing has reached the goal, None if nothing comes near.
+    ``ticks_run``: ticks simulated. ``problem``: why the search could not continue, "" if it could.
 
-    Compiled code runs without the interpreter's lock, so that a window stays alive. Raises FormulaError for a broken
+    Compiled code runs without the interpreter's lock, so a window still responds. Raises FormulaError for a broken
     formula, ArgumentError for an unknown method, NinjaGameError in a page, which has no threads.
     """
 
@@ -53,7 +52,7 @@ class SpanSearch:
             raise ArgumentError(f"method is {method!r}; expected 'auto', {', '.join(map(repr, METHODS))}")
         task.check()
         self.task = task
-        self.found: tuple[SpanResult, ...] = ()
+        self.results: tuple[SpanResult, ...] = ()
         self._tidy: dict[bytes, SpanResult] = {}
         self.own: SpanResult | None = None
         self.miss: SpanResult | None = None
@@ -71,32 +70,32 @@ class SpanSearch:
             self._thread = run_in_background(self._work, self._fail)
 
     def cancel(self) -> None:
-        """End the search soon, within the time of one round of trials; what was found stays. Does not wait."""
+        """End the search within the time of one round of trials, without waiting for it; its results stay."""
         self._cancelled.set()
 
     def finish(self, seconds: float = 10.0) -> None:
-        """Wait until the search is over, at most so long."""
+        """Wait until the search is over, at most this long."""
         if self._thread is not None and not self.done:
             self._thread.join(seconds)
 
     @property
     def done(self) -> bool:
-        """Whether the search was started and is over.
+        """Tell whether the search was started and is over.
 
-        One that is cancelled while kernels are compiled, which nothing can hold up, is over at once. They are finished
-        beside, for the next search.
+        A search that is cancelled while kernels are compiled is over at once. Nothing can stop the compiler; it
+        finishes in the background, for the next search.
         """
         return bool(self._ended) or (self._thread is not None and self._cancelled.is_set() and not self._began)
 
     @property
     def seconds(self) -> float:
-        """How long the search has run; 0 while it gets ready, which takes a while where kernels must be compiled."""
+        """The time the search has run, s; 0 during preparation, which takes a while if kernels must be compiled."""
         return (self._ended or monotonic()) - self._began if self._began else 0.0
 
     def _work(self) -> None:
         report_miss = partial(setattr, self, "miss")
         results = search_span(self.task, self._report, report_miss=report_miss, **self._options)  # type: ignore[arg-type]
-        self.found = self._without_idle_keys(results, np.inf)
+        self.results = self._without_idle_keys(results, np.inf)
         self._ended = monotonic()
 
     def _fail(self, why: str) -> None:
@@ -106,18 +105,18 @@ class SpanSearch:
         if not self._began:
             if self._cancelled.is_set():
                 return False
-            # The run's own keys are tried first.
+            # The first results are those of the run's own keys.
             self._began, self.own = monotonic(), results[0] if results else None
             if compiled_available() and self._options["memory"] != "plain":
                 from ninja_game.search.solve import compile_solver  # few searches are of a whole run
 
                 run_in_background(compile_solver, lambda _: None)
-        self.ticks_run, self.found = ticks, self._without_idle_keys(results, TIDYING_SECONDS)
+        self.ticks_run, self.results = ticks, self._without_idle_keys(results, TIDYING_SECONDS)
         late = self._limit and self.seconds >= self._limit
         return not (late or self._cancelled.is_set())
 
     def _without_idle_keys(self, results: tuple[SpanResult, ...], seconds: float) -> tuple[SpanResult, ...]:
-        """Results without keys that do nothing, as far as there is time for it: the others follow."""
+        """Remove keys that do nothing from results, from as many as there is time for; the others stay as they are."""
         late, known = monotonic() + seconds, self._tidy
         self._tidy = {way.inputs: known[way.inputs] for way in results if way.inputs in known}
         for way in results:
@@ -127,22 +126,22 @@ class SpanSearch:
 
 
 TIDYING_SECONDS = 0.1
-"""Seconds of each report in which results are tidied."""
+"""Seconds per report for the removal of idle keys."""
 MAX_SECONDS = 1e6
 """The time limit, s, of a search that ends only when it is cancelled."""
 MAX_JOBS = 4
-"""Jobs of a search of a whole run, each of which may take a gigabyte."""
+"""Jobs of a search of a whole run; a job may take a gigabyte."""
 WAY_SECONDS = 120.0
-"""How long a way to the exit is looked for at most, from a run that ends before it."""
+"""Most seconds of the search for a way to the exit, for a run that ends before it."""
 NO_WAY = "No way to the exit was found from the end of this run: select ticks before, and take Reach the exit sooner."
 
 
 class RunSearch(SpanSearch):
-    """The same for a whole run, ``task.inputs``, which is shortened as `ninja-game improve` does.
+    """A search that shortens a whole run, ``task.inputs``, as `ninja-game improve` does.
 
-    One that ends before the exit is first led there. ``gold``: pieces that it must still take; ``others``: runs of the
-    level, whose routes are shortened too, beside the run's own. ``found``: what no other one beats in ticks and gold,
-    of the run's own route and of all of them.
+    A run that ends before the exit is first continued to it. ``gold``: pieces that it must still take. ``others``: runs
+    of the level whose routes are shortened too. ``results``: the runs by its own route and by all routes that no other
+    one beats in ticks and gold.
     """
 
     def __init__(
@@ -166,7 +165,7 @@ class RunSearch(SpanSearch):
         self._unbeaten: dict[bool, tuple[SpanResult, ...]] = {True: (), False: ()}
 
     def _work(self) -> None:
-        """Shorten the run by its own route, and beside that by those of all runs."""
+        """Shorten the run by its own route and, at the same time, by the routes of all runs."""
         task, mixed_job = self._wanted, None
         played = run_level(task.level, task.first, body=task.body)
         self._reaches = played.outcome == "exit"
@@ -187,13 +186,13 @@ class RunSearch(SpanSearch):
         self._ended = monotonic()
 
     def _counts(self, inputs: bytes) -> bool:
-        """Whether a run reaches the exit with the gold that is wanted, by keys that a keyboard makes."""
+        """Tell whether a run reaches the exit with the gold wanted, by keys that a keyboard can make."""
         with suppress(UnverifiedRunError):
             return bool(with_plain_triggers(self.task.level, inputs, body=self.task.body, gold=self._wanted.gold))
         return False
 
     def _led_to_exit(self, task: Task, ticks: int) -> Task:
-        """The same with a run to the exit that begins as one that ends before it, b"" where there is none."""
+        """Give the task with a run to the exit that begins like a run that ends before it, b"" if none is found."""
         first = task.first[:ticks]
         way = to_exit(task.level, first, WAY_SECONDS, body=task.body, threads=task.jobs, goes_on=self._goes_on)
         gold = run_level(task.level, way, body=task.body).gold if way else 0
@@ -238,11 +237,11 @@ class RunSearch(SpanSearch):
             self._unbeaten[own_route] = _unbeaten([*self._unbeaten[own_route], result])
             own = self._unbeaten[True]
             others = (way for way in _unbeaten([*own, *self._unbeaten[False]]) if not way.own_route)
-            self.found = tuple(sorted([*own, *others]))
+            self.results = tuple(sorted([*own, *others]))
 
 
 def _unbeaten(results: list[SpanResult]) -> tuple[SpanResult, ...]:
-    """Those that no other one beats in ticks and gold, the fastest first."""
+    """Keep the results that no other one beats in ticks and gold, the fastest first."""
     best: list[SpanResult] = []
     for way in sorted(results):
         if not best or way.gold > best[-1].gold:

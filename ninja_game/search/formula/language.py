@@ -1,6 +1,7 @@
-"""Goals and measures as short formulas, ``x > 400 and vy < 0``, of many worlds at once: Python's grammar, never run.
+"""Goals and measures as short formulas, such as ``x > 400 and vy < 0``, for many worlds at once.
 
-A truth has a margin too: how far it is from false (or from true, negative), so that a search knows what is nearer.
+The grammar is Python's, but no formula is run as Python. A condition also has a margin, its distance from being false
+(if negative: from being true), so that a search knows which of two worlds is nearer.
 """
 
 from __future__ import annotations
@@ -20,16 +21,16 @@ from numpy.typing import NDArray
 from ninja_game.errors import FormatError
 
 Values = NDArray[np.float64]
-"""One number a world; 1 and 0 are true and false."""
+"""One number per world; 1 and 0 are true and false."""
 
 Scope = Mapping[str, Callable[..., Values]]
-"""What the names of a formula mean in some worlds: functions of their arguments, which are numbers."""
+"""The meaning of a formula's names in some worlds: functions of their arguments, which are numbers."""
 
 UNTRUE = -1000.0
-"""The margin of a fact that is not so, such as ``dead``: nothing is near to it."""
+"""The margin of a false fact such as ``dead``, which has no distance."""
 
 FAR = " far"
-"""Behind the name of a fact: what a view may have as its margin where it is not so, less than 0."""
+"""Suffix of a fact's name for its margin while it is false, below 0. Not every view has it."""
 
 MAX_LENGTH = 1000  # characters of a formula
 DEEPEST = 40  # levels of brackets and operators in it
@@ -44,7 +45,7 @@ COMPARISONS: dict[type[ast.cmpop], tuple[Callable[..., Any], Callable[[Any, Any]
     ast.Eq: (np.equal, lambda a, b: -np.abs(a - b)),
     ast.NotEq: (np.not_equal, lambda a, b: np.abs(a - b)),
 }
-"""What comparisons say, and their margins."""
+"""Comparisons and their margins."""
 
 ARITHMETIC: dict[type[ast.operator], Callable[..., Any]] = {
     ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide
@@ -53,21 +54,21 @@ ARITHMETIC: dict[type[ast.operator], Callable[..., Any]] = {
 FUNCTIONS: dict[str, tuple[int, Callable[..., Any]]] = {
     "abs": (1, np.abs), "min": (2, np.minimum), "max": (2, np.maximum), "hypot": (2, np.hypot)
 }  # fmt: skip
-"""Functions of numbers, with how many arguments they take."""
+"""Functions of numbers, with the number of their arguments."""
 
 
 class FormulaError(FormatError):
-    """A formula that cannot be read. ``file``: what it is for, such as "goal", if that is known."""
+    """A formula that cannot be read. ``file``: its use, such as "goal", if known."""
 
     def __str__(self) -> str:
-        """As of other texts, with the column in words."""
+        """The text of other format errors, with the column in words."""
         place = ", ".join(filter(None, (self.file, f"column {self.column}" if self.column else "")))
         return str(FormatError(self.what, place, found=self.found, expected=self.expected, hint=self.hint))
 
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula that was read. ``truth``: whether it is true or false, not a number, whose margin is itself.
+    """A parsed formula. ``truth``: it is true or false; otherwise it is a number, which is its margin, too.
 
     ``parts``: of one whose parts are joined by ``and``, each with its text.
     """
@@ -79,15 +80,15 @@ class Formula:
 
 
 def parse_truth(text: str, names: Mapping[str, int], facts: Sequence[str]) -> Formula:
-    """A formula that is true or false, such as a goal. Raises FormulaError.
+    """Parse a formula that is true or false, such as a goal. Raises FormulaError.
 
-    ``names``: how many numbers each name takes in brackets; ``facts``: those of them that are true or false.
+    ``names``: the number of arguments of each name; ``facts``: the names that are true or false.
     """
     return _parse(text, names, facts, truth=True)
 
 
 def parse_number(text: str, names: Mapping[str, int], facts: Sequence[str]) -> Formula:
-    """A formula that is a number, such as what is to be greatest. Raises FormulaError."""
+    """Parse a formula that is a number, such as a measure. Raises FormulaError."""
     return _parse(text, names, facts, truth=False)
 
 
@@ -99,7 +100,7 @@ def _parse(text: str, names: Mapping[str, int], facts: Sequence[str], *, truth: 
         raise FormulaError("a character that no formula has", "", 0, foreign.start() + 1, repr(foreign[0]), expected)
     start = len(text) - len(text.lstrip())
     try:
-        with warnings.catch_warnings(action="ignore"):  # of "1and", which Python will not read one day
+        with warnings.catch_warnings(action="ignore"):  # for "1and", which a later Python will refuse
             tree = ast.parse(re.sub(r"\s", " ", text.strip()), mode="eval").body
     except SyntaxError as error:
         column = min(start + (error.offset or MAX_LENGTH), len(text) + 1)
@@ -117,7 +118,7 @@ def _parse(text: str, names: Mapping[str, int], facts: Sequence[str], *, truth: 
 
 @dataclass
 class _Reader:
-    """Turns the parts of a syntax tree that formulas have into formulas; ``start``: where the tree's text begins."""
+    """Turns the parts of a syntax tree that formulas allow into formulas; ``start``: where the tree's text begins."""
 
     text: str
     names: Mapping[str, int]
@@ -133,7 +134,7 @@ class _Reader:
         return self.text[self.start + node.col_offset : self.start + (node.end_col_offset or 0)]
 
     def formula(self, node: ast.expr) -> Formula:
-        """The formula of any part of the tree."""
+        """Give the formula of any part of the tree."""
         self.depth += 1
         if self.depth > DEEPEST:
             raise self.error(node, "too many brackets in brackets", f"at most {DEEPEST}")
@@ -166,21 +167,21 @@ class _Reader:
         raise self.error(node, "not a part of a formula", "names, numbers, + - * /, comparisons, and, or, not")
 
     def truth(self, node: ast.expr) -> Formula:
-        """The formula of a part that must be true or false."""
+        """Give the formula of a part that must be true or false."""
         formula = self.formula(node)
         if not formula.truth:
             raise self.error(node, "a number beside 'and', 'or' or 'not'", "a comparison, such as x > 400")
         return formula
 
     def number(self, node: ast.expr) -> Callable[[Scope], Any]:
-        """The value of a part that must be a number."""
+        """Give the value of a part that must be a number."""
         formula = self.formula(node)
         if formula.truth:
             raise self.error(node, "true or false where a number belongs", "numbers, such as x + 5")
         return formula.value
 
     def comparison(self, node: ast.expr, parts: Sequence[ast.expr], signs: Sequence[ast.cmpop]) -> Formula:
-        """``a < b``, and ``a < b < c`` as Python has it."""
+        """Read ``a < b``, and ``a < b < c`` with Python's meaning."""
         if not {*map(type, signs)} <= COMPARISONS.keys():
             raise self.error(node, "an unknown comparison", "< <= > >= == !=")
         pairs = zip(pairwise(map(self.number, parts)), signs, strict=True)

@@ -1,4 +1,4 @@
-"""The solver's way from the start of a span to the one thing that its goal is about, wherever the run is by then."""
+"""The solver's way from the start of a span to the target of its goal, for goals with a single target."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from ninja_game.sim.inputs import KEYS_DOWN
 from ninja_game.sim.kinds import EXIT
 
 MAX_TICKS = 2_000_000
-"""Ticks of one search, later twice as many. Most end before: of a hundred ticks there is no more to be seen."""
+"""Ticks of one search, doubled after every turn. Most searches end before: a span of 100 ticks has few states."""
 
 
 class LegSearch:
-    """Best-first searches from the start of a span to its target, each of another resolution and seed.
+    """Best-first searches from the start of a span to its target, with varied resolutions and seeds.
 
-    Needs the compiled memory; all is compiled once it is made.
+    Needs the compiled memory; the constructor compiles everything.
     """
 
     def __init__(self, task: SpanTask, target: int, seed: int) -> None:
@@ -47,7 +47,7 @@ class LegSearch:
         self._search.run(1)
 
     def search(self, spend: Spend) -> list[Keys]:
-        """One search after the other until the target is reached: the keys of the span; none once each had its turn."""
+        """Search until the target is reached: gives the keys of the span, an empty list if no resolution succeeds."""
         for resolution, ticks in ROUTE_LEGS:
             self._begun += 1
             self._search.begin_leg(self._leg, resolution, seed=self._seed + self._begun, bound=self.task.last + 1)

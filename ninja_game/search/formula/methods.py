@@ -1,4 +1,4 @@
-"""Ways to search a span: small changes of its keys, beams of the most promising states, all keys there are."""
+"""Methods to search a span: small changes of its keys, beams of the most promising states, all possible keys."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ WORLDS = 1024
 KEPT = 8
 """Results that are kept."""
 ACTIONS = np.array([0, 1, 2, 4, 5, 6], np.uint8)
-"""Left, right or neither, with and without jump."""
+"""Left, right or neither, each with and without jump."""
 ROUNDS, ROUNDS_BESIDE_LEGS = 40, 4
-"""Rounds of small changes in a turn; while nothing is found and the solver looks for a way, which finds more."""
+"""Rounds of small changes per turn; the second number holds while nothing is found and LegSearch is more useful."""
 REPORT_TICKS = 100_000
 """Ticks of a beam between two reports: a second on a slow machine."""
 STEPS = (4, 6, 3, 8, 2, 12, 1)
-"""Ticks between two choices of a beam, in turn."""
+"""Ticks between two choices of a beam, one step size per beam."""
 MAX_ENDS = 2_000_000
-"""Ends of a span up to which all are tried."""
+"""Number of key sequences up to which all are tried."""
 
 
 @kernel
@@ -63,7 +63,7 @@ def _kernel_rng(seed: int) -> list[RandomState]:
 
 
 class Results:
-    """The best keys so far, and the distinct ``ways`` among them for ``report``; until there are any, the miss."""
+    """The best keys so far, and for ``report`` their distinct ``ways``; until there are any, the miss."""
 
     def __init__(self, worlds: SpanWorlds, report: ReportResults, report_miss: ReportMiss) -> None:
         self.worlds = worlds
@@ -73,7 +73,7 @@ class Results:
         self._report, self._report_miss = report, report_miss
 
     def try_all(self, keys: Keys) -> Trials:
-        """Try keys, (ticks, worlds), and keep what is good; ``going`` is then whether to go on."""
+        """Try keys, (ticks, worlds), and keep the good ones. ``going`` then tells whether to continue."""
         trials = self.worlds.try_all(keys)
         for index in trials.order[:KEPT]:
             if not np.isfinite(trials.scores[index]):
@@ -88,11 +88,11 @@ class Results:
         return trials
 
     def try_some(self, keys: list[Keys]) -> None:
-        """The same of a few, each the keys of the span."""
+        """Try a few keys, one array per span."""
         self.try_all(np.stack((keys * (WORLDS // len(keys) + 1))[:WORLDS], axis=1))
 
     def spend(self, ticks: int) -> bool:
-        """Count ticks that were run elsewhere; true if the search is to end."""
+        """Count ticks that were run elsewhere; true if the search must end."""
         self.worlds.ticks_run += ticks
         self.report()
         return not self.going
@@ -114,14 +114,14 @@ def search_span(
     threads: int | None = None,
     report_miss: ReportMiss = lambda _: None,
 ) -> tuple[SpanResult, ...]:
-    """The best keys of each way that was found, best first, at most KEPT; none where nothing reached the goal.
+    """Find the best keys of each way, best first, at most KEPT; none if nothing reached the goal.
 
-    ``method``: one of METHODS, or "auto": a beam, then small changes of what it found, again and again; between them,
-    while nothing is found, the solver's way to what the goal is about (LegSearch), on the compiled memory. ``every``:
-    for "exhaustive", how many ticks each choice of keys holds. ``report`` is called first when all is compiled. The
-    search goes on until it gives False; "exhaustive" ends when all is tried. ``report_miss`` gets, with each report,
-    what comes nearest to the goal, while nothing reaches it. The same seed does the same work in the same order. Raises
-    ArgumentError for a span with too many ways through it, and what SpanTask does.
+    ``method``: one of METHODS, or "auto": a beam, then small changes of its results, again and again. While nothing is
+    found, "auto" also uses the solver (LegSearch), on the compiled memory only. ``every``: how many ticks a choice of
+    keys holds in "exhaustive". ``report`` is called first when everything is compiled; the search continues until it
+    returns False, "exhaustive" only until all is tried. ``report_miss`` gets, with each report, the nearest result as
+    long as nothing reaches the goal. The same seed does the same work in the same order. Raises ArgumentError for a
+    span with too many ways through it, and the errors of SpanTask.
     """
     if method == "exhaustive":
         count_ways(task, every)
@@ -147,8 +147,8 @@ def search_span(
     return results.ways
 
 
-CUTS = 20, 60, 180, 540  # last ticks of a run that are left out, one after the other
-AHEAD = 600  # ticks after the cut in which the exit is looked for
+CUTS = 20, 60, 180, 540  # numbers of last ticks of a run that are left out, one after the other
+AHEAD = 600  # ticks after the cut within which the exit must be reached
 
 
 def to_exit(
@@ -161,9 +161,9 @@ def to_exit(
     threads: int | None = None,
     goes_on: Callable[[int], bool] = lambda _: True,
 ) -> bytes | None:
-    """A run to the exit that begins as one that ends before it: its last ticks are searched, then ever more of them.
+    """Find a run to the exit that begins like a run that ends before it; ever more of its last ticks are replaced.
 
-    None where none is found in the time. ``goes_on``: told the ticks that were run; False ends it.
+    None if there is none in the time. ``goes_on`` gets the ticks that were run; False ends the search.
     """
     for cut in CUTS:
         first = max(0, len(inputs) - cut)
@@ -180,7 +180,7 @@ def to_exit(
 
 
 def count_ways(task: SpanTask, every: int) -> int:
-    """How many ways there are through a span. Raises ArgumentError for too many, with how many there may be."""
+    """Count the ways through a span. Raises ArgumentError for too many; the message has the limit."""
     choices = -(-task.length // every)
     if len(ACTIONS) ** choices > MAX_ENDS:
         few = fewest_ticks(task.length)
@@ -190,7 +190,7 @@ def count_ways(task: SpanTask, every: int) -> int:
 
 
 def exhaust(task: SpanTask, every: int, results: Results) -> None:
-    """Try all keys that change every this many ticks."""
+    """Try all keys that change every ``every`` ticks."""
     ways, choices = count_ways(task, every), -(-task.length // every)
     weights = len(ACTIONS) ** np.arange(choices)[:, np.newaxis]
     for first in range(0, ways, WORLDS):
@@ -215,7 +215,7 @@ def change(
         best = int(trials.order[0])
         reached = (float(trials.scores[best]), -float(trials.margins[best]))
         if reached <= standing:
-            # What is as good is taken too, so that the search does not stand still.
+            # Accept equally good keys, too, so that the search does not get stuck.
             others = np.flatnonzero((trials.scores == reached[0]) & (-trials.margins == reached[1]))
             current, standing = rows[int(rng.choice(others))].copy(), reached
         if not results.going:
@@ -223,7 +223,7 @@ def change(
 
 
 def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, noise: float) -> None:
-    """Go through the span in steps of this many ticks, all actions at each, and keep the most promising states only."""
+    """Go through the span in steps of ``step`` ticks, with all actions at each, and keep the most promising states."""
     worlds, batch = results.worlds, results.worlds.batch
     batch.restore(worlds.start)
     survivors, reported = np.zeros(1, np.intp), worlds.ticks_run
@@ -264,7 +264,7 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
 
 
 def _different(batch: Batch, orders: list[NDArray[np.intp]], most: int) -> NDArray[np.intp]:
-    """The first worlds of some orders, in turn, that are not in about the same state."""
+    """Take the first worlds of some orders, in turn, without worlds in about the same state."""
     velocity = batch.velocities()
     in_air = batch.records["ninja"]["in_air"]
     cells = np.column_stack([np.floor(batch.positions / 4), np.floor(velocity * 4), batch.states, batch.gold, in_air])
@@ -281,7 +281,7 @@ def _different(batch: Batch, orders: list[NDArray[np.intp]], most: int) -> NDArr
 
 
 def fewest_ticks(length: int) -> int:
-    """How many ticks each choice of keys must hold so that all ways through a span can be tried.
+    """Give the least ticks that a choice of keys must hold so that all ways through a span can be tried.
 
     >>> fewest_ticks(8), fewest_ticks(40)
     (1, 5)

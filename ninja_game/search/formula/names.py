@@ -1,4 +1,4 @@
-"""What the names in a formula mean: the ninja, the run and single objects, of all worlds of a batch."""
+"""The meaning of the names in a formula: the ninja, the run and single objects, in all worlds of a batch."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ NAMES = {
     "dead": 0, "won": 0, "in_air": 0, "near_wall": 0,
     "distance": 2, "object_x": 1, "object_y": 1, "taken": 1, "opened": 1,
 }  # fmt: skip
-"""The names, and how many numbers stand in brackets behind them; docs/speedruns.md explains them."""
+"""The names, and the number of their arguments in brackets; docs/speedruns.md explains them."""
 
 SPAN_NAMES = {**NAMES, "difference": 1}
-"""Those of a search, which has a run to compare with."""
+"""The names in a search, which has a run to compare with."""
 
 FACTS = ("dead", "won", "in_air", "near_wall", "taken", "opened")
-"""Those that are true or false."""
+"""The names that are true or false."""
 
 
 def ninja_view(of: Callable[[str], Values]) -> dict[str, Callable[..., Values]]:
-    """What the names of the ninja and the run mean. ``of``: gives the plain ones' values and "outcome", as float64."""
+    """Give functions for the names of the ninja and the run. ``of``: gives fields and "outcome", as float64."""
     plain = ("x", "y", "vx", "vy", "tick", "gold", "state", "jump_timer", "in_air", "near_wall")
     return {
         **{name: partial(of, name) for name in plain},
@@ -45,7 +45,7 @@ def ninja_view(of: Callable[[str], Values]) -> dict[str, Callable[..., Values]]:
 
 
 def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
-    """Functions for all names, of the worlds as they are when they are called.
+    """Give functions for all names; they read the worlds at the time of the call.
 
     They raise ArgumentError for an unknown object.
     """
@@ -79,7 +79,7 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
 
 
 def distance_views(level: Level, batch: Batch) -> dict[str, Callable[..., Any]]:
-    """The margins of facts that are not so yet: how far it is to what makes them so, by the solver's fields."""
+    """Give margins of facts that are still false: the distance to what makes them true, by the solver's fields."""
     distances = Distances(level, batch)
 
     def far(number: Any) -> Any:
@@ -89,10 +89,10 @@ def distance_views(level: Level, batch: Batch) -> dict[str, Callable[..., Any]]:
 
 
 def difference_from(level: Level, inputs: bytes, batch: Batch) -> Callable[[Any], NDArray[np.float64]]:
-    """A function of a tick: how far worlds are from what a run of that level is after it.
+    """Make a function of a tick that gives the distance between worlds and the state of a run of that level after it.
 
-    0: ``state_digest`` is the same; else 1, and the px and px/tick between place and velocity of the ninjas. It raises
-    ArgumentError for a tick that is none of the run's.
+    0: ``state_digest`` is the same; otherwise 1 plus the differences of the ninjas' places (px) and velocities
+    (px/tick). It raises ArgumentError for a tick outside the run.
     """
 
     @cache
@@ -116,12 +116,12 @@ def difference_from(level: Level, inputs: bytes, batch: Batch) -> Callable[[Any]
 
 
 def id_of(number: Any) -> float:
-    """The id in the brackets of a formula. Raises ArgumentError for one that is not the same in all worlds."""
+    """Give the id in the brackets of a formula. Raises ArgumentError if it differs between worlds."""
     return plain_number(number, "the id of an object")
 
 
 def plain_number(number: Any, what: str) -> float:
-    """A number in the brackets of a formula. Raises ArgumentError for one that is not the same in all worlds."""
+    """Give a number in the brackets of a formula. Raises ArgumentError if it differs between worlds."""
     if np.ndim(number):
         raise ArgumentError(f"{what} is a plain number, such as 3")
     return float(number)
@@ -139,7 +139,7 @@ def _object(batch: Batch, number: Any) -> Any:
 
 
 def _place(batch: Batch, number: Any, axis: str) -> Any:
-    """Where an object is in all worlds, px, as traces have it (``place_of``)."""
+    """Give the place of an object in all worlds, px, as traces show it (``place_of``)."""
     record = _object(batch, number)
     kind = int(record["kind"][0])
     if kind == TURRET:
@@ -153,11 +153,11 @@ FLAGS = {
     "taken": {kind: KIND_OF[kind].used for kind in (GOLD, MINE)},
     "opened": {kind: KIND_OF[kind].used for kind in (EXIT, DOOR)},
 }
-"""The field of a kind of objects that says so."""
+"""The field that holds a fact, by kind of object."""
 
 
 def flag_field(what: str, kind: int, id_: float) -> str:
-    """The field of an object that ``what`` asks for. Raises ArgumentError where its kind has none."""
+    """Give the field of an object that the name ``what`` reads. Raises ArgumentError if its kind has none."""
     if kind not in FLAGS[what]:
         kinds = " and ".join(KIND_NAMES[known] for known in FLAGS[what])
         raise ArgumentError(f"object {id_:g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")
@@ -165,18 +165,18 @@ def flag_field(what: str, kind: int, id_: float) -> str:
 
 
 _SPEED = 4.0
-"""px that a tick of a field counts, so that distances in formulas and these are of one size: a step of 6 px is 1.5."""
+"""px per tick of a field, so that these margins are comparable to distances in formulas: a step of 6 px is 1.5."""
 UNREACHABLE = -1.0 - _SPEED * FARTHEST
-"""The margin where no way leads to what makes a fact so."""
+"""The margin if no way leads to what makes a fact true."""
 
 Target = Callable[[int, float, float], DistanceField]
 """The field of a target in a switch state, for a ninja at (x, y)."""
 
 
 class Distances:
-    """How far worlds are from a fact that is not so yet, such as ``won``, by the distance fields of the solver.
+    """Distances of worlds from a fact that is still false, such as ``won``, by the distance fields of the solver.
 
-    The fields of a level, by target and by switch state, are made when a world of the batch first needs them.
+    A level's fields, by target and switch state, are made when a world of the batch first needs them.
     """
 
     def __init__(self, level: Level, batch: Batch) -> None:
@@ -189,11 +189,11 @@ class Distances:
         return Heuristics(alone.maps, alone.records)
 
     def to_exit(self) -> Values:
-        """From the exit, by way of its switch: px about, less than 0 for all worlds."""
+        """Give minus the distance to the exit, by way of its switch, in px roughly."""
         return self._margins("exit", self._heuristics.field)
 
     def to_object(self, record: Any) -> Values:
-        """The same from an object, or from the switch of an exit."""
+        """Give minus the distance to an object, or to the switch of an exit, in px roughly."""
         target = self._batch.objects[:, int(record["partner"][0])] if int(record["kind"][0]) == EXIT else record
         place = float(target["x"][0]), float(target["y"][0])
         return self._margins(place, lambda state, x, y: self._heuristics.field_to(place, state, x, y))

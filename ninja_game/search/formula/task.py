@@ -1,4 +1,4 @@
-"""What is searched in a span of a run, and how keys for it are tried: many at once, tick by tick."""
+"""The task of a span search, and the trial of keys for it: many worlds at once, tick by tick."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from ninja_game.sim.level import Body, Level
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 
 MAX_SPAN = 4000
-"""Ticks of a span."""
+"""Most ticks of a span."""
 
 
 @dataclass(frozen=True)
 class SpanTask:
-    """Other keys for the ticks ``first`` … ``last`` - 1 of a run, so that the goal is reached, and the measure is best.
+    """A search for keys in the ticks ``first`` … ``last`` - 1 of a run that reach a goal with the best measure.
 
-    ``inputs``: the run, one byte per tick. ``goal``: a formula that must be true after one of these ticks; "": after
-    the last one, whatever it is. ``measure``: a formula that is to be as great as possible at that moment, or, with
-    ``least``, as small; "": the goal is to be reached as early as possible. ``rest``: from that moment on is played
-    what follows in the run after its own first moment at the goal (or from tick ``behind`` on, if it has none there; 0:
-    behind the span); the exit must still be reached, as early as possible.
+    ``inputs``: the run, one byte per tick. ``goal``: a formula that must be true after one of these ticks; "": every
+    run reaches the goal, after the last tick. ``measure``: a formula whose value at that tick should be as great, or
+    with ``least`` as small, as possible; "": the goal should be reached as early as possible. ``rest``: after the goal,
+    play the inputs that follow in the run after its own first tick at the goal (if it has none: from tick ``behind``
+    on; 0: the end of the span); the exit must still be reached, as early as possible.
 
-    Raises FormulaError for a broken formula, ArgumentError for a span that is not in the run.
+    Raises FormulaError for a broken formula, ArgumentError for a span outside the run.
     """
 
     level: Level
@@ -65,14 +65,14 @@ class SpanTask:
         return np.pad(keys, (0, self.length - len(keys)))
 
     def check(self) -> None:
-        """Raises FormulaError for a broken formula, ArgumentError for an object that is not there or does not fit."""
+        """Raise FormulaError for a broken formula, ArgumentError for an object that is missing or of the wrong kind."""
         view = view_of(Batch(self.level, 1, body=self.body, memory="plain")) | {"difference": lambda _: np.zeros(1)}
         with np.errstate(all="ignore"):
             for formula in filter(None, self.formulas()):
                 formula.value(view)
 
     def formulas(self) -> tuple[Formula, Formula | None]:
-        """Goal and measure. Raises FormulaError, which says in which of them."""
+        """Goal and measure. Raises FormulaError; its text tells which of the two is wrong."""
         what = "goal"
         try:
             goal = parse_truth(self.goal or f"tick >= {self.last - 1}", SPAN_NAMES, FACTS)
@@ -85,15 +85,14 @@ class SpanTask:
 
 @dataclass(order=True)
 class SpanResult:
-    """Keys that reach the goal, the smaller, the better, or that come near it.
+    """Keys that reach the goal, or come near it. Results are ordered: the smaller, the better.
 
-    ``score``: minus the measure (or the measure, for ``least``), or the ticks to the goal or to the exit; ``ticks``: of
-    the span, up to the goal; ``inputs``: the whole run with them, up to the goal or to its end; ``gold``: pieces that
-    it has in the end; ``end``: x, y (px), vx, vy (px/tick) at the goal; ``own_route``: other runs have no part
-    in it; ``missed_by``: the margin that is left to the goal where it was not reached, 0 where only the exit behind it
-    was not; None: reached. Of a miss, the goal is the tick in which it was nearest, and ``missing`` says which parts of
-    a goal with ``and`` were not true then. ``path``: the ninja after each tick up to the goal, float (ticks, 2), px;
-    none for a miss.
+    ``score``: minus the measure (with ``least``: the measure), or the ticks to the goal or exit. ``ticks``: ticks of
+    the span up to the goal. ``inputs``: the whole run with these keys, up to the goal or to its end. ``gold``: pieces
+    at the end. ``end``: x, y (px), vx, vy (px/tick) at the goal. ``own_route``: no other run's route is part of it.
+    ``missed_by``: None if the goal was reached; otherwise the remaining margin, 0 if only the exit after the goal was
+    missed. A miss takes the tick nearest to the goal for the goal; ``missing``: parts of an ``and`` goal that
+    were not true then. ``path``: the ninja after each tick up to the goal, float (ticks, 2), px; empty for a miss.
     """
 
     score: float
@@ -109,7 +108,7 @@ class SpanResult:
 
 
 def tidied(task: SpanTask, result: SpanResult) -> SpanResult:
-    """The same result without keys that do nothing, as ``without_idle_keys`` has it."""
+    """Remove keys that do nothing from a result (``without_idle_keys``)."""
     first, last = task.first, task.first + result.ticks
     inputs = without_idle_keys(
         task.level, result.inputs, with_press_bits(task.inputs), body=task.body, first=first, last=last
@@ -120,11 +119,11 @@ def tidied(task: SpanTask, result: SpanResult) -> SpanResult:
 
 
 SAME_WAY_PX, SAME_WAY_TICKS = 24.0, 6
-"""Runs go the same way where each is no farther from the other than this, px, within so many ticks."""
+"""Two runs go the same way if neither is farther than this from the other, px, within this many ticks."""
 
 
 def distinct_ways(results: Iterable[SpanResult], *, measured: bool) -> list[SpanResult]:
-    """The best result of each way, best first; with a measure none that another one beats in score and in tick."""
+    """Keep the best result of each way, best first; with a measure, none that another beats in score and in tick."""
     ways: list[SpanResult] = []
     for result in sorted(results):
         beaten = measured and any(way.score < result.score and way.ticks < result.ticks for way in ways)
@@ -142,7 +141,7 @@ def _is_same_way(one: SpanResult, other: SpanResult) -> bool:
 
 
 def target_of(task: SpanTask) -> int | None:
-    """The slot of the object that is to be taken or opened, 0: an exit to be reached; None for any other goal."""
+    """Give the slot of the object that the goal wants taken or opened, 0 for the exit, None for any other goal."""
     match = _match_target(task.goal)
     return match and int(match[1] or -1) + 1
 
@@ -159,7 +158,7 @@ def _short_text(goal: str, margin: float) -> str:
 
 
 def score_text(task: SpanTask, result: SpanResult) -> str:
-    """What a search has found, in words."""
+    """Describe the result of a search in words."""
     last = task.first + result.ticks - 1
     if result.missed_by == 0.0:
         return f"goal after tick {last}, but not the exit"
@@ -177,7 +176,7 @@ def score_text(task: SpanTask, result: SpanResult) -> str:
 
 @dataclass
 class Trials:
-    """The results of many key sequences: score (infinite: no goal), ticks to the goal, best margin on the way.
+    """The results of many key sequences: score (infinite: goal missed), ticks to the goal, best margin on the way.
 
     ``ends``: x, y (px), vx, vy (px/tick) at the goal.
     """
@@ -189,7 +188,7 @@ class Trials:
 
     @property
     def order(self) -> NDArray[np.intp]:
-        """The trials, best first: those that reach the goal by score, then the others by margin."""
+        """Indices of the trials, best first: those that reach the goal by score, then the others by margin."""
         return np.lexsort((-self.margins, self.scores))
 
 
@@ -215,13 +214,13 @@ class SpanWorlds:
         self._paths = np.zeros((task.length, count, 2), np.float32)
         self.rest: Keys = np.zeros(0, np.uint8)
         own = int(self._try(np.tile(task.base[:, np.newaxis], (1, count))).ticks[0]) if task.rest and task.goal else 0
-        self.miss, self._nearest = None, -np.inf  # that of the run's own keys was without what follows
+        self.miss, self._nearest = None, -np.inf  # the miss of the run's own keys ignored the rest
         self.rest = np.frombuffer(
             task.inputs[task.first + own if own else task.behind or task.last :], np.uint8
         ) & np.uint8(KEYS_DOWN)
 
     def measured(self) -> tuple[NDArray[np.bool_], Values, Values]:
-        """For all worlds, as they are now: whether they are at the goal, their margin, their score."""
+        """For all worlds as they are now: whether they are at the goal, their margin, their score."""
         with np.errstate(all="ignore"):
             at_goal = np.broadcast_to(self.goal.value(self.view) > 0, (self.batch.count,))
             margin = np.nan_to_num(np.broadcast_to(self.goal.margin(self.view), at_goal.shape), nan=-np.inf)
@@ -229,26 +228,26 @@ class SpanWorlds:
                 score = self.batch.ticks.astype(float)
             else:
                 value = np.broadcast_to(self.measure.value(self.view), at_goal.shape)
-                # What has no value, such as 1 / 0, is not a result.
+                # A value that does not exist, such as 1 / 0, is not a result.
                 score = np.where(np.isfinite(value), value if self.task.least else -value, np.inf)
         return at_goal, margin, score
 
     def result_of(
         self, index: int, keys: Keys, score: float, ticks: int, end: list[float], missed_by: float | None = None
     ) -> SpanResult:
-        """The keys of a world as a result, or as a miss."""
+        """Make a result, or a miss, of the keys of a world."""
         rest = self.rest.tolist() if self.task.rest else []
         run = with_press_bits([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
-        # Of a miss it is not known: a beam goes on from copies of other worlds.
+        # The path of a miss is unknown: a beam continues from copies of other worlds.
         path = self._paths[: ticks if missed_by is None else 0, index].copy()
         return SpanResult(
             score, ticks, keys.copy(), run, int(self.batch.gold[index]), tuple(end), True, missed_by, path
         )
 
     def note_miss(self, margins: Values, keys: Keys, ticks: int) -> None:
-        """Keep the living world that is nearest to the goal after so many ticks of the span, if none was nearer.
+        """Keep the living world nearest to the goal after ``ticks`` ticks of the span, if none was nearer before.
 
-        The run as it was begun is no result: only what is nearer than that is kept.
+        It must be nearer than the start of the span, which is not a result.
         """
         batch = self.batch
         living = np.where(batch.outcomes == OUTCOME_RUNNING, np.minimum(margins, 0.0), -np.inf)
@@ -276,7 +275,7 @@ class SpanWorlds:
         return trials
 
     def _try(self, keys: Keys) -> Trials:
-        """The moments that keys lead to in the span itself."""
+        """Play keys in the span itself and measure every tick."""
         batch, count = self.batch, self.batch.count
         batch.restore(self.start)
         trials = Trials(
@@ -298,13 +297,13 @@ class SpanWorlds:
         return trials
 
     def _play_rest(self, keys: Keys, trials: Trials) -> None:
-        """Play on with what follows in the run; the score becomes the tick of the exit."""
+        """Play on with the rest of the run; the score becomes the tick of the exit."""
         batch, task = self.batch, self.task
         batch.restore(self.start)
         following = self.rest
         total = task.length + len(following)
         padded = np.vstack([keys, np.zeros((len(following), batch.count), np.uint8)])
-        # Each world continues with the rest as soon as it has reached the goal.
+        # A world continues with the rest as soon as it has reached the goal.
         when = np.arange(total)[:, np.newaxis] - trials.ticks
         reached = trials.ticks > 0
         rest = np.append(following, 0)[np.clip(when, 0, len(following))]
@@ -316,7 +315,7 @@ class SpanWorlds:
 
 
 ReportResults = Callable[[int, tuple[SpanResult, ...]], bool]
-"""Told the ticks run so far and the best results so far, best first; False ends the search."""
+"""Gets the ticks run so far and the best results so far, best first; returning False ends the search."""
 
 ReportMiss = Callable[[SpanResult], object]
-"""Told of what comes nearest to a goal that nothing has reached."""
+"""Gets the nearest result as long as nothing has reached the goal."""

@@ -1,4 +1,4 @@
-"""AABB against the tile map: the same stages as the circle, with a box's own corner rules (world.md §5)."""
+"""AABB against the tile map: the stages of the circle, with the box's own rules for corners (world.md §5)."""
 
 from __future__ import annotations
 
@@ -84,9 +84,9 @@ def collide_box(level: TileMap, w: World) -> None:
 def collide_corner(
     level: TileMap, w: World, cell: int, edge_h: int, edge_v: int, push_h: float, hx: float, push_v: float, hy: float
 ) -> None:
-    """The diagonal stage. ``push_h`` and ``push_v``: how far a solid edge on each side would push the box, px.
+    """Collide with the cell at the corner. ``push_h``, ``push_v``: how far a solid edge there pushes the box, px.
 
-    There is no test that the renewed overlaps are still positive: a box that a slope has pushed clear is pulled back.
+    Do not test whether the new overlaps are still positive: in replays a box that a slope has freed is pulled back.
     """
     n = w.ninja
     dx = n.x - CENTRE_X[cell]
@@ -132,7 +132,7 @@ def collide_corner(
 
 @fast
 def collide_own_tile(w: World, tile: int, cx: float, cy: float) -> None:
-    """The tile of the cell that holds the body's centre: the candidate is the shortest way out of the cell."""
+    """Collide with the tile of the centre's cell. The candidate push is the shortest way out of that cell."""
     dx = w.ninja.x - cx
     dy = w.ninja.y - cy
     ox = (HALF + BOX_HALF) - abs(dx)
@@ -145,7 +145,7 @@ def collide_own_tile(w: World, tile: int, cx: float, cy: float) -> None:
 
 @fast
 def push_along_candidate(w: World, a: float, b: float) -> int:
-    """AX: the candidate itself."""
+    """AX: push the box by the candidate (a, b) itself."""
     m = sqrt(a * a + b * b)
     push_from_tile(w, a, b, ieee_divide(a, m), ieee_divide(b, m))
     return SIDE_CONTACT
@@ -153,7 +153,7 @@ def push_along_candidate(w: World, a: float, b: float) -> int:
 
 @fast
 def collide_tile(w: World, tile: int, cx: float, cy: float, a: float, b: float) -> int:
-    """The box against one tile with the candidate push (a, b); tells the kind of contact."""
+    """Collide the box with one tile; (a, b) is the candidate push, px. Gives the kind of contact."""
     shape = SHAPE[tile]
     if shape == EMPTY or shape == UNDEFINED:
         return NO_CONTACT
@@ -209,7 +209,7 @@ def collide_tile(w: World, tile: int, cx: float, cy: float, a: float, b: float) 
 def push_from_wedge(
     w: World, depth: float, nx: float, ny: float, gap_x: float, gap_y: float, a: float, b: float, m: float
 ) -> int:
-    """A thin wedge: out over its flat side (the gap), along the candidate, or along its normal - whichever is least."""
+    """Push the box out of a thin wedge by the least way: over its flat side (the gap), the candidate or its normal."""
     qx = nx * (-depth)
     qy = ny * (-depth)
     q = sqrt(qx * qx + qy * qy)
@@ -225,7 +225,7 @@ def push_from_wedge(
 
 @fast
 def push_from_arc(w: World, dx: float, dy: float, length: float, depth: float, a: float, b: float, m: float) -> int:
-    """The hollow arc of a concave tile."""
+    """Push the box out of the hollow arc of a concave tile."""
     if depth > 0.0:
         if m < depth:
             return push_along_candidate(w, a, b)

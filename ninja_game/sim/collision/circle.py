@@ -1,6 +1,6 @@
 """Circle against the tile map: at most four touched cells, edges first, shapes only where an edge is interesting.
 
-world.md §4. The order own, vertical, horizontal, diagonal is fixed, each contact moves the body at once, and there is
+world.md §4. The order is fixed: own, vertical, horizontal, diagonal. Each contact moves the body at once, and there is
 exactly one pass. (hx, hy) always points from the neighbour to the body.
 """
 

@@ -1,7 +1,7 @@
-"""What a circle can do with a part of a tile: push out of a side, a corner point, a surface, an arc (world.md §4.3).
+"""How a circle is pushed out of the parts of a tile: a side, a corner point, a surface, an arc (world.md §4.3).
 
-Each function takes the tile's id and its cell's centre, pushes the ninja if there is a contact and tells its kind.
-"Open" is the side to which the surface faces (the sign σ), "solid" the other one. T and S are the surface's end points.
+The functions take the tile's id and the centre of its cell, push the ninja on a contact and give the kind of contact.
+"Open" is the side that the surface faces (the sign σ), "solid" the other one. T and S are the surface's end points.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def push_from_corner(w: World, vx: float, vy: float, fx: float, fy: float) -> in
 
 @fast
 def push_from_face(w: World, tile: int, ax: float, ay: float) -> int:
-    """FACE: push along the surface normal. A centre behind the surface is pushed out too little: |D| is a quirk."""
+    """FACE: push along the surface normal. Quirk: |D| pushes a centre behind the surface too little."""
     n = w.ninja
     nx = NORMAL_X[tile]
     ny = NORMAL_Y[tile]
@@ -61,7 +61,7 @@ def push_from_face(w: World, tile: int, ax: float, ay: float) -> int:
 
 @fast
 def position_past_end(w: World, tile: int, ax: float, ay: float) -> float:
-    """Where the body is along the surface relative to an end point: > 0 beyond a T, < 0 beyond an S."""
+    """Give the body's position along the surface relative to an end point: > 0 beyond a T, < 0 beyond an S."""
     n = w.ninja
     along = (n.x - ax) * (-NORMAL_Y[tile]) + (n.y - ay) * NORMAL_X[tile]
     return along * SIGN_X[tile] * SIGN_Y[tile]
@@ -69,7 +69,7 @@ def position_past_end(w: World, tile: int, ax: float, ay: float) -> float:
 
 @fast
 def collide_segment_t(w: World, tile: int, cx: float, cy: float, hx: float, hy: float) -> int:
-    """SEGT: the surface, or its end point T for a body beyond it."""
+    """SEGT: push off the surface, or off its end point T if the body is beyond it."""
     ax = cx + T_X[tile]
     ay = cy + T_Y[tile]
     if position_past_end(w, tile, ax, ay) > 0.0:
@@ -79,7 +79,7 @@ def collide_segment_t(w: World, tile: int, cx: float, cy: float, hx: float, hy: 
 
 @fast
 def collide_segment_s(w: World, tile: int, cx: float, cy: float, hx: float, hy: float) -> int:
-    """SEGS: the surface, or its end point S for a body beyond it."""
+    """SEGS: push off the surface, or off its end point S if the body is beyond it."""
     ax = cx + S_X[tile]
     ay = cy + S_Y[tile]
     if position_past_end(w, tile, ax, ay) < 0.0:

@@ -36,7 +36,7 @@ from ninja_game.sim.rules import HALF, ROOT2
 
 @fast
 def collide_vertical(w: World, tile: int, cx: float, cy: float, oy: float, hy: float) -> int:
-    """The tile above or below."""
+    """Collide with the tile above or below."""
     shape = SHAPE[tile]
     sx = SIGN_X[tile]
     sy = SIGN_Y[tile]
@@ -68,7 +68,7 @@ def collide_vertical(w: World, tile: int, cx: float, cy: float, oy: float, hy: f
 
 @fast
 def collide_horizontal(w: World, tile: int, cx: float, cy: float, ox: float, hx: float) -> int:
-    """The tile to the left or right."""
+    """Collide with the tile to the left or right."""
     shape = SHAPE[tile]
     sx = SIGN_X[tile]
     sy = SIGN_Y[tile]
@@ -82,7 +82,7 @@ def collide_horizontal(w: World, tile: int, cx: float, cy: float, ox: float, hx:
             return NO_CONTACT
         if facing < 0.0 or (w.ninja.y - cy) * sy < 0.0:
             return push_from_side(w, ox, 0.0, hx, 0.0)
-        # Quirk: a centre exactly on this point is pushed by nothing, with the normal (0, 0) that reads as a wall.
+        # Quirk: a centre exactly on this point is not pushed; the normal (0, 0) then counts as a wall.
         return push_from_corner(w, cx + hx * HALF, cy, 0.0, 0.0)
     if sx * hx < 0.0:
         if shape == THIN_22 and not (w.ninja.y - cy) * sy < 0.0:
@@ -101,7 +101,7 @@ def collide_horizontal(w: World, tile: int, cx: float, cy: float, ox: float, hx:
 
 @fast
 def collide_diagonal(w: World, tile: int, cx: float, cy: float, hx: float, hy: float) -> int:
-    """The tile at the corner: its corner point, unless the shape leaves that corner open."""
+    """Collide with the tile at the corner: with its corner point, unless the shape leaves that corner open."""
     shape = SHAPE[tile]
     if shape == UNDEFINED or tile == 0:
         return NO_CONTACT

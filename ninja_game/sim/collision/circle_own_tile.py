@@ -1,4 +1,4 @@
-"""Circle against the tile of the cell that holds its centre: how the body is brought out again (world.md §4.4)."""
+"""Push the circle out of the tile of the cell that holds its centre (world.md §4.4)."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from ninja_game.sim.rules import CELL, HALF, RADIUS
 
 @fast
 def collide_own_tile(w: World, tile: int, cx: float, cy: float) -> None:
-    """The tile of the cell that holds the body's centre."""
+    """Collide with the tile of the cell that holds the body's centre."""
     shape = SHAPE[tile]
     n = w.ninja
     nx = NORMAL_X[tile]
@@ -91,7 +91,7 @@ def collide_own_arc(w: World, dx: float, dy: float, length: float, depth: float,
 
 @fast
 def collide_own_half(w: World, sx: float, sy: float, cx: float, cy: float) -> None:
-    """A half tile. Quirk: the short way out is (ox, oy), both overlaps at once, always right and down."""
+    """Collide with a half tile. Quirk: its short way out is (ox, oy), both overlaps at once, always right and down."""
     n = w.ninja
     depth = ((n.x - sx * RADIUS) - cx) * sx + ((n.y - sy * RADIUS) - cy) * sy
     if depth < 0.0:
@@ -120,7 +120,7 @@ def push_to_surface(w: World, depth: float, nx: float, ny: float, cx: float, cy:
 
 @fast
 def distance_to_nearest_side(w: World, cx: float, cy: float) -> float:
-    """ℓ: how far the body is from leaving its own cell's square over the nearest side."""
+    """ℓ: the distance over which the body leaves its own cell's square by the nearest side, px."""
     ox = (HALF + RADIUS) - abs(w.ninja.x - cx)
     oy = (HALF + RADIUS) - abs(w.ninja.y - cy)
     return ox if ox < oy else oy
@@ -128,7 +128,7 @@ def distance_to_nearest_side(w: World, cx: float, cy: float) -> float:
 
 @fast
 def push_out_of_cell(w: World, cx: float, cy: float) -> None:
-    """EXIT: push the body out of its own cell's square over the nearest side (vertically when equal)."""
+    """EXIT: push the body out of its own cell's square over the nearest side (vertically if two are equally near)."""
     dx = w.ninja.x - cx
     dy = w.ninja.y - cy
     ox = (HALF + RADIUS) - abs(dx)

@@ -28,9 +28,9 @@ from ninja_game.sim.rules import CELL, HALF, QUARTER
 
 @fast
 def ray_tile(tile: int, cx: float, cy: float, x: float, y: float, dx: float, dy: float) -> tuple[bool, float, float]:
-    """Ray from (x, y) along (dx, dy) against the tile of the cell centred on (cx, cy): (hit, point px).
+    """Test a ray from (x, y) along (dx, dy) against the tile of the cell centred on (cx, cy): (hit, hit x, hit y), px.
 
-    Comparisons are written so that NaN decides as in the original: "not (a < b)" is true for it.
+    Comparisons keep the original's answer for NaN: "not (a < b)" is true for it.
     """
     shape = SHAPE[tile]
     if tile == 0 or shape == FULL or shape == UNDEFINED:
@@ -60,7 +60,7 @@ def ray_tile(tile: int, cx: float, cy: float, x: float, y: float, dx: float, dy:
 def ray_surface(
     mx: float, my: float, ex: float, ey: float, ux: float, uy: float, dx: float, dy: float
 ) -> tuple[bool, float, float]:
-    """Against a straight surface: its middle, the way there from the ray's start, and half of it as a vector, px."""
+    """Hit a straight surface. (mx, my): its middle; (ex, ey): from the ray's start to it; (ux, uy): half of it; px."""
     kappa = ieee_divide(dy * ex - dx * ey, dx * uy - dy * ux)
     if 1.0 < abs(kappa):
         return False, 0.0, 0.0
@@ -69,7 +69,7 @@ def ray_surface(
 
 @fast
 def ray_wedge(tile: int, cx: float, cy: float, x: float, y: float, dx: float, dy: float) -> tuple[bool, float, float]:
-    """Against a wedge, thin or thick: a start within its box is stopped at once."""
+    """Hit a wedge, thin or thick: a ray that starts within its box stops at once."""
     shape = SHAPE[tile]
     sx = SIGN_X[tile]
     sy = SIGN_Y[tile]
@@ -105,7 +105,7 @@ def ray_wedge(tile: int, cx: float, cy: float, x: float, y: float, dx: float, dy
 
 @fast
 def arc_roots(fx: float, fy: float, dx: float, dy: float) -> tuple[bool, float, float]:
-    """Where a ray's line meets a tile's arc (radius 24): (meets, t1, t2), distances along the ray in px."""
+    """Intersect a ray's line with a tile's arc (radius 24): (meets, t1, t2), distances along the ray in px."""
     a = dx * dx + dy * dy
     b = 2.0 * (dx * fx + dy * fy)
     g = fx * fx + fy * fy - CELL * CELL
@@ -121,7 +121,7 @@ def arc_roots(fx: float, fy: float, dx: float, dy: float) -> tuple[bool, float, 
 def ray_concave(
     sx: float, sy: float, cx: float, cy: float, x: float, y: float, dx: float, dy: float
 ) -> tuple[bool, float, float]:
-    """Through the chord between the arc's ends, then the far side of the circle."""
+    """Hit a concave tile: the ray passes the chord between the arc's ends, then meets the far side of the circle."""
     if not sx * dx + sy * dy < 0.0:
         return False, 0.0, 0.0
     ex = cx - x
@@ -142,7 +142,7 @@ def ray_concave(
 def ray_convex(
     sx: float, sy: float, cx: float, cy: float, x: float, y: float, dx: float, dy: float
 ) -> tuple[bool, float, float]:
-    """The near side of the whole circle, even behind the start: a ray that moves away is stopped too (quirk)."""
+    """Hit a convex tile: the near side of the whole circle. Quirk: this stops a ray that moves away from it, too."""
     meets, t1, t2 = arc_roots(x - (cx - sx * HALF), y - (cy - sy * HALF), dx, dy)
     if not meets:
         return False, 0.0, 0.0

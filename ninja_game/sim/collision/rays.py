@@ -32,7 +32,7 @@ from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, NEVER, OFF, RADIUS, RIG
 def cast_ray(level: TileMap, w: World, x: float, y: float, dx: float, dy: float) -> tuple[bool, float, float]:
     """Follow a ray from (x, y) along the unit vector (dx, dy) until a tile or a solid edge stops it.
 
-    Answers (stopped, px, px); the point is (0, 0) for a ray that runs off the grid.
+    Gives (stopped, x, y) with the stop point in px; (0, 0) for a ray that runs off the grid.
     """
     cell = cell_at(x, y)
     if cell == 0:
@@ -86,7 +86,7 @@ def cast_ray(level: TileMap, w: World, x: float, y: float, dx: float, dy: float)
 
 @fast
 def ray_tiles(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float) -> tuple[bool, float, float]:
-    """Ray from (x, y) through (to_x, to_y) against tiles and edges: (stopped, stop point px)."""
+    """Cast a ray from (x, y) through (to_x, to_y) against tiles and edges: (stopped, stop x, stop y), px."""
     vx = to_x - x
     vy = to_y - y
     length = sqrt(vx * vx + vy * vy)
@@ -99,7 +99,7 @@ def ray_tiles(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: f
 def ray_circle(
     x: float, y: float, dx: float, dy: float, cx: float, cy: float, radius: float
 ) -> tuple[bool, float, float]:
-    """Ray against a circle: (hit, point px). From inside it hits where it leaves the circle."""
+    """Test a ray against a circle: (hit, hit x, hit y), px. From inside it hits where it leaves the circle."""
     fx = x - cx
     fy = y - cy
     a = dx * dx + dy * dy
@@ -108,7 +108,7 @@ def ray_circle(
     discriminant = b * b - 4.0 * a * g
     if discriminant < 0.0:
         return False, 0.0, 0.0
-    k = ieee_divide(1.0, 2.0 * a)  # a is 0 for a ray towards a place so far away that its direction vanishes
+    k = ieee_divide(1.0, 2.0 * a)  # a is 0 if the target is so far away that the ray's direction vanishes
     root = sqrt(discriminant)
     t1 = (-b + root) * k
     t2 = (-b - root) * k
@@ -122,7 +122,7 @@ def ray_circle(
 
 @fast
 def sees(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float) -> tuple[bool, float, float]:
-    """Does a ray from (x, y) through (to_x, to_y) meet the ninja's circle before any tile? And where (px)."""
+    """Tell whether a ray from (x, y) through (to_x, to_y) meets the ninja before any tile: (seen, hit x, hit y), px."""
     n = w.ninja
     vx = to_x - x
     vy = to_y - y
@@ -145,7 +145,7 @@ def sees(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float)
 
 @fast
 def solid_at(level: TileMap, x: float, y: float) -> bool:
-    """Is a point in the solid part of its cell's tile? Boundaries are solid; edges and doors play no part."""
+    """Tell whether a point is in the solid part of its cell's tile, boundary included. Edges and doors do not count."""
     cell = cell_at(x, y)
     tile = level.tiles[cell]
     if tile == 0:

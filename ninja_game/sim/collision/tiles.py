@@ -22,9 +22,9 @@ EMPTY, FULL, HALF_TILE, SLOPE_45, CONCAVE, CONVEX, THIN_22, THICK_22, THIN_67, T
 """Tile classes. UNDEFINED is a malformed tile: never solid, but not empty for edges (world.md §2.3)."""
 
 ODD_HALF_ID = 34
-"""What a tile id above 33 becomes: a half tile without orientation."""
+"""The id that replaces a tile id above 33: a half tile without orientation."""
 UNDEFINED_ID = 35
-"""What a tile id below 0 becomes."""
+"""The id that replaces a tile id below 0."""
 
 _SIGNS = ((1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0))
 _HALF_SIGNS = ((0.0, -1.0), (-1.0, 0.0), (0.0, 1.0), (1.0, 0.0))
@@ -54,7 +54,7 @@ _ANCHOR = {SLOPE_45: (0, 0), THIN_22: _S[THIN_22], THICK_22: _T[THICK_22], THIN_
 
 
 def _offsets(points: dict[int, tuple[int, int]], axis: int) -> list[float]:
-    """Offset in px from the cell's centre, per tile id, of one reference point of each class (0 where it has none)."""
+    """Offset in px from the cell's centre, per tile id, of one reference point of each class (0: it has none)."""
     signs = (SIGN_X, SIGN_Y)[axis]
     return [HALF * points.get(shape, (0, 0))[axis] * sign for shape, sign in zip(SHAPE, signs, strict=True)]
 
@@ -70,7 +70,7 @@ _OUTWARD = ((1, 0), (0, 1), (-1, 0), (0, -1))
 
 
 def _face(tile: int, side: int) -> int:
-    """The face that a tile presents to one side (0 right, 1 down, 2 left, 3 up)."""
+    """Give the face that a tile shows on one side (0 right, 1 down, 2 left, 3 up)."""
     shape = SHAPE[tile]
     if shape == EMPTY:
         return NO_FACE
@@ -86,8 +86,8 @@ FACE = [_face(tile, side) for tile in range(len(SHAPE)) for side in range(4)]
 """Face of tile id t on side s at index 4 t + s."""
 
 # The tutorial that this design comes from calls its own edge code "complex and prone to bugs" and asks for a simpler
-# one. This is it: an edge depends on two faces only, the cell's own and the neighbour's that touches it. It equals the
-# original decision for every pair of tiles on every side.
+# one. Here an edge depends only on the two faces that touch: the cell's own and the neighbour's. For every pair of
+# tiles on every side the result equals the original's.
 EDGE_OF_FACES = [OFF, INTERESTING, SOLID, OFF, INTERESTING, SOLID, OFF, INTERESTING, OFF]
 """Edge state at index 3 · own face + neighbour's face."""
 
@@ -102,7 +102,7 @@ CENTRE_Y = [0.0] * (GRID_CELLS)
 COLUMN = [0] * (GRID_CELLS)
 ROW = [0] * (GRID_CELLS)
 EXISTS = [0] * (GRID_CELLS)
-"""Per grid index: centre in px, column, row, whether it is a cell of the world. "No cell" has zeros (objects.md §1)."""
+"""Per grid index: centre in px, column, row, 1 for a cell of the world. Index 0 (no cell) has zeros (objects.md §1)."""
 for _row in range(GRID_ROWS):
     for _column in range(GRID_COLUMNS):
         _cell = (_row + 1) * STRIDE + _column + 1
@@ -115,7 +115,7 @@ for _row in range(GRID_ROWS):
 
 @fast
 def set_edges(level: TileMap, w: World) -> None:
-    """Derive all edge states from the tiles, as after loading a map."""
+    """Derive all edge states from the tiles, as the original does after loading a map."""
     tiles = level.tiles
     edges = w.edges
     for row in range(1, GRID_ROWS + 1):

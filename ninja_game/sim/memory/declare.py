@@ -1,4 +1,4 @@
-"""One annotated schema, two memories.
+"""One annotated schema, and the two memories made of it.
 
 The state of the world is described once, by annotated classes (``schema.py``). This module turns such a class into the
 *plain* memory: a Python class with slots, every field zero at first. ``layout.py`` of the backend turns the same class
@@ -29,7 +29,7 @@ REGISTERED: set[Any] = set()
 """Every function marked ``@fast``."""
 
 KERNELS: dict[Any, str] = {}
-"""Those of them that Python calls, with their names: only they get wrappers and a place in the cache."""
+"""The registered functions that Python calls, with their names: only they get wrappers and a place in the cache."""
 
 
 def fast(function: F) -> F:
@@ -39,9 +39,9 @@ def fast(function: F) -> F:
 
 
 def kernel(function: F) -> F:
-    """Register a function that is called from outside; its arguments are arrays and numbers, never single records.
+    """Register a function that Python calls; its arguments are arrays and numbers, never single records.
 
-    Raises TypeError for a name that another kernel has.
+    Raises TypeError if another kernel has the same name.
     """
     if function.__name__ in KERNELS.values():
         raise TypeError(f"there is another kernel of the name {function.__name__}; rename one")
@@ -58,19 +58,19 @@ class Field(NamedTuple):
 
 
 def fields_of(cls: type) -> list[Field]:
-    """The fields that a struct declares or inherits, bases first, in the order of declaration."""
+    """List the fields that a struct declares or inherits, bases first, in the order of declaration."""
     if "FIELDS" in cls.__dict__:
         return list(cls.__dict__["FIELDS"])
-    found: dict[str, Field] = {}
+    fields: dict[str, Field] = {}
     for base in reversed(cls.__mro__[:-1]):
         hints = get_type_hints(base, include_extras=True)
         for name in get_annotations(base):
-            found.setdefault(name, _field(name, hints[name]))
-    return list(found.values())
+            fields.setdefault(name, _field(name, hints[name]))
+    return list(fields.values())
 
 
 def scalars_of(cls: type) -> list[Field]:
-    """Its fields that are one number each: no arrays, no structs."""
+    """List the fields of a struct that hold one number: no arrays, no structs."""
     return [field for field in fields_of(cls) if field.length == 0 and isinstance(field.type, str)]
 
 
@@ -86,12 +86,12 @@ def _field(name: str, hint: Any) -> Field:
 
 
 def getter_of(fields: list[Field]) -> Callable[[Any], tuple[Any, ...]]:
-    """A function that reads these fields of an object as a tuple."""
+    """Make a function that reads these fields of an object as a tuple."""
     return attrgetter(*(field.name for field in fields))
 
 
 def setter_of(fields: list[Field]) -> Callable[[Any, tuple[Any, ...]], None]:
-    """A function that writes a tuple back into these fields of an object."""
+    """Make a function that writes a tuple back into these fields of an object."""
     targets = ", ".join(f"o.{field.name}" for field in fields)
     names: dict[str, Any] = {}
     exec(f"def restore(o, values):\n    {targets}, = values", names)  # noqa: S102 - made from the schema, not from input
@@ -100,7 +100,7 @@ def setter_of(fields: list[Field]) -> Callable[[Any, tuple[Any, ...]], None]:
 
 
 def struct_base(cls: type[C]) -> type[C]:
-    """Declare fields that a struct inherits; a class without instances, hence with empty slots."""
+    """Declare fields for structs to inherit. The class has no instances, hence empty slots."""
     body = {name: value for name, value in cls.__dict__.items() if name not in ("__dict__", "__weakref__")}
     remade: type[C] = type(cls.__name__, cls.__bases__, body | {"__slots__": ()})
     return remade
@@ -109,8 +109,8 @@ def struct_base(cls: type[C]) -> type[C]:
 def struct(cls: type[C]) -> type[C]:
     """Give an annotated class slots and a constructor without arguments that makes everything zero.
 
-    An array of structs that ends a struct starts with one element only, the "nobody" at index 0; the loader appends
-    what a level needs.
+    If a struct ends with an array of structs, the array starts with one element, the unused index 0; the loader appends
+    the objects of a level.
     """
     fields = fields_of(cls)
     lines = ["def __init__(self):"]

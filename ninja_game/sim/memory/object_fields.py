@@ -1,4 +1,4 @@
-"""What the objects of each kind hold: the common header, then the fields of the kind (objects.md §8)."""
+"""The fields of the objects: a common header, then the fields of their kind (objects.md §8)."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from ninja_game.sim.memory.declare import f8, i4, struct, struct_base
 
 @struct_base
 class Header:
-    """What every object has: place, cell list, update set, thinker ring, current routine."""
+    """The fields of every object: place, cell list, update set, thinker ring, current routine."""
 
     x: f8  #: place, px
     y: f8
     kind: i4  #: number in kinds.py
     slot: i4  #: its index in ``World.objects``
-    id: i4  #: index of its record among those that create something; -1: none
+    id: i4  #: index among the records that create something; -1: none
     cell: i4  #: grid index of the cell in whose list it is, 0: none
     in_grid: i4  #: 1: in the grid, so that it can be touched
     next: i4  #: neighbours in the cell's list: slots, 0: none
@@ -24,7 +24,7 @@ class Header:
     thinking: i4  #: 1: in the thinker ring; its neighbours there: slots
     ring_next: i4
     ring_prev: i4
-    routine: i4  #: what it does in an update: a routine of states.py
+    routine: i4  #: what its updates do: a routine of states.py
     counter: i4  #: ticks in the present routine, or since the last contact
 
 
@@ -61,9 +61,9 @@ class Switch(Header):
 class BounceBlock(Header):
     """A block on a spring; ``counter`` sends it to sleep."""
 
-    anchor_x: f8  #: where the spring pulls it to, px
+    anchor_x: f8  #: the point to which the spring pulls it, px
     anchor_y: f8
-    prev_x: f8  #: where it was a tick ago, px
+    prev_x: f8  #: place a tick ago, px
     prev_y: f8
 
 
@@ -79,19 +79,19 @@ class LaunchPad(Header):
 class OneWay(Header):
     """A one-way platform."""
 
-    face_x: f8  #: unit vector to the side on which one can land
+    face_x: f8  #: unit vector to the side on which the ninja can land
     face_y: f8
 
 
 @struct_base
 class Door(Header):
-    """A door: two edge states, one from each side of the same line."""
+    """A door. It has two edge states, one on each side of its line."""
 
-    mechanism: i4  #: automatic, locked or trap: a sort of states.py
-    switched: i4  #: 1: not as it began: an automatic or locked door is open, a trap is closed
+    mechanism: i4  #: automatic, locked or trap (states.py)
+    switched: i4  #: 1: an automatic or locked door is open, a trap door is closed
     edge_1: i4  #: indices into ``World.edges``, 0: missing
     edge_2: i4
-    stored_1: i4  #: what these edges were when the door was made
+    stored_1: i4  #: states of these edges when the door was made
     stored_2: i4
 
 
@@ -99,13 +99,13 @@ class Door(Header):
 class Thwump(Header):
     """A block that falls, then rises."""
 
-    anchor_x: f8  #: where it rests, px
+    anchor_x: f8  #: place of rest, px
     anchor_y: f8
     face_x: f8  #: unit vector in which it falls; its face on that side kills
     face_y: f8
-    goal_x: f8  #: where it goes now, px
+    goal_x: f8  #: place it moves to, px
     goal_y: f8
-    fall_x: f8  #: where a fall ends, px
+    fall_x: f8  #: end of a fall, px
     fall_y: f8
     speed: f8  #: px/tick
     sign: f8  #: 1.0: falls, -1.0: rises
@@ -137,13 +137,13 @@ class Turret(Header):
 
 @struct_base
 class Launcher(Header):
-    """A launcher; (x, y) is its rocket, until the first one flies its own place."""
+    """A launcher; (x, y) is the place of its rocket, before the first shot that of the launcher."""
 
-    base_x: f8  #: the launcher, px
+    base_x: f8  #: place of the launcher, px
     base_y: f8
     heading_x: f8  #: the rocket's heading, a unit vector after the first shot
     heading_y: f8
-    speed: f8  #: of the rocket, px/tick and px/tick²
+    speed: f8  #: the rocket's speed and acceleration, px/tick and px/tick²
     acceleration: f8
 
 
@@ -151,24 +151,24 @@ class Launcher(Header):
 class Drone(Header):
     """A drone with or without a weapon."""
 
-    goal_x: f8  #: middle of the cell it goes to, px
+    goal_x: f8  #: centre of the cell that it moves to, px
     goal_y: f8
     speed: f8  #: px/tick; twice that in a chase
-    end_x: f8  #: where the laser beam ends, px
+    end_x: f8  #: end of the laser beam, px
     end_y: f8
-    beam_x: f8  #: from the drone to the beam's end, px, and how long that is
+    beam_x: f8  #: vector from the drone to the beam's end and its length, px
     beam_y: f8
     beam_length: f8
-    aim_x: f8  #: the middle of a burst and the way it sweeps: unit vectors
+    aim_x: f8  #: middle of a burst and direction of its sweep: unit vectors
     aim_y: f8
     sweep_x: f8
     sweep_y: f8
     spread: f8  #: width of the sweep, as a share of the distance
-    movement: i4  #: how it chooses its way, what it is armed with: numbers of states.py
+    movement: i4  #: numbers of states.py: how it chooses its way, which weapon it has
     weapon: i4
     seeker: i4  #: 1: a zap drone that chases
-    direction: i4  #: where it goes: 0 right, 1 down, 2 left, 3 up, else a number that behaves like the record's odd one
-    chasing: i4  #: 1: after the ninja
+    direction: i4  #: 0 right, 1 down, 2 left, 3 up; other numbers behave like the record's odd direction
+    chasing: i4  #: 1: it chases the ninja
     move_ticks: i4  #: updates in which it moved, counted from 0 or 1 at the last turn of a "random" drone
     second_list: i4  #: 1: an alternating drone uses the second list of directions
     pending_direction: i4  #: direction to take after a chase, plus 1; 0: none
@@ -181,4 +181,4 @@ class Drone(Header):
 class Object(
     Gold, Mine, Exit, Switch, BounceBlock, LaunchPad, OneWay, Door, Thwump, FloorGuard, Turret, Launcher, Drone
 ):
-    """Any object. One class for all kinds, so that plain code stays monomorphic; one record in which they overlap."""
+    """Any object: one class, so that plain code stays monomorphic; in compiled code one record of shared fields."""

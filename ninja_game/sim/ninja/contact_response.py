@@ -1,4 +1,4 @@
-"""Contacts of the ninja: with a solid box, and how it takes one: pushed, then noted as floor or wall (ninja.md §5)."""
+"""Contacts of the ninja: with a solid box; its push out of a contact, kept as floor or wall (ninja.md §5)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ninja_game.sim.states import CRUSHED
 
 @fast
 def box_contact(n: Ninja, o: Header, half: float) -> tuple[float, float, float]:
-    """How deep the ninja is in a box about an object, px, and the normal of the nearest side; all 0: it is outside."""
+    """Give the ninja's depth in a box around an object, px, and the normal of the nearest side; zeros outside it."""
     dy = n.y - o.y
     overlap_y = half + RADIUS - abs(dy)
     if not 0.0 < overlap_y:
@@ -28,7 +28,7 @@ def box_contact(n: Ninja, o: Header, half: float) -> tuple[float, float, float]:
 
 @fast
 def push(n: Ninja, qx: float, qy: float, mx: float, my: float) -> None:
-    """A contact with an object: push (qx, qy) px, normal (mx, my). Never a crush."""
+    """Apply a contact with an object: push (qx, qy) px, normal (mx, my). It never crushes."""
     n.x += qx
     n.y += qy
     note_normal(n, mx, my)
@@ -36,7 +36,7 @@ def push(n: Ninja, qx: float, qy: float, mx: float, my: float) -> None:
 
 @fast
 def push_from_tile(w: World, qx: float, qy: float, mx: float, my: float) -> None:
-    """A contact with a tile or a solid edge: as ``push``, but a push of more than √80 px crushes and notes nothing."""
+    """Apply a contact with a tile or solid edge: like ``push``, but a push above √80 px crushes and keeps no normal."""
     n = w.ninja
     n.x += qx
     n.y += qy

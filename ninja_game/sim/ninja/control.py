@@ -1,4 +1,4 @@
-"""What the ninja does with the keys, state by state: the tables of ninja.md §7, top to bottom.
+"""How the ninja acts on the keys, state by state: the tables of ninja.md §7, in their order.
 
 "Store vx" means prev_x := x - vx: the velocity lives in the difference of the positions.
 """
@@ -32,7 +32,7 @@ from ninja_game.sim.states import FALLING, JUMPING, RUNNING, SKIDDING, SLIDING, 
 
 @fast
 def jump(w: World, n: Ninja, jx: float, jy: float) -> None:
-    """Enter JUMPING: a velocity that opposes the jump is dropped, then the position itself jumps."""
+    """Enter JUMPING: drop a velocity that opposes the jump, then move the position itself."""
     enter_state(w, JUMPING)
     n.gravity = JUMP_GRAVITY
     if (n.x - n.prev_x) * jx < 0.0:
@@ -46,14 +46,14 @@ def jump(w: World, n: Ninja, jx: float, jy: float) -> None:
 
 @fast
 def jump_off_floor(w: World, n: Ninja, jx: float, jy: float) -> None:
-    """A jump from the ground, with its event."""
+    """Jump from the ground, with its event."""
     emit(w, JUMPED, 0, n.x, n.y, n.floor_x, n.floor_y)
     jump(w, n, jx, jy)
 
 
 @fast
 def jump_off_wall(w: World, n: Ninja, jx: float, jy: float) -> None:
-    """A wall jump or hop, with its event."""
+    """Jump or hop off a wall, with its event."""
     emit(w, WALL_JUMPED, 0, n.x, n.y, n.wall_x, n.wall_y)
     jump(w, n, jx, jy)
 
@@ -141,7 +141,7 @@ def think_on_ground(w: World, n: Ninja) -> None:
 
 @fast
 def run_uphill(n: Ninja, vx: float, vy: float, a: float) -> None:
-    """Help against gravity on a slope (ninja.md §7.2.1). ``a`` is this tick's speed before the help."""
+    """Help the ninja up a slope against gravity (ninja.md §7.2.1). ``a``: this tick's speed before that, px/tick."""
     steepness = UPHILL_HELP * abs(n.floor_y)
     tx = n.direction * abs(n.floor_y) * steepness
     ty = -abs(n.floor_x) * steepness
@@ -154,7 +154,7 @@ def run_uphill(n: Ninja, vx: float, vy: float, a: float) -> None:
 
 @fast
 def celebrate(n: Ninja) -> None:
-    """After the exit: no control, only drag, more of it on the ground (ninja.md §9)."""
+    """Slow down after the exit: no control, only drag, more of it on the ground (ninja.md §9)."""
     if n.in_air and not n.celebrated_in_air:
         n.drag = DRAG
         n.celebrated_in_air = 1

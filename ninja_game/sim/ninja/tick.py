@@ -1,4 +1,4 @@
-"""The ninja's tick: integrate, contacts, evaluation, think (ninja.md §3, §6). Its states are in control.py."""
+"""The ninja's tick: integrate, collide, evaluate, think (ninja.md §3, §6). Its states are in control.py."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ninja_game.sim.states import CELEBRATING, DEAD, FALL
 
 @fast
 def tick_ninja(level: TileMap, w: World, keys: int) -> None:
-    """One tick of the living or celebrating ninja. ``keys``: a sum of ``Input`` flags."""
+    """Advance the living or celebrating ninja by one tick. ``keys``: a sum of ``Input`` flags."""
     n = w.ninja
     x = n.x
     y = n.y
@@ -54,7 +54,7 @@ def tick_ninja(level: TileMap, w: World, keys: int) -> None:
     if n.state == CELEBRATING:
         celebrate(n)
     elif n.state != DEAD:
-        # The input is sampled here and only here: after all physics, by a ninja that lives and does not celebrate.
+        # Do not move this up: keys count only after all physics, and only if the ninja lives and does not celebrate.
         n.direction = (1 if keys & KEY_RIGHT else 0) - (1 if keys & KEY_LEFT else 0)
         n.jump_held = 1 if keys & JUMP_HELD else 0
         n.jump_pressed = 1 if keys & JUMP_PRESSED else 0
@@ -72,7 +72,7 @@ def evaluate_floor(w: World, n: Ninja) -> None:
         n.floor_x = n.first_floor_x
         n.floor_y = n.first_floor_y
     elif n.first_floor_x * n.last_floor_x + n.first_floor_y * n.last_floor_y > PARALLEL_FLOORS:
-        # Nearly parallel: keep the normal if it is the first contact's, else take the last one's.
+        # Nearly parallel: keep the normal if it is that of the first contact, otherwise take that of the last one.
         if not (n.first_floor_x == n.floor_x and n.first_floor_y == n.floor_y):
             n.floor_x = n.last_floor_x
             n.floor_y = n.last_floor_y
@@ -94,7 +94,7 @@ def evaluate_floor(w: World, n: Ninja) -> None:
 
 @fast
 def probe_walls(level: TileMap, n: Ninja) -> None:
-    """In the air and without a wall contact: a tile just beside the centre? Tiles only, no doors or objects."""
+    """Look for a tile, not a door or object, right beside a ninja that is in the air without a wall contact."""
     if solid_at(level, n.x + WALL_PROBE, n.y):
         n.near_wall = 1
         n.wall_x = -1.0

@@ -1,1 +1,1 @@
-"""One file per kind: what it does at load, in its updates and thinks, and when the ninja touches it."""
+"""One file per kind: its rules at load, in updates, in thinks, and when the ninja touches it."""

@@ -1,4 +1,4 @@
-"""Bounce block (objects.md §8.3). It stays in its anchor's cell, wherever it has been pushed."""
+"""Bounce block (objects.md §8.3). It stays in the list of its anchor's cell, however far it is pushed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ninja_game.sim.schedule import end_think, end_update, start_think, start_up
 
 @fast
 def create_block(w: World, o: BounceBlock) -> None:
-    """At rest on its anchor, asleep."""
+    """Place it on its anchor, at rest and asleep."""
     o.anchor_x = o.prev_x = o.x
     o.anchor_y = o.prev_y = o.y
     grid_insert(w, o)
@@ -22,9 +22,9 @@ def create_block(w: World, o: BounceBlock) -> None:
 
 @fast
 def touch_block(w: World, o: BounceBlock) -> None:
-    """Box contact: four fifths of the overlap move the block, one fifth the ninja.
+    """Box contact: four fifths of the overlap move the block, one fifth moves the ninja.
 
-    The block's old place stays, so that its displacement is velocity in the next update.
+    Do not change the block's old place: the next update reads the displacement as velocity.
     """
     n = w.ninja
     depth, mx, my = box_contact(n, o, BLOCK_HALF)
@@ -42,7 +42,7 @@ def touch_block(w: World, o: BounceBlock) -> None:
 
 @fast
 def update_block(o: BounceBlock) -> None:
-    """Verlet step with drag, then the spring towards the anchor."""
+    """Verlet step with drag; then the spring pulls it to the anchor."""
     vx = o.x - o.prev_x
     vy = o.y - o.prev_y
     o.prev_x = o.x
@@ -59,7 +59,7 @@ def update_block(o: BounceBlock) -> None:
 
 @fast
 def think_block(w: World, o: BounceBlock) -> None:
-    """Fall asleep after a second without contact, where it is: it is not re-centred."""
+    """Fall asleep after a second without contact. It stays where it is: it does not return to the anchor."""
     if o.counter > BLOCK_SLEEP:
         end_update(w, o)
         end_think(w, o)

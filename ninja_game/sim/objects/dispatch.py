@@ -1,7 +1,7 @@
-"""Which kind's rule runs: at load, when the ninja asks the nine cells, in an update, in a think (objects.md §2-§3).
+"""Choose the rule of an object's kind: at load, for contacts, in updates and in thinks (objects.md §2-§3).
 
-If-chains over small integers, because both memories are fastest with them. What every kind does about a death or a win
-is in ``death.py``, what traces show of it in ``traces.py``; ``kinds.py`` says who is where.
+Chains of ifs over small integers are the fastest choice in both memories. Reactions to a death or a win are in
+``death.py``, the numbers that traces show in ``traces.py``, the numbers of the kinds in ``kinds.py``.
 """
 
 from __future__ import annotations
@@ -43,12 +43,12 @@ from ninja_game.sim.rules import STRIDE
 from ninja_game.sim.states import DRONE_MOVE
 
 NINE_CELLS = [0, STRIDE, STRIDE + 1, STRIDE - 1, -1, -STRIDE - 1, 1, -STRIDE + 1, -STRIDE]
-"""Own, below, below right, below left, left, above left, right, above right, above."""
+"""The ninja's own cell, below, below right, below left, left, above left, right, above right, above."""
 
 
 @fast
 def create(level: TileMap, w: World, o: Object, p: Sequence[float]) -> None:
-    """What an object does at load; its kind and place are set. ``p``: the nine values of its record."""
+    """Create an object at load; its kind and place are set already. ``p``: the nine values of its record."""
     kind = o.kind
     if kind == GOLD:
         create_gold(w, o)
@@ -78,9 +78,9 @@ def create(level: TileMap, w: World, o: Object, p: Sequence[float]) -> None:
 
 @fast
 def touch_objects(w: World) -> None:
-    """Test the ninja against every object in the nine cells about its own.
+    """Test the ninja against every object in its own cell and the eight around it.
 
-    The link to the next object is read after the contact: one that leaves the grid ends the walk of its list (quirk).
+    Quirk: the link to the next object is read after the contact, so an object that leaves the grid ends the walk.
     """
     centre = w.ninja.cell
     if centre == 0:
@@ -96,7 +96,7 @@ def touch_objects(w: World) -> None:
 
 @fast
 def touch(w: World, o: Object) -> None:
-    """The contact of one object with the ninja."""
+    """Run the contact of one object with the ninja."""
     kind = o.kind
     if kind == GOLD:
         touch_gold(w, o)
@@ -126,7 +126,7 @@ def touch(w: World, o: Object) -> None:
 
 @fast
 def update_objects(level: TileMap, w: World) -> None:
-    """The update pass. The cursor lives in the world, so that an object ended meanwhile can move it along."""
+    """Update all objects of the set. The cursor is in the world: an object that leaves the set meanwhile moves it."""
     slot = w.update_head
     while slot:
         o = w.objects[slot]
@@ -154,7 +154,7 @@ def update_objects(level: TileMap, w: World) -> None:
 
 @fast
 def think(level: TileMap, w: World, o: Object) -> None:
-    """The think of one object."""
+    """Run the think of one object."""
     kind = o.kind
     if kind == DRONE:
         think_drone(level, w, o)

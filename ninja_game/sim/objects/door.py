@@ -1,4 +1,4 @@
-"""Doors: automatic, locked and trap doors change two edge states of one side, nothing else (objects.md §8.6-§8.7)."""
+"""Automatic, locked and trap doors. A door changes two edge states of one side, nothing else (objects.md §8.6-§8.7)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from ninja_game.sim.states import AUTOMATIC, LOCKED, TRAP
 
 @fast
 def create_door(w: World, o: Door, p: Sequence[float]) -> None:
-    """Find the two edges, remember what they are, enter the grid, then close (a trap door: leave open)."""
+    """Look up the two edges, store their states, enter the grid, then close (a trap door stays open)."""
     vertical, trap, locked = p[2], p[3], p[6]
     column, row, column_offset, row_offset = p[4], p[5], p[7], p[8]
     cell_1 = cell_index(column + column_offset, row + row_offset)
@@ -44,7 +44,7 @@ def create_door(w: World, o: Door, p: Sequence[float]) -> None:
     side_2 = UP if vertical == 1.0 else LEFT
     if cell_1:
         o.stored_1 = w.edges[4 * cell_1 + side_1]
-        # An odd "vertical" flag stores the right side's states but writes P1's lower and P2's upper edge (quirk).
+        # Quirk: an odd "vertical" flag stores the states of the right side but writes P1's lower and P2's upper edge.
         o.edge_1 = 4 * cell_1 + (RIGHT if vertical == 0.0 else DOWN)
     if cell_2:
         o.stored_2 = w.edges[4 * cell_2 + side_2]
@@ -66,7 +66,7 @@ def create_door(w: World, o: Door, p: Sequence[float]) -> None:
 
 @fast
 def write_edges(w: World, o: Door, closed: bool) -> None:
-    """Write both states: solid, or what was there when the door was made. Of several doors on a side the last wins."""
+    """Write both states: solid, or those stored when the door was made. If doors share a side, the last one wins."""
     if o.edge_1:
         w.edges[o.edge_1] = SOLID if closed else o.stored_1
     if o.edge_2:
@@ -75,7 +75,7 @@ def write_edges(w: World, o: Door, closed: bool) -> None:
 
 @fast
 def touch_door(w: World, o: Door) -> None:
-    """Disc contact at the switch; of an automatic door at its middle."""
+    """Disc contact at the switch; at the middle of an automatic door."""
     n = w.ninja
     dx = o.x - n.x
     dy = o.y - n.y
@@ -103,7 +103,7 @@ def touch_door(w: World, o: Door) -> None:
 
 @fast
 def update_door(w: World, o: Door) -> None:
-    """An open automatic door closes in the sixth update after the last contact, also with something in it."""
+    """Close an open automatic door in the sixth update after the last contact, even if the ninja is in it."""
     o.counter += 1
     if o.counter > AUTOMATIC_DOOR_OPEN:
         end_update(w, o)

@@ -1,4 +1,4 @@
-"""Drones: how all of them move (objects.md §8.13-§8.17). Their weapons are in drone_weapons.py."""
+"""Drones: their movement (objects.md §8.13-§8.17). Their weapons are in drone_weapons.py."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ FIRST_LIST, SECOND_LIST = WANDER_CW, WANDER_CCW
 
 @fast
 def create_drone(w: World, o: Drone, p: Sequence[float]) -> None:
-    """Registered where the record says, then snapped to that cell's centre; the first update chooses a goal."""
+    """Register it at the place of the record, then move it to that cell's centre; the first update chooses a goal."""
     movement_number, seeker, weapon, direction = p[2], p[3], p[4], p[5]
     cell = cell_at(o.x, o.y)
     link(w, o, cell)
@@ -82,9 +82,9 @@ def create_drone(w: World, o: Drone, p: Sequence[float]) -> None:
 
 @fast
 def direction_code(value: float) -> int:
-    """A drone's first direction as a small number that behaves the same: 0 to 3, or one beyond with the same remainder.
+    """Give a drone's first direction as a small number that acts like the record's: 0 to 3, or one outside of that.
 
-    The remainder of the original has the sign of the dividend; -4…-7 stand for everything below -3.
+    The original's remainder has the sign of the dividend; -4…-7 stand for all numbers below -3.
     """
     if not -1e15 < value < 1e15 or value != int(value):
         return NO_NUMBER
@@ -98,7 +98,7 @@ def direction_code(value: float) -> int:
 
 @fast
 def move_drone(w: World, o: Drone) -> None:
-    """One step towards the goal; a tick of arrival chooses the next goal and does not move."""
+    """Move one step towards the goal. A tick that arrives chooses the next goal and does not move."""
     o.move_ticks += 1
     dx = o.goal_x - o.x
     dy = o.goal_y - o.y
@@ -121,7 +121,7 @@ def move_drone(w: World, o: Drone) -> None:
 
 @fast
 def turn(w: World, o: Drone) -> None:
-    """Choose the next direction by the movement's list. Without an open side the drone is stuck for good (quirk)."""
+    """Choose the next direction from the movement's list. Quirk: without an open side the drone is stuck for good."""
     movement = o.movement
     old = o.direction
     new = NO_DIRECTION
@@ -136,14 +136,14 @@ def turn(w: World, o: Drone) -> None:
         new = first_open(w, o, SECOND_LIST if odd else FIRST_LIST)
         if new != old:
             o.move_ticks = 0 if odd else 1
-    # Once "none", a direction is never assigned again: only the goal moves (objects.md §8.15).
+    # A direction that is "none" never changes again: only the goal moves (objects.md §8.15).
     if old != NO_DIRECTION:
         o.direction = new
 
 
 @fast
 def first_open(w: World, o: Drone, movement: int) -> int:
-    """The first direction of a list whose side of the registered cell is off; sets the goal. Else "none"."""
+    """Give the first direction of a list whose side of the registered cell is off, and set the goal; else "none"."""
     if o.direction == NO_NUMBER or o.cell == 0:
         return NO_DIRECTION
     direction = 0 if o.direction == NO_DIRECTION else o.direction
@@ -152,7 +152,7 @@ def first_open(w: World, o: Drone, movement: int) -> int:
         if candidate >= 0:
             candidate = candidate % 4
         elif -candidate % 4 == 0:
-            candidate = 0  # the remainder has the sign of the dividend: of the negative ones only this is a direction
+            candidate = 0  # remainders have the sign of the dividend: of the negative ones only this one is a direction
         if candidate >= 0 and w.edges[4 * o.cell + candidate] == OFF:
             neighbour = o.cell + NEIGHBOUR_OFFSET[candidate]
             o.goal_x = CENTRE_X[neighbour]
@@ -163,7 +163,7 @@ def first_open(w: World, o: Drone, movement: int) -> int:
 
 @fast
 def chase(w: World, o: Drone) -> bool:
-    """Seekers: run straight past a ninja on the same row or column to the first blocked edge (objects.md §8.16)."""
+    """Make a seeker run past a ninja on its row or column to the first blocked edge (objects.md §8.16)."""
     if not o.seeker:
         return False
     if w.round_over:
@@ -211,7 +211,7 @@ def chase(w: World, o: Drone) -> bool:
 
 @fast
 def stop_firing(w: World, o: Drone) -> None:
-    """A weapon drone's beam or burst ends; it cools down before it moves on."""
+    """End a weapon drone's beam or burst; it cools down before it moves on."""
     o.routine = DRONE_POST_FIRE
     o.counter = 0
     emit(w, LASER_OFF if o.weapon == WEAPON_LASER else CHAINGUN_OFF, o.slot, o.x, o.y, 0.0, 0.0)

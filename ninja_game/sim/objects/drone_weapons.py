@@ -1,4 +1,4 @@
-"""What drones do to the ninja: zap contact, laser beam, chaingun burst (objects.md §8.17-§8.19)."""
+"""The weapons of drones: zap contact, laser beam, chaingun burst (objects.md §8.17-§8.19)."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ from ninja_game.sim.states import (
 
 @fast
 def touch_drone(w: World, o: Drone) -> None:
-    """Zap drones are lethal to touch; the others are armed, but not solid."""
+    """Disc contact: a zap drone kills; armed drones can be passed through."""
     if o.weapon == WEAPON_ZAP:
         zap(w, o, DRONE_RADIUS)
 
 
 @fast
 def think_drone(level: TileMap, w: World, o: Drone) -> None:
-    """A weapon drone that sees the ninja stops and prepares to fire."""
+    """Stop a weapon drone that sees the ninja and prepare to fire."""
     if w.round_over:
         return
     n = w.ninja
@@ -69,7 +69,7 @@ def think_drone(level: TileMap, w: World, o: Drone) -> None:
 
 @fast
 def update_weapon(level: TileMap, w: World, o: Drone) -> None:
-    """Go on with the weapon of a drone that does not move: prepare, fire or cool down."""
+    """Continue with the weapon of a drone that stands: prepare, fire or cool down."""
     routine = o.routine
     if routine == DRONE_POST_FIRE:
         o.counter += 1
@@ -91,7 +91,7 @@ def update_weapon(level: TileMap, w: World, o: Drone) -> None:
 
 @fast
 def aim_beam(level: TileMap, w: World, o: Drone, hit_x: float, hit_y: float) -> None:
-    """Fix the beam when the ninja is sighted: a door that closes later does not shorten it."""
+    """Fix the beam when the drone sees the ninja: a door that closes later does not shorten it."""
     stopped, end_x, end_y = ray_tiles(level, w, o.x, o.y, hit_x, hit_y)
     if stopped:
         o.end_x = end_x
@@ -105,7 +105,7 @@ def aim_beam(level: TileMap, w: World, o: Drone, hit_x: float, hit_y: float) -> 
 
 @fast
 def prepare_beam(w: World, o: Drone) -> None:
-    """The warning time."""
+    """Count down the warning time of the beam."""
     o.counter += 1
     if o.counter >= LASER_PREPARE:
         o.timer = 0
@@ -115,7 +115,7 @@ def prepare_beam(w: World, o: Drone) -> None:
 
 @fast
 def burn(w: World, o: Drone) -> None:
-    """The beam kills what its segment touches."""
+    """Kill the ninja if the beam's segment touches it."""
     n = w.ninja
     wx = n.x - o.x
     wy = n.y - o.y
@@ -144,7 +144,7 @@ def burn(w: World, o: Drone) -> None:
 
 @fast
 def open_fire(w: World, o: Drone) -> None:
-    """Fix direction, sweep and length of the burst; it sweeps towards the side to which the ninja was moving."""
+    """Fix direction, sweep and length of the burst; it sweeps to the side to which the ninja was moving."""
     n = w.ninja
     o.timer = 0
     o.last_shot = BURST_SHOTS + w.tick % BURST_SHOTS_CYCLE
@@ -170,7 +170,7 @@ def open_fire(w: World, o: Drone) -> None:
 
 @fast
 def shoot(level: TileMap, w: World, o: Drone) -> None:
-    """A shot every sixth tick."""
+    """Fire a shot every sixth tick."""
     o.timer += 1
     if o.timer < CHAINGUN_PAUSE:
         return

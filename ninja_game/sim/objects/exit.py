@@ -17,7 +17,7 @@ from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
 
 @fast
 def create_exit(w: World, o: Exit, p: Sequence[float]) -> None:
-    """An exit enters only its switch into the grid; that has no id and takes a slot behind those of the ids."""
+    """Enter only the exit's switch into the grid. The switch has no id; its slot is behind those of the ids."""
     o.partner = w.slots_used
     w.slots_used += 1
     switch = w.objects[o.partner]
@@ -32,7 +32,7 @@ def create_exit(w: World, o: Exit, p: Sequence[float]) -> None:
 
 @fast
 def touch_switch(w: World, o: Switch) -> None:
-    """Open the exit and enter it into the grid. The switch stays in its list for ever, inert (objects.md §2.2)."""
+    """Open the exit and enter it into the grid. The switch stays in its list, without effect (objects.md §2.2)."""
     exit_ = w.objects[o.partner]
     if exit_.is_open:
         return
@@ -47,7 +47,7 @@ def touch_switch(w: World, o: Switch) -> None:
 
 @fast
 def touch_exit(w: World, o: Exit) -> None:
-    """The open exit (a closed one is in no list): the level is passed."""
+    """Pass the level at an open exit; a closed one is in no list."""
     n = w.ninja
     dx = o.x - n.x
     dy = o.y - n.y

@@ -17,15 +17,15 @@ from ninja_game.sim.states import GUARD_CHASE, GUARD_IDLE
 
 @fast
 def empty_for_guard(level: TileMap, cell: int) -> bool:
-    """A floor guard's scan stops at tile ids above 0; a malformed id below 0 is not one."""
+    """Tell whether a floor guard's scan passes a cell: tile ids above 0 stop it, a malformed id below 0 does not."""
     return level.tiles[cell] == 0 or level.tiles[cell] == UNDEFINED_ID
 
 
 @fast
 def create_guard(level: TileMap, w: World, o: FloorGuard) -> None:
-    """Scan the corridor (floor edges as they are at this moment of loading) and the sight range along the row.
+    """Scan the corridor, with the floor edges as they are at this point of loading, and the sight range along the row.
 
-    In the first or last column or outside the grid the original hangs while loading; here such a guard is inert.
+    The original hangs while it loads a guard in the first or last column or outside the grid; here that guard is inert.
     """
     cell = cell_at(o.x, o.y)
     if cell == 0 or COLUMN[cell] == 0 or COLUMN[cell] == GRID_COLUMNS - 1:
@@ -55,7 +55,7 @@ def create_guard(level: TileMap, w: World, o: FloorGuard) -> None:
 
 @fast
 def update_guard(w: World, o: FloorGuard) -> None:
-    """Idle: look along the row, start from the next tick on. Chase: always run to the corridor's end."""
+    """Idle: look along the row and start in the next tick. Chase: always run to the end of the corridor."""
     if o.routine == GUARD_CHASE:
         chase_to_end(w, o)
         return
@@ -71,7 +71,7 @@ def update_guard(w: World, o: FloorGuard) -> None:
 
 @fast
 def chase_to_end(w: World, o: FloorGuard) -> None:
-    """One step. A guard outside its corridor by more than a step never stops: it runs through walls (quirk)."""
+    """Move one step. Quirk: a guard more than a step outside its corridor never stops: it runs through walls."""
     goal = o.low_x if o.facing < 0.0 else o.high_x
     if abs(goal - o.x) < GUARD_SPEED:
         o.x = goal
@@ -83,5 +83,5 @@ def chase_to_end(w: World, o: FloorGuard) -> None:
 
 @fast
 def touch_guard(w: World, o: FloorGuard) -> None:
-    """Disc contact, active or not: lethal."""
+    """Disc contact: kills, whether it runs or not."""
     zap(w, o, GUARD_RADIUS)

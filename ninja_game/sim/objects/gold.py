@@ -14,13 +14,13 @@ from ninja_game.sim.rules import GOLD_RADIUS, RADIUS
 
 @fast
 def create_gold(w: World, o: Gold) -> None:
-    """In the grid, to be found."""
+    """Enter the grid."""
     grid_insert(w, o)
 
 
 @fast
 def touch_gold(w: World, o: Gold) -> None:
-    """Disc contact: collected, and gone from the grid."""
+    """Disc contact: collect it and remove it from the grid."""
     n = w.ninja
     dx = o.x - n.x
     dy = o.y - n.y

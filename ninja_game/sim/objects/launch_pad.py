@@ -1,4 +1,4 @@
-"""Launch pad (objects.md §8.4) and what a launch does to the ninja (ninja.md §10)."""
+"""Launch pad (objects.md §8.4) and its effect on the ninja (ninja.md §10)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ninja_game.sim.states import FALLING, enter_state
 
 @fast
 def create_pad(w: World, o: LaunchPad, p: Sequence[float]) -> None:
-    """With the normal of its record."""
+    """Take the normal of the record and enter the grid."""
     o.face_x = p[2]
     o.face_y = p[3]
     grid_insert(w, o)
@@ -24,14 +24,14 @@ def create_pad(w: World, o: LaunchPad, p: Sequence[float]) -> None:
 
 @fast
 def touch_pad(w: World, o: LaunchPad) -> None:
-    """Disc contact, and the ninja's point facing the pad on or behind the pad's plane. No cooldown."""
+    """Disc contact: launch if the ninja's point that faces the pad is on or behind the pad's plane. No cooldown."""
     n = w.ninja
     dx = o.x - n.x
     dy = o.y - n.y
     if sqrt(dx * dx + dy * dy) < PAD_RADIUS + RADIUS:
         u = o.x - (n.x - o.face_x * RADIUS)
         v = o.y - (n.y - o.face_y * RADIUS)
-        # Written so that a NaN in the normal launches too, as in the original.
+        # Do not write this as ">= 0.0": a NaN in the normal launches too, as in the original.
         if not u * o.face_x + v * o.face_y < 0.0:
             m = 1.0
             if o.face_y < 0.0:
@@ -41,7 +41,7 @@ def touch_pad(w: World, o: LaunchPad) -> None:
 
 @fast
 def launch(w: World, o: LaunchPad, lx: float, ly: float) -> None:
-    """Replace the ninja's velocity. Leaves whatever state it was in, so the dead come back to life (objects.md §3)."""
+    """Replace the ninja's velocity, whatever its state: a launch brings the dead back to life (objects.md §3)."""
     n = w.ninja
     n.prev_x = n.x
     n.prev_y = n.y

@@ -1,4 +1,4 @@
-"""Homing launcher and its rocket (objects.md §8.11). The launcher has no contact; only a rocket in flight has."""
+"""Homing launcher and its rocket (objects.md §8.11). Only the rocket in flight can be touched, not the launcher."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from ninja_game.sim.states import EXPLOSIVE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, LAU
 
 @fast
 def create_launcher(w: World, o: Launcher) -> None:
-    """Waiting; in no cell: it cannot be touched."""
+    """Wait for the ninja. It enters no cell: it cannot be touched."""
     o.base_x = o.x
     o.base_y = o.y
     o.heading_x = ROCKET_HEADING_X
@@ -64,7 +64,7 @@ def update_launcher(level: TileMap, w: World, o: Launcher) -> None:
 
 @fast
 def fire_rocket(w: World, o: Launcher) -> None:
-    """The rocket appears at the base, heading for the ninja; it does not move in this tick."""
+    """Put the rocket on the base, heading for the ninja; it does not move in this tick."""
     n = w.ninja
     o.acceleration = ROCKET_ACCELERATION
     o.speed = 0.0
@@ -83,7 +83,7 @@ def fire_rocket(w: World, o: Launcher) -> None:
 
 @fast
 def fly(level: TileMap, w: World, o: Launcher) -> None:
-    """Accelerate, move, explode in a tile or on a solid edge, and turn towards where the ninja will be."""
+    """Accelerate, move, explode in a tile or on a solid edge, and turn towards the ninja's next place."""
     if o.speed < ROCKET_SPEED:
         o.acceleration = o.acceleration * ROCKET_GROWTH
         o.speed = o.speed + o.acceleration
@@ -103,7 +103,7 @@ def fly(level: TileMap, w: World, o: Launcher) -> None:
 
 @fast
 def edge_between(w: World, old: int, new: int) -> int:
-    """The old cell's own edge towards a direct neighbour; off for anything farther, and where there is no cell."""
+    """Give the old cell's own edge towards the new one; off if they are not neighbours or one is missing."""
     if old != 0 and new != 0:
         for side in range(4):
             if old + NEIGHBOUR_OFFSET[side] == new:
@@ -113,7 +113,7 @@ def edge_between(w: World, old: int, new: int) -> int:
 
 @fast
 def steer(w: World, o: Launcher) -> None:
-    """Turn the heading. There is no test for a distance of 0: heading and place then become NaN for ever (quirk)."""
+    """Turn the heading. Quirk: no test for a distance of 0; heading and place then become NaN for ever."""
     n = w.ninja
     dx = 2.0 * n.x - n.prev_x - (o.x + o.speed * o.heading_x)
     dy = 2.0 * n.y - n.prev_y - (o.y + o.speed * o.heading_y)
@@ -133,7 +133,7 @@ def steer(w: World, o: Launcher) -> None:
 
 @fast
 def touch_rocket(w: World, o: Launcher) -> None:
-    """The rocket's tip inside the ninja: kill, then explode."""
+    """Kill the ninja if the rocket's tip is inside it, then explode."""
     n = w.ninja
     dx = n.x - o.x
     dy = n.y - o.y
@@ -144,7 +144,7 @@ def touch_rocket(w: World, o: Launcher) -> None:
 
 @fast
 def explode(w: World, o: Launcher) -> None:
-    """The rocket is gone; the launcher thinks again, unless the ninja has died or won."""
+    """Remove the rocket; the launcher thinks again, unless the ninja has died or won."""
     end_update(w, o)
     grid_remove(w, o)
     o.routine = LAUNCHER_IDLE

@@ -16,13 +16,13 @@ from ninja_game.sim.states import EXPLOSIVE
 
 @fast
 def create_mine(w: World, o: Mine) -> None:
-    """In the grid, to be met."""
+    """Enter the grid."""
     grid_insert(w, o)
 
 
 @fast
 def touch_mine(w: World, o: Mine) -> None:
-    """Disc contact: the ninja dies and the mine is gone, in that order."""
+    """Disc contact: first the ninja dies, then the mine leaves the grid."""
     n = w.ninja
     dx = o.x - n.x
     dy = o.y - n.y

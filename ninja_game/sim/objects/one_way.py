@@ -15,7 +15,7 @@ from ninja_game.sim.rules import ONE_WAY_HALF, RADIUS
 
 @fast
 def create_one_way(w: World, o: OneWay, p: Sequence[float]) -> None:
-    """Facing its direction; down if that is none."""
+    """Face the direction of the record; a direction that does not exist counts as down."""
     o.face_x = 0.0
     o.face_y = 1.0
     for direction in range(4):
@@ -27,7 +27,7 @@ def create_one_way(w: World, o: OneWay, p: Sequence[float]) -> None:
 
 @fast
 def touch_one_way(w: World, o: OneWay) -> None:
-    """Hold the ninja if it comes from the facing side and was on or outside the face in the last tick."""
+    """Hold a ninja that comes from the facing side and was on or outside the face in the last tick."""
     n = w.ninja
     if box_contact(n, o, ONE_WAY_HALF)[0] == 0.0:
         return

@@ -1,4 +1,4 @@
-"""Thwump (objects.md §8.8): falls when the ninja is in front of it, lethal on its leading face at all times."""
+"""Thwump (objects.md §8.8): falls when the ninja is in front of it; its leading face always kills."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def update_thwump(w: World, o: Thwump) -> None:
 
 @fast
 def move_thwump(w: World, o: Thwump) -> None:
-    """One step; the tick that snaps to the goal does not also move."""
+    """Move one step; the tick that reaches the goal does not move further."""
     dx = o.goal_x - o.x
     dy = o.goal_y - o.y
     if dx * dx + dy * dy < o.speed * o.speed:
@@ -110,7 +110,7 @@ def move_thwump(w: World, o: Thwump) -> None:
 
 @fast
 def touch_thwump(w: World, o: Thwump) -> None:
-    """Box contact: the leading face kills, the others push."""
+    """Box contact: the leading face kills, the other sides push."""
     n = w.ninja
     depth, mx, my = box_contact(n, o, THWUMP_HALF)
     if depth == 0.0:

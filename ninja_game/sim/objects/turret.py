@@ -1,4 +1,4 @@
-"""Gauss turret (objects.md §8.12): its crosshair follows the ninja, then it fires once through it."""
+"""Gauss turret (objects.md §8.12): its crosshair follows the ninja, then it fires one shot through the crosshair."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from ninja_game.sim.states import (
 
 @fast
 def create_turret(w: World, o: Turret) -> None:
-    """Waiting, aimed at itself; in no cell: it cannot be touched."""
+    """Wait, aimed at itself. It enters no cell: it cannot be touched."""
     o.aim_x = o.x
     o.aim_y = o.y
     start_think(w, o)
@@ -53,7 +53,7 @@ def sees_ninja(level: TileMap, w: World, o: Turret) -> bool:
 
 @fast
 def think_turret(level: TileMap, w: World, o: Turret) -> None:
-    """Waiting: start targeting what is seen. Targeting: stop when it is out of sight."""
+    """Waiting: start targeting when the ninja is in sight. Targeting: stop when it is out of sight."""
     seen = sees_ninja(level, w, o)
     if o.think == TURRET_WAITING:
         if seen:
@@ -67,7 +67,7 @@ def think_turret(level: TileMap, w: World, o: Turret) -> None:
 
 @fast
 def keep_targeting(w: World, o: Turret) -> None:
-    """(Re)start the count to the shot; aim point and factor carry on."""
+    """Start or restart the count to the shot; aim point and factor keep their values."""
     o.shot_counter = TURRET_SHOT
     o.routine = TURRET_TARGET
     o.think = TURRET_TARGETING
@@ -76,14 +76,14 @@ def keep_targeting(w: World, o: Turret) -> None:
 
 @fast
 def stop_targeting(w: World, o: Turret) -> None:
-    """Wait for the ninja to come in sight."""
+    """Wait until the ninja comes in sight."""
     end_update(w, o)
     o.think = TURRET_WAITING
 
 
 @fast
 def update_turret(level: TileMap, w: World, o: Turret) -> None:
-    """Target, then stand still before the shot, then after it."""
+    """Target; then stand still before the shot, and again after it."""
     if o.routine == TURRET_TARGET:
         target(w, o)
     elif o.routine == TURRET_PRE_FIRE:
@@ -103,7 +103,7 @@ def update_turret(level: TileMap, w: World, o: Turret) -> None:
 
 @fast
 def target(w: World, o: Turret) -> None:
-    """Move the crosshair towards where the ninja will be; near it the shot comes sooner."""
+    """Move the crosshair towards the ninja's next place; the nearer it is, the sooner the shot."""
     n = w.ninja
     ex = o.aim_x - (2.0 * n.x - n.prev_x)
     ey = o.aim_y - (2.0 * n.y - n.prev_y)
@@ -147,7 +147,7 @@ def fire(level: TileMap, w: World, o: Turret) -> None:
 
 @fast
 def end_shot(w: World, o: Turret) -> None:
-    """Think again and cool down. Runs also when the shot killed and so idled the turret during it (objects.md §4.1)."""
+    """Think again and cool down. It also runs if the shot killed and the death idled the turret (objects.md §4.1)."""
     start_think(w, o)
     o.think = TURRET_TARGETING
     o.counter = 0

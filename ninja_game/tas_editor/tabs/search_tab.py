@@ -232,7 +232,7 @@ class SpanResults:
     # --- in words ---
 
     def refresh(self) -> None:
-        results, miss = self.search.found, self.search.miss
+        results, miss = self.search.results, self.search.miss
         if not results and miss is not None:
             self.better = (miss,)
         if [*map(id, results)] == [*map(id, self._seen)]:  # each report of a search is a new tuple

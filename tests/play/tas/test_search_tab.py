@@ -191,7 +191,7 @@ def test_results_of_one_way_are_one(at: TasDriver, tab: SearchTab) -> None:
     results = searched(at, tab)
     best = tab.found[0]
     elsewhere = replace(best, score=best.score + 0.01, path=best.path + 99)
-    results.search.found = best, replace(best, score=best.score + 0.01, path=best.path + 9), elsewhere
+    results.search.results = best, replace(best, score=best.score + 0.01, path=best.path + 9), elsewhere
     at.frames(2)
     assert tab.found[:2] == (best, elsewhere)
 
@@ -537,7 +537,7 @@ def test_what_is_no_better_than_the_run_is_not_listed(at: TasDriver, tab: Search
     at.write("tick >= 109")
     at.press("return")
     results = results_of(tab)
-    at.wait(lambda: bool(results.search.found), "results")
+    at.wait(lambda: bool(results.search.results), "results")
     at.choose("Stop")
     at.wait(lambda: not results.running, "the end")
     assert not tab.found
@@ -600,9 +600,9 @@ def test_what_is_found_takes_the_place_of_the_nearest_miss(at: TasDriver, tab: S
     at.press("return")
     results = results_of(tab)
     at.wait(lambda: bool(tab.found), "a miss")
-    results.search.found = (replace(tab.found[0], missed_by=None),)
+    results.search.results = (replace(tab.found[0], missed_by=None),)
     results.refresh()
-    assert results.better == results.search.found
+    assert results.better == results.search.results
 
 
 def test_the_rest_of_the_run_and_a_measure_exclude_each_other(at: TasDriver, tab: SearchTab) -> None:
