@@ -264,3 +264,25 @@ def test_of_the_same_runs_that_came_in_together_none_is_a_copy(runs: Path, level
     board(runs, levels, *words, "--reject", "mbd.txt", "--reason", "one")
     board(runs, levels, *words, "--reject", "tas-2.txt", "--reason", "other")
     assert len(json.loads(data.read_text("utf-8"))["decisions"]) == 2
+
+
+def test_an_assisted_run_that_names_whose_it_was_does_not_wait(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "ann.txt", slow_walk(40, author="Ann"))
+    taken_in_earlier(runs, levels, data := tmp_path / "board.json")
+    near = bytes(40) + WALKING[:-8] + b"\0" + WALKING
+    edited, alone = Provenance(edits=3), Provenance(played=True)
+    sent = {
+        "begun": (edited._replace(begun_by="ANN"), ()), "with": (edited, ("Bob", "ann")), "nobody": (edited, ()),
+        "other": (edited._replace(begun_by="Dee"), ("Bob",)), "played": (alone, ("Ann",)),
+    }  # fmt: skip
+    for number, (name, (made, names)) in enumerate(sent.items()):
+        keys = near[: 50 + number] + b"\0" + near[50 + number :]
+        put(runs, f"{name}.txt", replay(keys, author=f"X{name}", made=made, co_authors=names))
+    for _ in range(2):
+        said = board(runs, levels, "--json", str(data), "--site", str(tmp_path / "site"))
+        waiting = "--confirm nobody.txt --confirm other.txt --confirm played.txt"
+        assert said.endswith(f"3 wait for confirmation: {waiting}\n"), said
+    assert "of the run by Ann in ann.txt, who is named as its origin" in level_page(tmp_path / "site")
+    put(runs, "nobody.txt", (runs / "nobody.txt").read_text("utf-8").replace("edited 3", "edited 3 from a run by Ann"))
+    said = board(runs, levels, "--json", str(data))
+    assert said.endswith("2 wait for confirmation: --confirm other.txt --confirm played.txt\n"), said

@@ -217,7 +217,7 @@ def _with_row(run: Run, owner: Mapping[str, Any], own: Mapping[str, Any]) -> Run
     row = own if own.get("way") == run.way else owner
     if row.get("confirmed") is True:
         return replace(run, near="", confirmed=True)
-    if not run.near and (near := row.get("near")):
+    if not run.near and not run.derived and (near := row.get("near")):
         return replace(run, near=near, remark="; ".join(filter(None, (f"{near} (found earlier)", run.remark))))
     return run
 

@@ -12,6 +12,7 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.run import run_level
 from ninja_game.web.board.collect import RunFolder
+from ninja_game.web.board.players import folded
 from ninja_game.web.pages.gallery import path_data
 
 Key = tuple[str, int]  # a run's file, as a path in the folder, and its record there
@@ -94,7 +95,7 @@ class Run(Judged):
     ``file``: path in the folder, ``record`` in it; ``added``: as of Dates; ``remark``: for readers; ``near``: the run
     that it nearly copies, a sentence; until it is ``confirmed`` it leads no table; ``again``: it was withdrawn, and is
     the first of its moment; ``taken``: where ``added`` is that of an older board, when this one took
-    it in; ``digest``: of its file.
+    it in; ``derived``: near to a run of one of its ``origins``; ``digest``: of its file.
     """
 
     file: str
@@ -113,6 +114,7 @@ class Run(Judged):
     def key(self) -> Key:
         return self.file, self.record
 
+    derived: bool = False
     @property
     def order(self) -> tuple[str, bool, bool, Key]:
         """Its place in time: the earliest run owns its inputs. A level of an episode comes after single runs."""
@@ -138,6 +140,12 @@ class Run(Judged):
     def medal(self) -> str:
         """Its medal, "" for none."""
         return self.entry.pars.medal(self.tick) if self.entry.pars else ""
+
+    @property
+    def origins(self) -> set[str]:
+        """The players, folded, whose runs an assisted one is made of, as it says; none for any other run."""
+        names = (parse_provenance(self.made).begun_by, *names_of_text(self.co_authors)) if self.assisted else ()
+        return {folded(name) for name in names if name}
 
     @property
     def inputs(self) -> bytes:
