@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 from difflib import get_close_matches
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ninja_game.levels.episodes import Entry
     from ninja_game.web.board.ranking import Ranked, Ranking
     from ninja_game.web.board.rules import Category
-    from ninja_game.web.board.runs import Ledger, ValidatedRuns
+    from ninja_game.web.board.runs import Ledger, Run
     from ninja_game.web.pages.memo import Memo
 
 LAST_LEVELS, LAST_LEDGER, LAST_RULES = "/levels", "/ledger", "/rules"  # keys of a memo: no path of a run begins so
@@ -262,7 +262,7 @@ def _ranking(
     *,
     jobs: int | None,
     again: bool = False,
-    decide: Callable[[Ledger, datetime, ValidatedRuns], bool] | None = None,
+    decide: Callable[[Ledger, datetime, Sequence[Run], Collection[str]], None] | None = None,
     dates: Path | None = None,
     same: bool = True,
 ) -> tuple[Ranking, Ledger]:
@@ -299,10 +299,8 @@ def _ranking(
     shown = published_levels(levels or data_folder("levels"))
     dates_by_file = read_dates(dates, now) if dates else {}
     added, taken = dates_of(before, now, dates_by_file) if ledger else (None, None)
-    judged_now = partial(judge, folder, shown, dates=added, taken=taken, jobs=jobs, memo=memo, ledger=before)
-    judged = judged_now()
-    if decide and decide(before, now, judged):
-        judged = judged_now()
+    deciding = partial(decide, before, now) if decide else None
+    judged = judge(folder, shown, dates=added, taken=taken, jobs=jobs, memo=memo, ledger=before, decide=deciding)
     here = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
     memo.save()
     if unknown := dates_by_file.keys() - here:

@@ -6,14 +6,16 @@ import json
 import re
 from pathlib import Path
 from random import Random
+from unittest.mock import Mock
 
 import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.formats.replay.provenance import Provenance
+from ninja_game.web.board.collect import RunFolder
 from tests.support.board import DIGEST, HOSTILE, board, put, slow_walk, taken_in_earlier
-from tests.support.forgeries import WALKING, replay
+from tests.support.forgeries import WALKING, record, replay
 
 
 def told(runs: Path, levels: Path, *words: str) -> str:
@@ -286,3 +288,36 @@ def test_an_assisted_run_that_names_whose_it_was_does_not_wait(runs: Path, level
     put(runs, "nobody.txt", (runs / "nobody.txt").read_text("utf-8").replace("edited 3", "edited 3 from a run by Ann"))
     said = board(runs, levels, "--json", str(data))
     assert said.endswith("2 wait for confirmation: --confirm other.txt --confirm played.txt\n"), said
+
+
+def test_what_no_keyboard_can_do_is_put_on_the_assisted_ladder(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """A demo of N that does not say how it was made; and it stays there, in whatever file it is."""
+    put(runs, "demo.txt", record(bytes([4]) + WALKING))
+    put(runs, "slow.txt", record(bytes([4]) + WALKING[:-3]))
+    ledger, site = tmp_path / "board.json", tmp_path / "site"
+    words = "--json", str(ledger), "--site", str(site)
+    assert "refused: demo.txt: no keyboard can do that: in tick 0" in board(runs, levels, *words)
+    assert "--ladder FILE assisted" in (site / "board" / "rejected.html").read_text("utf-8")
+    for name, ladder in (("demo.txt", "played"), ("slow.txt", "assisted")):
+        assert "no run of the ledger in that file" in told(runs, levels, *words, "--ladder", name, ladder)
+    for more in (("--ladder", "demo.txt", "assisted", "--reason", "tools"), ()):
+        said = board(runs, levels, *words, *more)
+        assert ("demo.txt" in said, "1 run by 1 player" in said) == (False, True)
+        remark = "the jump key is down and was never pressed; moved to assisted by the keeper on 20"
+        assert (remark in level_page(site), ">0.600<" in level_page(site)) == (True, True)
+    (row,) = json.loads(ledger.read_text("utf-8"))["runs"]
+    assert (row["file"], row["tick"]) == ("demo.txt", len(WALKING) + 1)
+    said = board(runs, levels, *words, "--reject", "demo.txt", "--reason", "whose?")
+    assert ("moderated: demo.txt" in said, "0 runs" in said) == (True, True)
+    data = json.loads(ledger.read_text("utf-8"))
+    ledger.write_text(json.dumps(data | {"decisions": []}), "utf-8")
+    assert "refused: demo.txt: no keyboard" in board(runs, levels, *words)
+
+
+def test_a_decision_judges_the_runs_once(
+    ledger: Path, runs: Path, levels: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    judged = Mock(side_effect=RunFolder.files, autospec=True)
+    monkeypatch.setattr(RunFolder, "files", lambda self: judged(self))
+    said = board(runs, levels, "--json", str(ledger), "--reject", "ann.txt", "--reason", "spliced")
+    assert ("moderated: ann.txt" in said, judged.call_count) == (True, 1)

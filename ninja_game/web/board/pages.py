@@ -59,6 +59,10 @@ Piece = tuple[str, str, Content]  # of a page: anchor, title, content
 
 FEED = "feed.xml"
 ONE_MOMENT = "Where several runs that came in together beat a level's record, the best of them is the record."
+HOW_TO_MOVE = (
+    "What no keyboard can do was made by tools. The keeper ranks it so with: "
+    "ninja-game board FOLDER --json board.json --ladder FILE assisted"
+)
 BY_LEVELS = "By levels led in all categories together, then by levels passed"
 
 
@@ -408,7 +412,8 @@ class BoardPages(LevelPages):
             for run in self.ranking.judged.runs if run.near
         ]  # fmt: skip
         waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
-        leads = tag("p", lead), tag("p", waiting) if near else None
+        movable = any(item.kind == "refused" and item.way for item in rejected)
+        leads = tag("p", lead), tag("p", waiting) if near else None, tag("p", HOW_TO_MOVE) if movable else None
         heads = ("What", "File", "Player", "Level", "Why", "The first run", "Date")
         self.write_table("rejected", "Rejected", "What does not count", heads, rows, *leads)
         if near:

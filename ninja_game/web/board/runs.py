@@ -47,7 +47,8 @@ class Judged:
     """The result of a recording, as plain values that can be cached.
 
     ``kind``: "" for a run that counts, else as in Rejected; ``why``: that, or a remark; ``level``: its digest;
-    ``way``: digest of the ninja's positions; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
+    ``way``: digest of the ninja's positions, also of a run that counts once the keeper has put it on the assisted
+    ladder; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
     """
 
     record: int
@@ -79,6 +80,10 @@ class Ledger(NamedTuple):
     withdrawn: Rows
     decisions: dict[tuple[str, ...], dict[str, Any]]
 
+    def decision(self, run: Run) -> dict[str, Any]:
+        """The row of the keeper's decision on a run; empty for none."""
+        return self.decisions.get((run.level, run.way, folded(run.player)), {})
+
     @property
     def owners(self) -> Rows:
         """By level and way the row of who did it first; it may have ``near`` and ``confirmed``, as a run has."""
@@ -109,12 +114,12 @@ class Run(Judged):
     confirmed: bool = False
     again: bool = False
     taken: str = ""
+    derived: bool = False
 
     @cached_property
     def key(self) -> Key:
         return self.file, self.record
 
-    derived: bool = False
     @property
     def order(self) -> tuple[str, bool, bool, Key]:
         """Its place in time: the earliest run owns its inputs. A level of an episode comes after single runs."""
@@ -136,16 +141,16 @@ class Run(Judged):
         """The ladder that ranks it."""
         return ASSISTED if self.assisted else PLAYED
 
-    @cached_property
-    def medal(self) -> str:
-        """Its medal, "" for none."""
-        return self.entry.pars.medal(self.tick) if self.entry.pars else ""
-
     @property
     def origins(self) -> set[str]:
         """The players, folded, whose runs an assisted one is made of, as it says; none for any other run."""
         names = (parse_provenance(self.made).begun_by, *names_of_text(self.co_authors)) if self.assisted else ()
         return {folded(name) for name in names if name}
+
+    @cached_property
+    def medal(self) -> str:
+        """Its medal, "" for none."""
+        return self.entry.pars.medal(self.tick) if self.entry.pars else ""
 
     @property
     def inputs(self) -> bytes:
@@ -167,7 +172,7 @@ class Run(Judged):
             way = self.entry.title, self.way, self.added
             return Rejected(*self.key, "moderated", f"rejected {said}", self.player, *way)
         remark = "; ".join(filter(None, (self.remark, f"moved to {row['what']} {said}")))
-        return replace(self, assisted=row["what"] == ASSISTED, remark=remark)
+        return replace(self, kind="", assisted=row["what"] == ASSISTED, remark=remark)
 
     @property
     def replay(self) -> Replay:
@@ -184,7 +189,7 @@ class Run(Judged):
 class Rejected:
     """A run, or a file, that does not count. ``kind``: one of KINDS.
 
-    ``way``, ``added``: of a copy, as a run has them; ``first``: the run that it copies.
+    ``way``, ``added``: as a run has them, of one that was simulated to its end; ``first``: the run that it copies.
     """
 
     file: str
