@@ -248,7 +248,7 @@ def test_a_cache_folder_among_the_runs_or_pages_is_refused(
 ) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     folder = Path(place) if place == "." else tmp_path / place
-    monkeypatch.setattr("ninja_game.cli.web.cache_folder", lambda: folder)
+    monkeypatch.setattr("ninja_game.cli.board_ranking.cache_folder", lambda: folder)
     site = tmp_path / "site"
     site.mkdir()
     result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), "--site", str(site)])
