@@ -17,7 +17,6 @@ from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN
 from ninja_game.web.board.players import folded
 from ninja_game.web.board.runs import OWN, Key, Rejected, Rows, Run
-from ninja_game.web.pages.gallery import path_data
 from ninja_game.web.pages.memo import Memo, digest_of, program
 
 MOST_COMPARED = 1000
@@ -267,7 +266,11 @@ def _remarked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Itera
                 said += NAMED if named else DOUBTFUL * (not sure)
             else:
                 said = together.get(run.key, said + ", of the same moment" * bool(said and run.added))
-            yield replace(run, remark="; ".join(filter(None, (said, run.remark))), near=near, derived=named) if said else run
+            yield (
+                replace(run, remark="; ".join(filter(None, (said, run.remark))), near=near, derived=named)
+                if said
+                else run
+            )
 
 
 class _Compared:
@@ -303,7 +306,7 @@ class _Compared:
             for number in sorted(nsmallest(MOST_COMPARED, before, key=lambda number: self._runs[number].tick)):
                 self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
             self._known = len(self._runs)
-            course = self._course(run, new=True)
+            course = self._course(run)
             players = [run.player for run in self._runs]
             near = _near_to_another(run.player, course, self._courses, players, self._earlier)
             whose = self._runs[near[0]].player if near else ""
@@ -312,14 +315,10 @@ class _Compared:
             self._memo.note(key, noted := [said, whose, earlier, sure])
         return noted[0], noted[1], noted[2], noted[3]
 
-    def _course(self, run: Run, *, new: bool = False) -> Course:
-        """The features of a run. ``new``: its page is made, and shows its path."""
+    def _course(self, run: Run) -> Course:
         if self._last is None or self._last[0] != run.key:
             inputs = run.inputs
-            result = run_level(run.entry.named.level, inputs)
-            if new:
-                run.folder.drawn[run.key] = path_data(result.positions)
-            self._last = run.key, course_of(inputs, result)
+            self._last = run.key, course_of(inputs, run_level(run.entry.named.level, inputs))
         return self._last[1]
 
 

@@ -82,14 +82,14 @@ def judge(
             added, later = (of(key, row.way) if of else "" for of in (dates, taken))
             runs.append(replace(_run(file, row, entry, sent, added), taken=later))
     if decide:
-        decide(runs, {run.file for run in (*runs, *rejected)})
+        decide(runs, {run.file for run in runs} | {item.file for item in rejected})
     judged, runs = runs, []
     for run in judged:
         if not run.kind or ledger.decision(run).get("what", PLAYED) != PLAYED:
             runs.append(replace(run, remark=run.remark.partition(";")[0]) if run.kind else run)
         else:
-            way = run.entry.title, run.way, run.added
-            rejected.append(Rejected(*run.key, run.kind, run.remark, run.player, *way))
+            about = run.remark, run.player, run.entry.title, run.way, run.added
+            rejected.append(Rejected(*run.key, run.kind, *about))
     known = {(run.level, run.way, run.added) for run in runs}
     for number, run in enumerate(runs):
         # A run that was withdrawn, or is in another file now, still belongs to its player.

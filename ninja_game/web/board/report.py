@@ -288,14 +288,18 @@ def unnamed(judged: ValidatedRuns) -> str:
     return f"{counted(nameless, 'run')} by unknown players; {how}" if nameless else ""
 
 
-def summary(judged: ValidatedRuns) -> str:
+def counts(judged: ValidatedRuns) -> str:
     players, levels = {run.player for run in judged.runs}, {run.level for run in judged.runs}
-    counts = ("run", judged.runs), ("player", players), ("level", levels)
-    runs, by, on = (counted(len(group), name, f"{name}s") for name, group in counts)
+    groups = ("run", judged.runs), ("player", players), ("level", levels)
+    runs, by, on = (counted(len(group), name, f"{name}s") for name, group in groups)
+    return f"{runs} by {by} on {on}"
+
+
+def summary(judged: ValidatedRuns) -> str:
     kinds = Counter(item.kind for item in judged.rejected)
     rejected = ", ".join(f"{kinds[kind]} {KINDS[kind][0]}" for kind in sorted(kinds))
     near = [run.file for run in judged.runs if run.near]
     files = [f"--confirm {plain(file)}" for file in dict.fromkeys(near)]
     some = " ".join(files[:MOST_NAMED]) + " ..." * (len(files) > MOST_NAMED)
     waits = f"; {len(near):,} wait{'s' * (len(near) == 1)} for confirmation: {some}" if near else ""
-    return f"{runs} by {by} on {on}; rejected: {rejected or 'none'}{waits}"
+    return f"{counts(judged)}; rejected: {rejected or 'none'}{waits}"

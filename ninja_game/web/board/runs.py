@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ninja_game.formats.replay.provenance import names_of_text, parse_provenance
 from ninja_game.formats.replay.text import Replay
@@ -13,7 +13,10 @@ from ninja_game.levels.episodes import Entry
 from ninja_game.runs.run import run_level
 from ninja_game.web.board.collect import RunFolder
 from ninja_game.web.board.players import folded
-from ninja_game.web.pages.gallery import path_data
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 Key = tuple[str, int]  # a run's file, as a path in the folder, and its record there
 
@@ -158,12 +161,9 @@ class Run(Judged):
         return self.folder.inputs(self.file, self.record, self.digest, self.tick + 1)
 
     @property
-    def path(self) -> str:
-        """Its path over the level, as ``path_data``."""
-        drawn = self.folder.drawn
-        if self.key not in drawn:
-            drawn[self.key] = path_data(run_level(self.entry.named.level, self.inputs).positions)
-        return drawn[self.key]
+    def positions(self) -> NDArray[np.float64]:
+        """The ninja after each tick: float64 (ticks, 2), px."""
+        return run_level(self.entry.named.level, self.inputs).positions
 
     def decided(self, row: Mapping[str, Any]) -> Run | Rejected:
         """The run after the keeper's decision in a row of the ledger."""
