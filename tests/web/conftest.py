@@ -50,7 +50,7 @@ def runs(tmp_path: Path) -> Path:
 @pytest.fixture(autouse=True)
 def board_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The cache folder of boards in a test."""
-    monkeypatch.setattr("ninja_game.cli.web.cache_folder", lambda: tmp_path / "cache")
+    monkeypatch.setattr("ninja_game.cli.board_ranking.cache_folder", lambda: tmp_path / "cache")
     return tmp_path / "cache" / "board"
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 from unittest.mock import Mock
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -26,9 +27,9 @@ from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.run import record_replay
 from ninja_game.web.board import collect
 from ninja_game.web.board.categories import FASTEST, HIGHEST, Category
+from ninja_game.web.board.charts import paths, speed_and_keys
 from ninja_game.web.board.collect import MAX_RECORDS
 from ninja_game.web.board.judge import judge
-from ninja_game.web.board.level_pages import paths
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.report import DATE, read_board
@@ -48,6 +49,8 @@ Array.from(document.querySelectorAll(innerWidth > 704 ? "td, th" : "td")).filter
 }).map((cell) => cell.textContent)
 """
 """Cells that have more than a line, and no long text, name or way of making; a narrow page breaks heads."""
+
+ALL = "<caption>All runs"
 
 SAID = """
 Array.from(new Set(Array.from(document.querySelectorAll(".wide"))
@@ -99,11 +102,11 @@ def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_pa
     put(runs, "b.txt", replay(author="Bea"), day=2)
     BoardPages(tmp_path / "site", Ranking(judged_by_file_dates(runs, levels), published_levels(levels))).write()
     page = (tmp_path / "site" / "board" / "index.html").read_text("utf-8")
-    newest = page.partition("<h2>Newest records")[2].partition("</table>")[0]
+    newest = page.partition("<h2>Newest records")[2].partition("<section")[0]
     first, second = (words_of(each) for each in newest.split("<li")[1:3])
     assert "Fastest 0.575 s better by 0.125 Highest score 91.425 points better by 0.125" in first
     assert "Fastest 0.700 s first Highest score 91.300 points first" in second
-    assert "<table" not in newest.partition("<h2>Most")[0], "a new record fills one card"
+    assert "<table" not in newest, "a new record fills one card"
     assert re.findall(">([0-9-]{10})<", newest) == ["1970-01-03", "1970-01-02"]
     neat = Category("Neat", ("gold", "ticks"))
     BoardPages(
@@ -251,7 +254,9 @@ def test_a_player_sees_the_places_of_all_categories(runs: Path, levels: Path, tm
     put(runs, "a.txt", replay(author="Ann"))
     put(runs, "b.txt", slow_walk(author="Bea"))
     site = board_of(runs, levels, tmp_path / "site")
-    (page,) = (text for text in map(Path.read_text, (site / "players").glob("*.html")) if "<title>Bea" in text)
+    (page,) = (
+        text for text in map(Path.read_text, (site / "players").glob("*.html")) if "<title>Bea" in text and ALL in text
+    )
     assert re.findall("<div>([^<]+)</div>", page) == ["Fastest: 2, 0.125 behind", "Highest score: 2, 0.125 behind"]
 
 
@@ -261,12 +266,16 @@ def test_what_decides_between_runs_with_one_number_is_said(runs: Path, levels: P
     categories = Category("Neat", ("gold", "ticks")), Category("Gold", ("gold",))
     ranking = Ranking(judged_by_file_dates(runs, levels), published_levels(levels), categories)
     BoardPages(tmp_path / "site", ranking).write()
-    (page,) = (each for each in map(Path.read_text, (tmp_path / "site").rglob("*.html")) if "<title>Bea -" in each)
+    (page,) = (
+        each
+        for each in map(Path.read_text, (tmp_path / "site").rglob("*.html"))
+        if "<title>Bea -" in each and ALL in each
+    )
     assert re.findall("<div>([^<]+)</div>", page) == ["Neat: 2, same value, slower", "Gold: 1, equal, later in"]
     level = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     assert re.findall("<td>(same[^<]*|equal[^<]*)<", level) == ["same value, slower", "equal, later in"]
     (folder,) = {run.folder for run in ranking.judged.runs}
-    assert not [*folder.drawn, *folder.known], "nothing of a run is kept when its pages are written"
+    assert not folder.known, "nothing of a run is kept when its pages are written"
 
 
 def test_splits_lead_to_numbers_in_the_picture(runs: Path, levels: Path, tmp_path: Path) -> None:
@@ -313,7 +322,7 @@ def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path,
         assert (last - first) * better > 100, title
 
 
-def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path, levels: Path, tmp_path: Path) -> None:
+def test_tables_of_a_level_have_no_empty_column_and_fold_remarks(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "ann.txt", slow_walk(40, author="Ann"))
     put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"), day=1)
     put(runs, "cid.txt", slow_walk(90, author="Cid"), day=2)
@@ -338,9 +347,9 @@ def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path
     assert re.findall('<section id="([^"]+)">', page) == ["ranks-1", "ranks-2", "records", "splits"]
     picture, parts = page.partition("<main")[2].partition("<section")[::2]
     assert ('class="paths"' in picture, "<img" in picture, 'class="paths"' in parts) == (True, False, False)
-    assert "<details>" not in page, "one record was beaten"
-    said = "64 of its 65 ticks have the inputs of the run by Ann in ann."
-    assert [(each.count(f"{said}txt"), each.count(f"{said}..")) for each in tables] == [(1, 0), (0, 1)], "then cut"
+    assert "How the other records went" not in page, "one record was beaten"
+    said = "<summary>Remark</summary>64 of its 65 ticks have the inputs of the run by Ann in ann.txt, "
+    assert [each.count(said) for each in tables] == [1, 1], "folded"
     assert "Sum of the fastest segments, each from the row above: 1.575 s." in page
     assert re.findall("<td>([^<]+)</td>", tables[0].partition(">Bob<")[2])[1] == "0.025"
 
@@ -794,6 +803,68 @@ def test_the_page_of_a_run_shows_its_path(runs: Path, levels: Path, tmp_path: Pa
     assert str(next(each["d"] for _, each in found if each.get("class") == "way")).startswith("M100 566l")
 
 
+def test_the_page_of_a_run_shows_its_speed_keys_and_splits(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", replay(author="Ann"))
+    put(runs, "b.txt", slow_walk(author="Bea"))
+    board = board_of(runs, levels, tmp_path / "site")
+    pages = [path.read_text("utf-8") for path in sorted((board.parent / "replays").glob("*.html"))]
+    (ann,) = (page for page in pages if "<title>Ann on" in page)
+    (bea,) = (page for page in pages if "<title>Bea on" in page)
+    assert "Where time goes" not in ann, "it is the record"
+    assert "Time Speed 1 gold 0.000 0.00 2 switch of exit 0.350 1.95 3 exit 0.575 3.06" in words_of(ann)
+    later = "Later than Ann 1 gold 0.000 0.00 +0.000 2 switch of exit 0.475 1.95 +0.125 3 exit 0.700 3.06 +0.125"
+    assert later in words_of(bea)
+    assert "Seconds by which each is later where Ann is then" in bea
+    assert "Fastest at 0.700 s: 3.06 px per tick; " in bea
+    drawn = bea.partition("<h2>Speed and keys")[2].partition("</svg>")[0]
+    assert 'aria-label="Speed and keys from 0.000 s to 0.725 s, at most 3.1 px per tick"' in drawn
+    assert drawn.count('class="keys"') == 3
+    [(start, length)] = re.findall('d="M([0-9.]+) 176h([0-9.]+)" class="keys"', drawn)
+    wide = (628 - 72) / 29
+    assert (float(start), float(length)) == pytest.approx((72 + 5 * wide, 24 * wide), abs=0.1), "from the sixth tick"
+    assert re.findall('d="([^"]*)" class="keys"', drawn)[::2] == ["", ""]
+
+
+def test_the_page_of_a_run_that_presses_in_every_tick_for_minutes_is_no_larger(levels: Path) -> None:
+    keys = bytes(range(8)) * 2000
+    drawn = speed_and_keys(np.linspace(0, 12.3, len(keys)), keys, range(0, len(keys), 300))
+    assert len("".join(drawn)) < 80_000
+    assert [re.findall("px per tick|to ([0-9.]+) s", each) for each in drawn][-1][0] == "400.000"
+
+
+def test_a_player_sees_where_most_could_be_won(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", replay(author="Ann"))
+    put(runs, "b.txt", replay(level=GOLD_LATER, author="Ann"))
+    put(runs, "c.txt", slow_walk(4, author="Bea"))
+    put(runs, "d.txt", replay(bytes(9) + WALKING + b"\2", GOLD_LATER, author="Bea"))
+    players = board_of(runs, levels, tmp_path / "site") / "players"
+    (page,) = (text for path in players.glob("*-gains.html") if "<title>Bea" in (text := path.read_text("utf-8")))
+    assert re.findall(r"<td>(0\.[0-9]{3})</td><td>2</td>", page) == ["0.225", "0.100"], "the most first"
+    assert page.count("Watch both: Bea on") == 2
+    names = [path.name for path in players.glob("*-gains.html")]
+    links = [each for path in players.glob("*.html") for each in re.findall("[0-9a-f]+-gains.html", path.read_text())]
+    assert {*names} == {*links}
+    assert len(names) == 1, "Ann is first everywhere"
+
+
+def test_a_board_of_one_level_has_its_name_the_newest_runs_and_how_to_send_one(
+    runs: Path, levels: Path, tmp_path: Path
+) -> None:
+    put(runs, "a.txt", replay(author="Ann"))
+    put(runs, "b.txt", slow_walk(author="Bea"))
+    put(runs, f"{'c' * 60}.txt", "nothing")
+    board = board_of(runs, levels / "00-0-level.txt", tmp_path / "site")
+    page = (board / "index.html").read_text("utf-8")
+    assert "<title>Board: Walk -" in page
+    assert '<p class="lead">2 runs by 2 players on 1 level.</p>' in page
+    contents = page.partition('aria-label="On this page"')[2].partition("</nav>")[0]
+    assert re.findall(">([^<]+)</a>", contents) == ["Newest records", "Newest runs", "Send a run", "Players"]
+    newest = page.partition("<h2>Newest runs")[2].partition("</table>")[0]
+    assert re.findall(">([^<]+)</a>", newest) == ["Walk", "Watch", "Bea", "0.700", "Walk", "Watch", "Ann", "0.575"]
+    rejected = (board / "rejected.html").read_text("utf-8")
+    assert f"<summary>{'c' * 24}...</summary>{'c' * 60}.txt</details>" in rejected
+
+
 @pytest.mark.parametrize("width", [390, 1100, 1400])
 def test_no_number_and_no_date_is_broken(width: int, chromium: Any, runs: Path, levels: Path, tmp_path: Path) -> None:
     """Only long texts have more than a line, also beside a remark."""
@@ -848,7 +919,9 @@ def hostile(runs: Path, levels: Path, tmp_path: Path) -> Path:
 
 def test_no_text_becomes_markup(hostile: Path) -> None:
     pages = sorted(hostile.rglob("*.html"))
-    assert len(pages) == 5 + 3 + 2 + 2, "with all runs of the level, and the records of the one player"
+    assert len(pages) == 5 + 3 + 2 + 3, (
+        "with all runs of the level, the records of the one player, and what the other one could win"
+    )
     for path in pages:
         tags = Tags(path.read_text("utf-8")).found
         assert [each for each in tags if each[0] == "script"] == [

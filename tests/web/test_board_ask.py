@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -136,6 +137,16 @@ def test_splits_pictures_and_films(folder: Path, levels: Path, tmp_path: Path) -
         assert code == 0, text
         assert (tmp_path / name).read_bytes().startswith(mark)
     assert ask(folder, levels, "trace", "Walk")[0] == 2
+
+
+def test_a_film_numbers_its_runs_as_a_picture_does(
+    folder: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    films = Mock(side_effect=lambda _, path: path.touch())
+    monkeypatch.setattr("ninja_game.play.replay.film.write_film", films)
+    assert ask(folder, levels, "film", "Walk", "-o", str(tmp_path / "out.gif"))[0] == 0
+    (film,) = films.call_args.args[0]
+    assert (len(film.ghosts), film.colours) == (2, (1, 2))
 
 
 def test_the_first_path_is_on_top() -> None:

@@ -6,14 +6,16 @@ import json
 import re
 from pathlib import Path
 from random import Random
+from unittest.mock import Mock
 
 import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.formats.replay.provenance import Provenance
+from ninja_game.web.board import judge
 from tests.support.board import DIGEST, HOSTILE, board, put, slow_walk, taken_in_earlier
-from tests.support.forgeries import WALKING, replay
+from tests.support.forgeries import WALKING, record, replay
 
 
 def told(runs: Path, levels: Path, *words: str) -> str:
@@ -264,3 +266,58 @@ def test_of_the_same_runs_that_came_in_together_none_is_a_copy(runs: Path, level
     board(runs, levels, *words, "--reject", "mbd.txt", "--reason", "one")
     board(runs, levels, *words, "--reject", "tas-2.txt", "--reason", "other")
     assert len(json.loads(data.read_text("utf-8"))["decisions"]) == 2
+
+
+def test_an_assisted_run_that_names_whose_it_was_does_not_wait(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "ann.txt", slow_walk(40, author="Ann"))
+    taken_in_earlier(runs, levels, data := tmp_path / "board.json")
+    near = bytes(40) + WALKING[:-8] + b"\0" + WALKING
+    edited, alone = Provenance(edits=3), Provenance(played=True)
+    sent = {
+        "begun": (edited._replace(begun_by="ANN"), ()), "with": (edited, ("Bob", "ann")), "nobody": (edited, ()),
+        "other": (edited._replace(begun_by="Dee"), ("Bob",)), "played": (alone, ("Ann",)),
+    }  # fmt: skip
+    for number, (name, (made, names)) in enumerate(sent.items()):
+        keys = near[: 50 + number] + b"\0" + near[50 + number :]
+        put(runs, f"{name}.txt", replay(keys, author=f"X{name}", made=made, co_authors=names))
+    for _ in range(2):
+        said = board(runs, levels, "--json", str(data), "--site", str(tmp_path / "site"))
+        waiting = "--confirm nobody.txt --confirm other.txt --confirm played.txt"
+        assert said.endswith(f"3 wait for confirmation: {waiting}\n"), said
+    assert "of the run by Ann in ann.txt, who is named as its origin" in level_page(tmp_path / "site")
+    put(runs, "nobody.txt", (runs / "nobody.txt").read_text("utf-8").replace("edited 3", "edited 3 from a run by Ann"))
+    said = board(runs, levels, "--json", str(data))
+    assert said.endswith("2 wait for confirmation: --confirm other.txt --confirm played.txt\n"), said
+
+
+def test_what_no_keyboard_can_do_is_put_on_the_assisted_ladder(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """A demo of N that does not say how it was made; and it stays there, in whatever file it is."""
+    put(runs, "demo.txt", record(bytes([4]) + WALKING))
+    put(runs, "slow.txt", record(bytes([4]) + WALKING[:-3]))
+    ledger, site = tmp_path / "board.json", tmp_path / "site"
+    words = "--json", str(ledger), "--site", str(site)
+    assert "refused: demo.txt: no keyboard can do that: in tick 0" in board(runs, levels, *words)
+    assert "--ladder FILE assisted" in (site / "board" / "rejected.html").read_text("utf-8")
+    for name, ladder in (("demo.txt", "played"), ("slow.txt", "assisted")):
+        assert "no run of the ledger in that file" in told(runs, levels, *words, "--ladder", name, ladder)
+    for more in (("--ladder", "demo.txt", "assisted", "--reason", "tools"), ()):
+        said = board(runs, levels, *words, *more)
+        assert ("demo.txt" in said, "1 run by 1 player" in said) == (False, True)
+        remark = "the jump key is down and was never pressed; moved to assisted by the keeper on 20"
+        assert (remark in level_page(site), ">0.600<" in level_page(site)) == (True, True)
+    (row,) = json.loads(ledger.read_text("utf-8"))["runs"]
+    assert (row["file"], row["tick"]) == ("demo.txt", len(WALKING) + 1)
+    said = board(runs, levels, *words, "--reject", "demo.txt", "--reason", "whose?")
+    assert ("moderated: demo.txt" in said, "0 runs" in said) == (True, True)
+    data = json.loads(ledger.read_text("utf-8"))
+    ledger.write_text(json.dumps(data | {"decisions": []}), "utf-8")
+    assert "refused: demo.txt: no keyboard" in board(runs, levels, *words)
+
+
+def test_a_decision_judges_the_runs_once(
+    ledger: Path, runs: Path, levels: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    judged = Mock(side_effect=judge._of_players)
+    monkeypatch.setattr(judge, "_of_players", judged)
+    said = board(runs, levels, "--json", str(ledger), "--reject", "ann.txt", "--reason", "spliced")
+    assert ("moderated: ann.txt" in said, judged.call_count) == (True, 1)

@@ -21,11 +21,11 @@ from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.run import run_level
 from ninja_game.runs.workers import WorkerLostError
 from ninja_game.web.board import collect, copies, judge, runs as board_runs
-from ninja_game.web.board.collect import RunFolder, SentFile
+from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.pages import memo
 from ninja_game.web.pages.memo import Memo
 from tests.support.board import DIGEST, board, put, slow_walk
-from tests.support.forgeries import WALKING, replay
+from tests.support.forgeries import WALKING, record, replay
 from tests.support.samples import WALK_END
 
 
@@ -195,6 +195,22 @@ def test_the_path_of_a_run_with_splits_is_not_simulated_again(
     assert simulated.call_count == 0
 
 
+def test_a_file_with_many_records_is_read_once_for_all_their_pages(
+    tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(runs, "all.txt", "".join(record(bytes(wait) + WALKING) for wait in range(5)))
+    board(runs, levels)
+    parsed, recordings = list[str](), RunFolder.recordings
+
+    def noting(self: RunFolder, file: SentFile) -> list[Sent]:
+        parsed.append(file.name)
+        return recordings(self, file)
+
+    monkeypatch.setattr(RunFolder, "recordings", noting)
+    board(runs, levels, "--site", str(tmp_path / "site"))
+    assert parsed == ["all.txt"]
+
+
 def test_a_page_that_somebody_changed_is_written_again(tmp_path: Path, levels: Path, runs: Path) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     board(runs, levels, "--site", str(tmp_path / "site"))
@@ -248,7 +264,7 @@ def test_a_cache_folder_among_the_runs_or_pages_is_refused(
 ) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     folder = Path(place) if place == "." else tmp_path / place
-    monkeypatch.setattr("ninja_game.cli.web.cache_folder", lambda: folder)
+    monkeypatch.setattr("ninja_game.cli.board_ranking.cache_folder", lambda: folder)
     site = tmp_path / "site"
     site.mkdir()
     result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), "--site", str(site)])

@@ -79,15 +79,13 @@ class RunFolder:
     def __init__(self, folder: Path, levels: Mapping[str, Level]) -> None:
         self.folder = folder
         self.levels = levels
+        self._last: tuple[str, list[Sent]] = "", []
         self.known: dict[tuple[str, int], bytes] = {}
         """Inputs of recently judged runs, by file and record."""
-        self.drawn: dict[tuple[str, int], str] = {}
-        """Paths over the level of recently compared runs, as ``path_data``."""
 
     def forget(self, key: tuple[str, int]) -> None:
-        """Drop the inputs and the path of a run whose pages are written: all of them would take much memory."""
+        """Drop the inputs of a run whose pages are written: all of them would take much memory."""
         self.known.pop(key, None)
-        self.drawn.pop(key, None)
 
     def files(self) -> Iterator[tuple[str, str]]:
         """The paths of all files in the folder, with the reason if one is left out; links are not followed."""
@@ -141,10 +139,12 @@ class RunFolder:
     def inputs(self, name: str, record: int, digest: str, ticks: int) -> bytes:
         """The inputs of a run, read again. Raises FileError if its file has changed since it was judged."""
         if (name, record) not in self.known:
-            file = self.file(name)
-            if file.digest != digest:
-                raise FileError("the file was changed while the board was made", name, hint="start again")
-            self.known[name, record] = self.recordings(file)[record].inputs(ticks)
+            if self._last[0] != digest:
+                file = self.file(name)
+                if file.digest != digest:
+                    raise FileError("the file was changed while the board was made", name, hint="start again")
+                self._last = digest, self.recordings(file)  # a file may hold many: it is parsed once
+            self.known[name, record] = self._last[1][record].inputs(ticks)
         return self.known[name, record]
 
     def _whole(self, parsed: Replay) -> Replay:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN
+from ninja_game.web.board.players import folded
 from ninja_game.web.board.runs import OWN, Key, Rejected, Rows, Run
-from ninja_game.web.pages.gallery import path_data
 from ninja_game.web.pages.memo import Memo, program, values_digest
 
 MAX_COMPARED = 1000
@@ -38,6 +38,7 @@ SAME_PRESSES = 0.45
 MIN_PRESSES = 16  # least presses for a decision
 SHIFTED = 10  # ticks by which all of them may be earlier or later
 
+NAMED = ", who is named as its origin"
 DOUBTFUL = ": doubtful, as its inputs are others, so it keeps its place"
 
 ALIGNED = 4  # earlier runs whose inputs are aligned with a new one's: those with the most of its strokes
@@ -246,8 +247,8 @@ def _remarked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Itera
     """The runs of a level, in order, each with a remark if it is near to earlier ones by others alone.
 
     Of two of one moment nobody knows which was first: the second has the remark, and is no near copy. That is when the
-    board took them in: dates of an older board make no near copy. ``together``: what is said instead of those that are
-    the same run.
+    board took them in: dates of an older board make no near copy. Nor is an assisted run one that names whose it was.
+    ``together``: what is said instead of those that are the same run.
     """
     if len({run.player for run in runs}) == 1:
         yield from runs
@@ -257,14 +258,19 @@ def _remarked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Itera
     for _, moment in groupby(runs, key=lambda run: run.taken or run.added):
         compared.begin_moment()
         for run in moment:
-            said, earlier, sure = compared.near(run)
+            said, whose, earlier, sure = compared.near(run)
             compared.add(run)
-            near = said * (earlier and sure)
+            named = earlier and folded(whose) in run.origins
+            near = said * (earlier and sure and not named)
             if earlier:
-                said += DOUBTFUL * (not sure)
+                said += NAMED if named else DOUBTFUL * (not sure)
             else:
                 said = together.get(run.key, said + ", of the same moment" * bool(said and run.added))
-            yield replace(run, remark="; ".join(filter(None, (said, run.remark))), near=near) if said else run
+            yield (
+                replace(run, remark="; ".join(filter(None, (said, run.remark))), near=near, derived=named)
+                if said
+                else run
+            )
 
 
 class _Compared:
@@ -289,33 +295,30 @@ class _Compared:
         self._key = self._key_of(run)
         self._runs.append(run)
 
-    def near(self, run: Run) -> tuple[str, bool, bool]:
-        """The run by another player that a run nearly copies, as a sentence, "" for none; whether of an earlier moment.
+    def near(self, run: Run) -> tuple[str, str, bool, bool]:
+        """The run by another player that a run nearly copies, as a sentence, and that player; "" for none.
 
-        And whether the inputs are what is shared.
+        And whether it is of an earlier moment, and whether the inputs are what is shared.
         """
         noted = self._memo.recall(key := self._key_of(run))
-        if not (isinstance(noted, list) and [*map(type, noted)] == [str, bool, bool]):
+        if not (isinstance(noted, list) and [*map(type, noted)] == [str, str, bool, bool]):
             before = range(self._known, len(self._runs))
             for number in sorted(nsmallest(MAX_COMPARED, before, key=lambda number: self._runs[number].tick)):
                 self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
             self._known = len(self._runs)
-            course = self._course(run, new=True)
+            course = self._course(run)
             players = [run.player for run in self._runs]
             near = _near_to_another(run.player, course, self._courses, players, self._earlier)
-            said = f"{near[1]} the run by {self._runs[near[0]].player} in {self._runs[near[0]].file}" if near else ""
+            whose = self._runs[near[0]].player if near else ""
+            said = f"{near[1]} the run by {whose} in {self._runs[near[0]].file}" if near else ""
             earlier, sure = bool(near and near[0] < self._earlier), bool(near and near[2])
-            self._memo.note(key, noted := [said, earlier, sure])
-        return noted[0], noted[1], noted[2]
+            self._memo.note(key, noted := [said, whose, earlier, sure])
+        return noted[0], noted[1], noted[2], noted[3]
 
-    def _course(self, run: Run, *, new: bool = False) -> Course:
-        """The features of a run. ``new``: its page is made, and shows its path."""
+    def _course(self, run: Run) -> Course:
         if self._last is None or self._last[0] != run.key:
             inputs = run.inputs
-            result = run_level(run.entry.named.level, inputs)
-            if new:
-                run.folder.drawn[run.key] = path_data(result.positions)
-            self._last = run.key, course_of(inputs, result)
+            self._last = run.key, course_of(inputs, run_level(run.entry.named.level, inputs))
         return self._last[1]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict, deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -29,7 +29,7 @@ from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import without_copies
 from ninja_game.web.board.players import UNNAMED, Players, folded
-from ninja_game.web.board.runs import KINDS, NO_LEDGER, OWN, Dates, Judged, Ledger, Rejected, Run, ValidatedRuns
+from ninja_game.web.board.runs import KINDS, NO_LEDGER, OWN, PLAYED, Dates, Judged, Ledger, Rejected, Run, ValidatedRuns
 from ninja_game.web.pages.gallery import PublishedLevels, shared_text
 from ninja_game.web.pages.memo import Memo, program, values_digest
 
@@ -58,11 +58,13 @@ def judge(
     jobs: int | None = None,
     memo: Memo | None = None,
     ledger: Ledger = NO_LEDGER,
+    decide: Callable[[Sequence[Run], Collection[str]], object] | None = None,
 ) -> ValidatedRuns:
     """Simulate every run below a folder again, on the board's levels. Raises OSError.
 
     ``dates``, ``taken``: of the board's ``ledger``, as ``added`` and ``taken`` of Run; without it runs go by the names
     of their files. ``memo``: what was found out before, of the same files, levels and rules; it is not simulated again.
+    ``decide``: writes decisions on these runs, of these files, into the ledger.
     """
     memo = memo or Memo()
     sent = RunFolder(folder, {digest: entry.named.level for digest, entry in shown.entries.items()})
@@ -72,13 +74,22 @@ def judge(
     for file in _Judging(sent, shown, memo).files(jobs):
         for row in file.rows:
             entry = shown.entries.get(row.level)
-            if row.kind or entry is None:
+            if entry is None or (row.kind and not row.way):
                 title = entry.title if entry else ""
                 rejected.append(Rejected(file.name, row.record, row.kind, row.why, row.author, title))
                 continue
             key = file.name, row.record
             added, later = (of(key, row.way) if of else "" for of in (dates, taken))
             runs.append(replace(_run(file, row, entry, sent, added), taken=later))
+    if decide:
+        decide(runs, {run.file for run in runs} | {item.file for item in rejected})
+    judged, runs = runs, []
+    for run in judged:
+        if not run.kind or ledger.decision(run).get("what", PLAYED) != PLAYED:
+            runs.append(replace(run, remark=run.remark.partition(";")[0]) if run.kind else run)
+        else:
+            about = run.remark, run.player, run.entry.title, run.way, run.added
+            rejected.append(Rejected(*run.key, run.kind, *about))
     known = {(run.level, run.way, run.added) for run in runs}
     for number, run in enumerate(runs):
         # A run that was withdrawn, or is in another file now, still belongs to its player.
@@ -87,7 +98,7 @@ def judge(
             runs[number] = replace(run, added=owner["added"], taken=owner.get("taken", ""), again=True)
     credited, moderated = list[Run](), list[Rejected]()
     for run in _of_players(sorted(runs, key=lambda run: run.order), players):
-        decision = ledger.decisions.get((run.level, run.way, folded(run.player)))
+        decision = ledger.decision(run)
         decided = run.decided(decision) if decision else run
         credited += [decided] if isinstance(decided, Run) else []
         moderated += [] if isinstance(decided, Run) else [decided]
@@ -182,7 +193,7 @@ class _Judging:
         """The row of a recording; it is unreadable if pages cannot hold it."""
         row = _row(sent, result, self._folder)
         entry = self._shown.entries.get(row.level)
-        if entry and not row.kind:
+        if entry and row.way:
             try:
                 # Its inputs were read from a text, and can be written into one.
                 shared_text(replace(_run(file, row, entry, self._folder).replay, inputs=b""), entry.named.level)
@@ -217,7 +228,7 @@ def _with_row(run: Run, owner: Mapping[str, Any], own: Mapping[str, Any]) -> Run
     row = own if own.get("way") == run.way else owner
     if row.get("confirmed") is True:
         return replace(run, near="", confirmed=True)
-    if not run.near and (near := row.get("near")):
+    if not run.near and not run.derived and (near := row.get("near")):
         return replace(run, near=near, remark="; ".join(filter(None, (f"{near} (found earlier)", run.remark))))
     return run
 
@@ -231,23 +242,23 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     if isinstance(result, Unreadable):
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # a board has no such option
         return Judged(sent.chunk.first, "unreadable", why)
-    # What a tool made needs no keyboard: it is marked.
     no_keyboard = not_strict(result, "possible_by_keyboard")
-    marked = [each for each in result.problems if result.assisted and each == no_keyboard]
-    marks = [_worded(each, result, sent).partition(";")[0] for each in marked]
-    problems = [_worded(problem, result, sent) for problem in result.problems if problem not in marked]
+    marks = [_worded(problem, result, sent) for problem in result.problems if problem == no_keyboard]
+    problems = [_worded(problem, result, sent) for problem in result.problems if problem != no_keyboard]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
         other = run_problem("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
         problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
     if problems:
-        why = "; ".join(problems)
+        why = "; ".join(problems + marks)
         kind = "practice" if result.practice else "refused"
         return Judged(result.record, kind, why, result.author, result.level_digest)
     inputs = folder.known[result.file, result.record] = sent.inputs(result.ticks)
     pressed = [new & ~old & KEYS_DOWN for old, new in pairwise(b"\0" + inputs)]
     jumps = sum(bool(keys & JUMP_HELD) for keys in pressed)
+    # What a tool made needs no keyboard: it is marked. Whether another one was made so is the keeper's decision.
+    kind, why = ("refused", marks[0]) if marks and not result.assisted else ("", "".join(marks).partition(";")[0])
     return Judged(
-        result.record, "", "".join(marks), result.author, result.level_digest, result.end_tick, result.gold,
+        result.record, kind, why, result.author, result.level_digest, result.end_tick, result.gold,
         result.score_ticks or 0, result.xy_sha256, sum(map(int.bit_count, pressed)), jumps,
         result.made, result.assisted, result.co_authors, result.episode,
     )  # fmt: skip

@@ -23,7 +23,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, aligned, run_splits, split_table, sum_of_best
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.ui.theme import run_colour
+from ninja_game.web.board.charts import PLACE, lead_chart, paths, signed, speed_and_keys, steps, swatch
 from ninja_game.web.board.categories import FASTEST, HIGHEST, Category
 from ninja_game.web.board.ranking import Leaderboard, Ranked, Ranking
 from ninja_game.web.board.runs import PLAYED, Key, Run
@@ -33,7 +33,6 @@ from ninja_game.web.pages.frame import (
     Content,
     Markup,
     Pages,
-    css_colour,
     joined,
     on_this_page,
     page,
@@ -62,7 +61,6 @@ from ninja_game.web.pages.memo import Memo, values_digest
 PER_PAGE = 100  # rows of a table on one page: a page has at most 100 KB
 
 MAX_NAME = 40  # characters of a name in a table
-MAX_REPEATED = 60  # characters of a remark that stands in a table above
 
 RUN_HEADS = ("Watch", "Made", "Gold", "Date", "Medal", "File")
 LESSER = {"No.", "Behind", "Better by", "Score", "With", "On", *RUN_HEADS[2:], *map(str.capitalize, MEDALS)}
@@ -76,6 +74,7 @@ LINKS = [
 FIRST = 10  # rows of a table
 TOGETHER = 5  # runs side by side
 ENOUGH_SPLITS = 5  # with fewer, splits do not show where time is lost
+MAX_LEADS = 160  # of a line in a chart
 COARSE = 4  # one of so many ticks is compared place by place: all would take a third of the time of a board
 MAX_ALIGNED_TICKS = 8000  # ticks of a run; longer ones would take too much memory
 MAX_SECONDS = 30 * TICKS_PER_SECOND  # a longer run has fewer rows, some seconds apart
@@ -83,15 +82,9 @@ MAX_SPLITS = 60  # rows of splits; beyond it gold is left out
 
 RECORDS = "records"
 SPLITS = "splits"
+SPLITS_OF = "Seconds, and px per tick; numbers are those in the pictures above"
 NEAR = "A run that is nearly somebody else's has no place, until the keeper of the board confirms it. "
 HOW_TO_CONFIRM = "The keeper confirms one with: ninja-game board FOLDER --json board.json --confirm FILE"
-
-# The chart, px, before scaling to the page.
-WIDTH, HEIGHT, MARGIN = 640, 200, 12
-BESIDE, BELOW = 72, 28  # room for the labels
-
-PLACE = "place-"  # the anchor of a numbered place in a picture
-MARK_APART = 14  # least px between two numbers
 
 
 class _Ranks(NamedTuple):
@@ -123,6 +116,7 @@ class LevelPages:
         self.links = [(self.game, "Play"), *LINKS[:2], *assisted, *others]
         self.deeper = [(UP + address, name) for address, name in self.links]
         self.around = values_digest([self.links, self.site])
+        self._ghosts: dict[Key, RunSplits] = {}
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
 
     def write_table(
@@ -185,11 +179,12 @@ class LevelPages:
     def write_run_page(self, run: Run, beside: Sequence[Run]) -> None:
         """``beside``: the runs of the level that are shown side by side."""
         stem, title = self.stems[run.key], f"{self.shown_name(run.player)} on {run.entry.title}"
-        ranks, links = list[tuple[str, str]](), list[Markup]()
+        ranks, links, rival = list[tuple[str, str]](), list[Markup](), None
         for leaderboard, rows, number in self.ranking.places.get(run.key, ()):
             row, first = rows[number], rows[0]
             if number >= FIRST:
                 continue  # else one new run would change the pages of many
+            rival = rival or first.run
             if row.place:
                 late = self.behind(leaderboard[1], row, first, " behind")
                 ranks.append((self.leaderboard_name(leaderboard), f"place {row.place}" + f", {late}" * bool(late)))
@@ -205,11 +200,40 @@ class LevelPages:
                  ("Remark", run.remark)]  # fmt: skip
 
         def content() -> str:
-            drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.shown_name(run.player), run.path)])
+            drawn, below = self._of_run(run, rival)
             more = joined(*(tag("p", link) for link in links))
-            return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn, more)
+            return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn, more, below)
 
         self.pages.make(f"{stem}.html", [title, facts, links, self.around], content, replay=True)
+
+    def _of_run(self, run: Run, rival: Run | None) -> tuple[Markup, Markup]:
+        """The path of a run, and its sections. ``rival``: the first run of a table; without it there are no splits.
+
+        They would take most of the time of a large board.
+        """
+        beside = [run, *([rival] if rival.key != run.key else [])] if rival else []
+        ghosts, name = [*map(self._ghost, beside)], self.shown_name(run.player)
+        positions = ghosts[0].positions if ghosts else run.positions
+        speeds = np.hypot(*np.diff(positions, axis=0, prepend=positions[:1]).T)
+        rows = [row for row in _split_rows(ghosts) if row.ticks[0] is not None] if ghosts else []
+        ticks, lines = [row.ticks[0] or 0 for row in rows], list[tuple[Content, ...]]()
+        for number, (tick, row) in enumerate(zip(ticks, rows, strict=True), 1):
+            other = row.ticks[1] if len(row.ticks) > 1 else None
+            about = seconds_text(tick), f"{speeds[tick]:.2f}", "" if other is None else signed(tick - other)
+            lines.append((tag("a", number, href=f"#{PLACE}{number}"), row.split.kind, *about))
+        where, splits = None, None
+        if lines:
+            first = self.shown_name(beside[-1].player)
+            heads = "No.", "Split", "Time", "Speed", f"Later than {first}"
+            splits = section("Splits", table(SPLITS_OF, heads, lines))
+        if len(ghosts) > 1:
+            where = section("Where time goes", *_where_time_goes([(first, ghosts[1], 1), (name, ghosts[0], 0)]))
+        best = int(speeds.argmax())
+        fast = f"Fastest at {seconds_text(best)} s: {speeds[best]:.2f} px per tick; {speeds.mean():.2f} on average."
+        chart = speed_and_keys(speeds, run.inputs, ticks)
+        image, places = f"{UP}{BOARD}/{picture_name(run.level)}", [(row.split.x, row.split.y) for row in rows]
+        drawn = paths(image, [(name, path_data(positions))], places)
+        return drawn, joined(section("Speed and keys", tag("p", fast), *chart), where, splits)
 
     def shown_name(self, player: str) -> str:
         """A player's name in a table, with the earlier player whose name looks like it."""
@@ -228,7 +252,8 @@ class LevelPages:
         medal = medal_mark(run.medal if timed else "")
         about = made_text(run), gold, run.day, medal, self.run_link(run, UP)
         others = f" with {shown_text(run.co_authors, MAX_NAME)}" if run.co_authors else None
-        note = tag("div", run.remark, class_="note") if run.remark else None
+        said = tag("summary", "Near copy" if run.near else "Remark")
+        note = tag("details", said, run.remark, class_="note") if run.remark else None
         return (
             joined(mark, self.player_link(run.player, UP), others, note),
             linked,
@@ -269,7 +294,9 @@ class LevelPages:
         for run in runs:
             self.pages.make(f"{self.stems[run.key]}.txt", self.stems[run.key], partial(_text, run), replay=True)
             self.write_run_page(run, splits)
+        for run in runs:
             run.folder.forget(run.key)
+        self._ghosts.clear()
         if runs:
             heads, back = ("Player", "Time", "Score", *RUN_HEADS), tag("a", "The level", href=UP + page_name(digest))
             name, caption = f"levels/{digest[:16]}-runs", "All runs, the fastest first"
@@ -294,9 +321,9 @@ class LevelPages:
             far, rows = [row for row in table_ if row.far], [row for row in table_ if not row.far][:FIRST]
             ranks = _Ranks(each, rows, far, self.ranking.waiting(entry.digest, each, table_))
             merged[each[0], *((row.place, row.run.key) for row in rows)].append(ranks)
-        remarks, shown, leaders = set[str](), list[Content](), dict[Leaderboard, Markup]()
+        shown, leaders = list[Content](), dict[Leaderboard, Markup]()
         for number, same in enumerate(merged.values(), 1):
-            shown.append(self._table(same, remarks, marks, anchor := f"ranks-{number}"))
+            shown.append(self._table(same, marks, anchor := f"ranks-{number}"))
             shown.append(self._said_of("More than twice as slow", [row for each in same for row in each.far]))
             shown.append(self._said_of("Better, and waiting", [row for each in same for row in each.waiting]))
             leaders |= {each.leaderboard: self._leader(each, anchor) for each in same}
@@ -326,23 +353,18 @@ class LevelPages:
         about = tag("p", self.player_link(run.player, UP), run.day, self.watch_link([run], UP), class_="facts")
         return tag("li", link, result, about, class_="card leader")
 
-    def _table(self, same: Sequence[_Ranks], above: set[str], marks: Mapping[Key, Content], anchor: str) -> Markup:
-        """A table of categories with the same runs in order.
-
-        ``above``: remarks of tables above, which are cut here; ``marks``: colours of the runs in the picture.
-        """
+    def _table(self, same: Sequence[_Ranks], marks: Mapping[Key, Content], anchor: str) -> Markup:
+        """A table of categories with the same runs in order. ``marks``: colours of the runs in the picture."""
         rows, categories = [], [each.leaderboard[1] for each in same]
         several = len(same) > 1
         heads = [each.name if several and each.unit == "Value" else each.unit for each in categories]
         names = [*dict.fromkeys(heads)]  # a time is the same in all categories
         for ranked in zip(*(each.rows for each in same), strict=True):
             place, run = ranked[0].place, ranked[0].run
-            shown = replace(run, remark=shown_text(run.remark, MAX_REPEATED)) if run.remark in above else run
             results = [categories[at].text(ranked[at].values[0]) for at in map(heads.index, names)]
             late = self.behind(categories[0], ranked[0], same[0].rows[0])
-            cells = self.run_cells(shown, *results, late, timed=FASTEST.unit in heads, mark=marks.get(run.key))
+            cells = self.run_cells(run, *results, late, timed=FASTEST.unit in heads, mark=marks.get(run.key))
             rows.append((place_mark(place), *cells))
-            above |= {run.remark} - {""}
         lesser = LESSER.union(names[1:]) - {names[0]}
         best = table("Best run of each player", ("Place", "Player", *names, "Behind", *RUN_HEADS), rows, lesser)
         return section("; ".join(self.leaderboard_name(each.leaderboard) for each in same), best, anchor=anchor)
@@ -375,14 +397,12 @@ class LevelPages:
     def _side_by_side(self, category: Category, runs: Sequence[Run]) -> tuple[Markup, Content]:
         """The paths of the first runs of a category; for several runs also links to races of two, and splits."""
         names = [self.shown_name(run.player) + ", assisted" * (run.ladder != PLAYED) for run in runs]
+        ghosts = [*map(self._ghost, runs)]
         if len(runs) == 1:
-            return paths(UP + picture_name(runs[0].level), [(names[0], runs[0].path)]), None
-        ghosts = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
-        by_time = sorted(zip(names, ghosts, strict=True), key=lambda each: each[1].ticks)
-        rows, kept = _split_rows([ghost for _, ghost in by_time]), runs[0].folder.drawn
-        for run, ghost in zip(runs, ghosts, strict=True):
-            kept[run.key] = kept.get(run.key) or path_data(ghost.positions)
-        ways = [(name, run.path) for run, name in zip(runs, names, strict=True)]
+            return paths(UP + picture_name(runs[0].level), [(names[0], path_data(ghosts[0].positions))]), None
+        by_time = sorted(zip(names, ghosts, range(len(runs)), strict=True), key=lambda each: each[1].ticks)
+        rows = _split_rows([ghost for _, ghost, _ in by_time])
+        ways = [(name, path_data(ghost.positions)) for ghost, name in zip(ghosts, names, strict=True)]
         drawn = paths(UP + picture_name(runs[0].level), ways, [(row.split.x, row.split.y) for row in rows])
         said = f"Watch the first {len(runs)} together"
         together = tag("p", f"{category.name}: ", self.watch_link(runs, UP, said))
@@ -396,15 +416,21 @@ class LevelPages:
             (tag("a", number, href=f"#{PLACE}{number}"), row.split.kind, *_cells(row))
             for number, row in enumerate(rows, 1)
         ]
-        fastest, *others = [name for name, _ in by_time]
+        fastest, *others = [name for name, *_ in by_time]
         note = f"Seconds; later than {fastest}: +; numbers are those in the picture"
         splits = table(note, ("No.", "Split", fastest, "Fastest segment", *others), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
-        where = _where_time_goes(by_time) if len(rows) < ENOUGH_SPLITS else None
+        where = _where_time_goes(by_time, tabled=len(rows) < ENOUGH_SPLITS)
         return joined(drawn, together), joined(
             section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS),
             section("Where time goes", *where) if where else None,
         )  # fmt: skip
+
+    def _ghost(self, run: Run) -> RunSplits:
+        """A run with its splits, simulated once for all pages of its level."""
+        if run.key not in self._ghosts:
+            self._ghosts[run.key] = run_splits(Recording(run.entry.named.level, run.replay), memory="auto")
+        return self._ghosts[run.key]
 
     def _pair(self, runs: Sequence[Run], at: int, other: int) -> Content:
         """A race of two of the runs, in their colours."""
@@ -412,26 +438,34 @@ class LevelPages:
         return self.watch_link(both, UP, signed(both[0].tick - both[1].tick), (at, other)) if at != other else ""
 
 
-def _where_time_goes(runs: Sequence[tuple[str, RunSplits]]) -> list[Markup]:
-    """Where each named run loses most on the first, the fastest, and how much later it is at each of its seconds."""
-    (fastest, first), *others = runs
-    if max(run.ticks for _, run in runs) > MAX_ALIGNED_TICKS:
+def _where_time_goes(runs: Sequence[tuple[str, RunSplits, int]], *, tabled: bool = False) -> list[Markup]:
+    """Where each named run loses most on the first, the fastest, and a chart of how much later it is on the way.
+
+    The number of a run is that of its colour. ``tabled``: also as a table, at each second of the first.
+    """
+    (fastest, first, _), *others = runs
+    if max(run.ticks for _, run, _ in runs) > MAX_ALIGNED_TICKS:
         return []
-    ticks = range(step := TICKS_PER_SECOND * (1 + first.ticks // MAX_SECONDS), first.ticks, step)
-    late = [_leads(first.positions, other.positions, ticks) for _, other in others]
+    seconds = range(step := TICKS_PER_SECOND * (1 + first.ticks // MAX_SECONDS), first.ticks, step)
+    ticks = sorted({*range(0, first.ticks, 1 + first.ticks // MAX_LEADS), *seconds, first.ticks - 1})
+    late = [dict(zip(ticks, _leads(first.positions, other.positions, ticks), strict=True)) for _, other, _ in others]
     sentences = []
-    for (name, _), leads in zip(others, late, strict=True):
-        near = [(0, 0), *((tick, lead) for tick, lead in zip(ticks, leads, strict=True) if lead is not None)]
+    for (name, *_), at in zip(others, late, strict=True):
+        near = [(0, 0), *((tick, lead) for tick in seconds if (lead := at[tick]) is not None)]
         lost, start, end = max(((b[1] - a[1], a[0], b[0]) for a, b in pairwise(near)), default=(0, 0, 0))
         span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of {fastest}"
         sentences += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
+    caption = f"Seconds by which each is later where {fastest} is then; a gap: it goes another way"
+    lines = [(number, [*at.values()]) for (*_, number), at in zip(others, late, strict=True)]
+    legend = tag("ul", *(tag("li", swatch(number), f" {name}") for name, _, number in others), class_="facts")
+    shown = [*sentences, tag("p", caption, class_="faint"), lead_chart(ticks, lines, caption), legend]
     rows = [
-        (f"{tick // TICKS_PER_SECOND} s", *("" if ahead is None else signed(ahead) for ahead in leads))
-        for tick, *leads in zip(ticks, *late, strict=True)
+        (f"{tick // TICKS_PER_SECOND} s", *("" if at[tick] is None else signed(at[tick] or 0) for at in late))
+        for tick in seconds
     ]
-    caption = f"Seconds by which each is later where {fastest} is then; empty: it goes another way"
-    rows = [row for row in rows if any(row[1:])]
-    return [*sentences, table(caption, [name for name, _ in runs], rows)] if rows else sentences
+    rows = [row for row in rows if tabled and any(row[1:])]
+    heads = [name for name, *_ in runs]
+    return [*shown, tag("details", tag("summary", "As a table"), table(caption, heads, rows))] if rows else shown
 
 
 def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
@@ -489,11 +523,6 @@ def made_text(run: Run) -> Markup:
     return tag("span", run.made or "unknown", class_="made")
 
 
-def signed(ticks: int) -> str:
-    """A delay in seconds, with its sign."""
-    return ("-" if ticks < 0 else "+") + seconds_text(abs(ticks))
-
-
 def _text(run: Run) -> str:
     return shared_text(run.replay, run.entry.named.level)
 
@@ -503,77 +532,3 @@ def _stem(run: Run) -> str:
     author = run.entry.named.author
     held = run.digest, str(run.record), run.player, run.entry.title, author, run.made, run.co_authors, run.level
     return sha256("\0".join(held).encode("utf-8", "replace")).hexdigest()[:16]
-
-
-def steps(
-    points: Sequence[tuple[float, float]],
-    names: Sequence[str],
-    text: Callable[[float], str],
-    days: tuple[str, str],
-    said: str,
-) -> Markup:
-    """A line that keeps each value until the next one: (moment, value) in order, with a label for each point.
-
-    ``text``: of a value; ``days``: of the first and the last moment; ``said``: the line's text for screen readers.
-    """
-    x, y = np.array(points, np.float64).T
-    low, high, floor = float(y.min()), float(y.max()), HEIGHT - BELOW
-    x = BESIDE + (WIDTH - BESIDE - MARGIN) * _share(x)
-    y = floor - (floor - MARGIN) * _share(y)
-    moves = "".join(f"H{left:.1f}V{up:.1f}" for left, up in zip(x[1:], y[1:], strict=True))
-    line = tag("path", d=f"M{x[0]:.1f} {y[0]:.1f}{moves}H{WIDTH - MARGIN}", class_="record")
-    dots = [
-        tag("circle", tag("title", name), cx=f"{left:.1f}", cy=f"{up:.1f}", r="4")
-        for left, up, name in zip(x, y, names, strict=True)
-    ]
-    grid = list[Markup]()
-    for share in (0.0, 0.5, 1.0):
-        up = floor - (floor - MARGIN) * share
-        value = tag("text", text(low + share * (high - low)), x=BESIDE - 8, y=f"{up + 4:.0f}", text_anchor="end")
-        grid += [tag("path", d=f"M{BESIDE} {up:.0f}H{WIDTH - MARGIN}", class_="grid"), value]
-    ends = zip(days, (BESIDE, WIDTH - MARGIN), ("start", "end"), strict=True)
-    grid += [tag("text", day, x=at, y=HEIGHT - 4, text_anchor=anchor) for day, at, anchor in ends]
-    box = f"0 0 {WIDTH} {HEIGHT}"
-    return tag("svg", *grid, line, *dots, viewBox=box, class_="chart", role="img", aria_label=said)
-
-
-def _share(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Each value scaled from the least one, 0, to the greatest, 1."""
-    share: NDArray[np.float64] = (values - values.min()) / (np.ptp(values) or 1.0)
-    return share
-
-
-def _marks(places: Sequence[tuple[float, float]]) -> Iterator[Markup]:
-    """Numbers at places; one that would cover an earlier one shows only while a link to it is active."""
-    shown: list[tuple[float, float]] = []
-    for number, (x, y) in enumerate(places, 1):
-        free = all(abs(x - left) > MARK_APART or abs(y - top) > MARK_APART for left, top in shown)
-        shown += [(x, y)] * free
-        at = f"{x:.0f}", f"{y:.0f}"
-        text = tag("text", number, x=at[0], y=f"{y + 5:.0f}", text_anchor="middle")
-        ring = tag("circle", cx=at[0], cy=at[1], r="14")
-        yield tag("g", ring, text, id=f"{PLACE}{number}", class_="mark" if free else "mark covered")
-
-
-def paths(picture: str, runs: Sequence[tuple[str, str]], places: Sequence[tuple[float, float]] = ()) -> Markup:
-    """Runs, each by name with its ``path_data``, over the picture of their level; the first on top.
-
-    ``places``: px of the marks, numbered from 1.
-    """
-    image = tag("image", href=picture, width=PICTURE_WIDTH, height=PICTURE_HEIGHT)
-    lines = [
-        tag("path", tag("title", name), d=way, class_="way", stroke=css_colour(run_colour(number)))
-        for number, (name, way) in enumerate(runs)
-    ]
-    label = f"The level with the paths of {', '.join(name for name, _ in runs)}"
-    box = f"0 0 {PICTURE_WIDTH} {PICTURE_HEIGHT}"
-    names = [tag("li", swatch(number), joined(" ", name)) for number, (name, _) in enumerate(runs)]
-    drawn = tag(
-        "svg", image, *reversed(lines), *_marks(places), viewBox=box, class_="paths", role="img", aria_label=label
-    )
-    return joined(drawn, tag("ul", *names, class_="facts"))
-
-
-def swatch(number: int) -> Markup:
-    line = tag("path", d="M1 7H21", stroke=css_colour(run_colour(number)), class_="way")
-    return tag("svg", line, viewBox="0 0 22 14", width="22", height="14", aria_hidden="true")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from itertools import groupby, islice, product
+from operator import itemgetter
 from pathlib import Path
 from statistics import mean, median
 from typing import Any
@@ -32,7 +33,7 @@ from ninja_game.web.board.level_pages import (
     player_page,
 )
 from ninja_game.web.board.ranking import Ranked, Record, Standing
-from ninja_game.web.board.report import summary, unnamed
+from ninja_game.web.board.report import counts, unnamed
 from ninja_game.web.board.runs import KINDS, Key, Run
 from ninja_game.web.pages.frame import (
     REPLAYS,
@@ -50,15 +51,28 @@ from ninja_game.web.pages.gallery import BOARD, UP, medal_mark, page_name
 
 # Rows on the first page.
 NEWEST = 30
+NEWEST_RUNS = 10
 LEADING = 20
 CONTESTED = 8
 CARDS = 8  # of the newest records; older ones are rows
+MAX_FILE_NAME = 24  # characters of a name of a file
 MAX_OF_A_MOMENT = 5  # records of one moment that have a row each
+
+HOW_TO_SEND = (
+    "Set your name in the settings, and play a level. After it, press E: the game keeps the run as a replay.",
+    "Under Replays, E writes it as a text file into the folder exports.",
+    "Send the file to the keeper of this board; to a board in a repository, by a pull request that adds it.",
+)
 
 Piece = tuple[str, str, Content]  # of a page: anchor, title, content
 
 FEED = "feed.xml"
 ONE_MOMENT = "Where several runs that came in together beat a level's record, the best of them is the record."
+HOW_TO_MOVE = (
+    "What no keyboard can do was made by tools. The keeper ranks it so with: "
+    "ninja-game board FOLDER --json board.json --ladder FILE assisted"
+)
+GAINS = "By how much could be won"
 BY_LEVELS = "By levels led in all categories together, then by levels passed"
 
 
@@ -136,12 +150,30 @@ class BoardPages(LevelPages):
             for ladder, standings in self.ranking.standings.items()
             if standings
         ]
-        lead = tag("p", f"{self.ranking.shown.name}: {summary(self.ranking.judged)}.", class_="lead")
+        lead = tag("p", f"{counts(self.ranking.judged)}.", class_="lead")
         said = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
-        parts = [*self._week(), *news, *self._contested(), *leaders]
+        parts = [*self._week(), *news, *self._runs_and_how_to_send(), *self._contested(), *leaders]
         contents = [section(title, content, anchor=anchor) for anchor, title, content in parts]
         leads = on_this_page([each[:2] for each in parts])
-        return page("Board", lead, said, leads, *contents, links=self.links, current="index.html")
+        return page(f"Board: {self._name}", lead, said, leads, *contents, links=self.links, current="index.html")
+
+    @property
+    def _name(self) -> str:
+        """Of what the board is: a pack, or other levels, whose file says nothing to readers."""
+        titles = [entry.title for entry in self.entries.values()]
+        return self.ranking.shown.name if self.ranking.shown.pack else titles[0] if len(titles) == 1 else "own levels"
+
+    def _runs_and_how_to_send(self) -> list[Piece]:
+        rows = [
+            (level_link(run.entry), self.watch_link([run], ""), self.player_link(run.player), *times, run.moment)
+            for run in self.ranking.judged.runs[: -NEWEST_RUNS - 1 : -1]
+            for times in [(self.run_link(run, "", seconds_text(run.tick)), made_text(run))]
+        ]
+        newest = table("Newest first", ("Level", "Watch", "Player", "Time", "Made", "Date"), rows, LESSER)
+        steps = tag("ol", *(tag("li", step) for step in HOW_TO_SEND))
+        play = tag("p", tag("a", "Play", href=self.game, class_="button"))
+        runs: list[Piece] = [("runs", "Newest runs", newest)] if rows else []
+        return [*runs, ("send", "Send a run", joined(steps, play))]
 
     def _newest(self, record: Record) -> Markup:
         """The card of a record with its level."""
@@ -195,6 +227,8 @@ class BoardPages(LevelPages):
         """The most contested levels; where there are none, those of the newest runs."""
         found: list[Markup] = []
         order = "By how often records were beaten, of all categories and ladders; results are those in"
+        if len(self.entries) == 1:
+            return []
         title, chosen = "Most contested levels", self.ranking.contested
         if not chosen:
             title, order = "Levels of the newest runs", "Newest first; results are those in"
@@ -289,10 +323,27 @@ class BoardPages(LevelPages):
             name, records = player_page(player), held[player] + lost[player]
             note = f"Records: {len(held[player])} held, {len(lost[player])} lost"
             link = tag("p", tag("a", note, href=f"{UP}{name}-records.html")) if records else None
-            self._runs_of(player, own, [*sums[player], link])
+            gains = self._gains(own)
+            ahead = tag("p", tag("a", f"{GAINS}: {counted(len(gains), 'level')}", href=f"{UP}{name}-gains.html"))
+            self._runs_of(player, own, [*sums[player], link, ahead if gains else None])
+            back = tag("p", tag("a", "All runs of the player", href=f"{UP}{name}.html"))
+            if gains:
+                names = ("Level", self.main.unit, "Behind", "Place", "First", "Watch")
+                self.write_table(f"{name}-gains", player, f"{GAINS}, in {self.main.name}", names, gains, back)
             if records:
-                back = tag("p", tag("a", "All runs of the player", href=f"{UP}{name}.html"))
                 self.write_table(f"{name}-records", player, "Records held, then those lost", heads, records, back)
+
+    def _gains(self, runs: Sequence[Run]) -> list[tuple[Content, ...]]:
+        """Rows of a player's runs that are behind the first of the main category, the farthest first."""
+        gains = []
+        for run in runs:
+            for part, rows, number in self.ranking.places.get(run.key, ()):
+                row, first = rows[number], rows[0].run
+                if part[1] == self.main and row.place and row.behind and not row.far:
+                    result = self.run_link(run, UP, self.main.text(row.values[0])), self.main.difference(row.behind)
+                    both = self.player_link(first.player, UP), self.watch_link([run, first], UP, "Watch both")
+                    gains.append((row.behind, (level_link(run.entry, UP), *result, row.place, *both)))
+        return [cells for _, cells in sorted(gains, key=itemgetter(0), reverse=True)]
 
     def _records(self) -> tuple[dict[str, list[tuple[Content, ...]]], dict[str, list[tuple[Content, ...]]]]:
         """By player the rows of records held, and of records lost."""
@@ -391,7 +442,7 @@ class BoardPages(LevelPages):
         rows: list[tuple[Content, ...]] = [
             (
                 KINDS[item.kind][2],
-                item.file + f", record {item.record}" * (item.record > 0),
+                _file(item.file, item.record),
                 self.shown_name(item.player),
                 item.level,
                 item.why,
@@ -403,16 +454,17 @@ class BoardPages(LevelPages):
         lead = f"None of them is ranked; {kinds}." if kinds else "Every file of the folder is a run that counts."
         near = [
             (level_link(run.entry), self.player_link(run.player), self.run_link(run, "", seconds_text(run.tick)),
-             run.gold, self.watch_link([run], ""), run.file + f", record {run.record}" * (run.record > 0), run.near,
+             run.gold, self.watch_link([run], ""), _file(*run.key), run.near,
              run.day)
             for run in self.ranking.judged.runs if run.near
         ]  # fmt: skip
         waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
-        leads = tag("p", lead), tag("p", waiting) if near else None
-        heads = ("What", "File", "Player", "Level", "Why", "The first run", "Date")
+        movable = any(item.kind == "refused" and item.way for item in rejected)
+        leads = tag("p", lead), tag("p", waiting) if near else None, tag("p", HOW_TO_MOVE) if movable else None
+        heads = ("What", "In file", "Player", "Level", "Why", "The first run", "Date")
         self.write_table("rejected", "Rejected", "What does not count", heads, rows, *leads)
         if near:
-            names = ("Level", "Player", "Time", "Gold", "Watch", "File", "Nearly", "Date")
+            names = ("Level", "Player", "Time", "Gold", "Watch", "In file", "Nearly", "Date")
             about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs that are nearly somebody else's"
             self.write_table("waiting", "Waiting for confirmation", caption, names, near, *about)
 
@@ -420,6 +472,13 @@ class BoardPages(LevelPages):
         """A link to the page of a run that others have copied."""
         label = f"The run in {key[0]}" if key else ""
         return tag("a", "Look", href=f"../{REPLAYS}/{self.stems[key]}.html", aria_label=label) if key else ""
+
+
+def _file(name: str, record: int) -> Content:
+    """A file, and the record in it; a long name is folded."""
+    text = name + f", record {record}" * (record > 0)
+    short = shown_text(text, MAX_FILE_NAME)
+    return tag("details", tag("summary", short), text, class_="note") if short != text else text
 
 
 def _said(name: str, result: str, gain: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from functools import lru_cache
 from pathlib import Path
@@ -143,12 +143,14 @@ def _is_date(text: str, now: datetime) -> bool:
 def moderate(
     ledger: Ledger,
     now: datetime,
-    judged: ValidatedRuns,
+    runs: Sequence[Run],
+    files: Collection[str],
+    *,
     confirm: Sequence[str],
     decisions: Sequence[tuple[str, str]],
     reason: str,
-) -> bool:
-    """Write the keeper's decisions on the runs of files into a ledger; whether there are any.
+) -> None:
+    """Write the keeper's decisions on the runs of ``files`` into a ledger.
 
     ``confirm``: files of near copies that are in fact none; ``decisions``: files, and one of DECISIONS. Raises
     ArgumentError for a file without such runs, and for a reason that is too long, or missing where a run is rejected.
@@ -160,23 +162,19 @@ def moderate(
         for row in _rows_of(name, near, "--confirm", "that waits"):
             row["confirmed"] = True
     for name, what in decisions:
-        for row in _rows_of(name, _decidable(ledger, judged), what, "in that file"):
+        for row in _rows_of(name, _decidable(ledger, runs, files, what), what, "in that file"):
             decided = {"what": what, "reason": reason, "added": now.strftime(DATE)}
             of = {key: row[key] for key in _FIELDS["decisions"] if key not in decided}
             ledger.decisions[_decided(row)] = of | decided
-    return bool(confirm or decisions)
 
 
-def _decidable(ledger: Ledger, judged: ValidatedRuns) -> list[dict[str, Any]]:
+def _decidable(ledger: Ledger, runs: Sequence[Run], files: Collection[str], what: str) -> list[dict[str, Any]]:
     """A row for each run to decide on: for its file's present content, not an earlier one.
 
-    For a deleted file its rows of the ledger.
+    For a deleted file its rows of the ledger. No run is played that no keyboard can do.
     """
-    known = {(row["way"], folded(row["player"])): row for row in ledger.decisions.values()}
-    rejected = [(each.file, known.get((each.way, folded(each.player)))) for each in judged.rejected]
-    found = [_run_data(run) for run in judged.runs] + [row | {"file": file} for file, row in rejected if row]
-    here = {run.file for run in judged.runs} | {each.file for each in judged.rejected + judged.again}
-    return found + [row for row in (*ledger.runs.values(), *ledger.decisions.values()) if row["file"] not in here]
+    here = [_run_data(run) for run in runs if not run.kind or what != PLAYED]
+    return here + [row for row in (*ledger.runs.values(), *ledger.decisions.values()) if row["file"] not in files]
 
 
 def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -> list[dict[str, Any]]:
@@ -290,14 +288,18 @@ def unnamed(judged: ValidatedRuns) -> str:
     return f"{counted(nameless, 'run')} by unknown players; {how}" if nameless else ""
 
 
-def summary(judged: ValidatedRuns) -> str:
+def counts(judged: ValidatedRuns) -> str:
     players, levels = {run.player for run in judged.runs}, {run.level for run in judged.runs}
-    counts = ("run", judged.runs), ("player", players), ("level", levels)
-    runs, by, on = (counted(len(group), name, f"{name}s") for name, group in counts)
+    groups = ("run", judged.runs), ("player", players), ("level", levels)
+    runs, by, on = (counted(len(group), name, f"{name}s") for name, group in groups)
+    return f"{runs} by {by} on {on}"
+
+
+def summary(judged: ValidatedRuns) -> str:
     kinds = Counter(item.kind for item in judged.rejected)
     rejected = ", ".join(f"{kinds[kind]} {KINDS[kind][0]}" for kind in sorted(kinds))
     near = [run.file for run in judged.runs if run.near]
     files = [f"--confirm {plain(file)}" for file in dict.fromkeys(near)]
     some = " ".join(files[:MAX_NAMED]) + " ..." * (len(files) > MAX_NAMED)
     waits = f"; {len(near):,} wait{'s' * (len(near) == 1)} for confirmation: {some}" if near else ""
-    return f"{runs} by {by} on {on}; rejected: {rejected or 'none'}{waits}"
+    return f"{counts(judged)}; rejected: {rejected or 'none'}{waits}"

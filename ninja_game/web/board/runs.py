@@ -5,14 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ninja_game.formats.replay.provenance import names_of_text, parse_provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.run import run_level
 from ninja_game.web.board.collect import RunFolder
-from ninja_game.web.pages.gallery import path_data
+from ninja_game.web.board.players import folded
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 Key = tuple[str, int]  # a run's file, as a path in the folder, and its record there
 
@@ -46,7 +50,8 @@ class Judged:
     """The result of a recording, as plain values that can be cached.
 
     ``kind``: "" for a run that counts, else as in Rejected; ``why``: that, or a remark; ``level``: its digest;
-    ``way``: digest of the ninja's positions; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
+    ``way``: digest of the ninja's positions, also of a run that counts once the keeper has put it on the assisted
+    ladder; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
     """
 
     record: int
@@ -78,6 +83,10 @@ class Ledger(NamedTuple):
     withdrawn: Rows
     decisions: dict[tuple[str, ...], dict[str, Any]]
 
+    def decision(self, run: Run) -> dict[str, Any]:
+        """The row of the keeper's decision on a run; empty for none."""
+        return self.decisions.get((run.level, run.way, folded(run.player)), {})
+
     @property
     def owners(self) -> Rows:
         """By level and way the row of who did it first; it may have ``near`` and ``confirmed``, as a run has."""
@@ -94,7 +103,7 @@ class Run(Judged):
     ``file``: path in the folder, ``record`` in it; ``added``: as of Dates; ``remark``: for readers; ``near``: the run
     that it nearly copies, a sentence; until it is ``confirmed`` it leads no table; ``again``: it was withdrawn, and is
     the first of its moment; ``taken``: where ``added`` is that of an older board, when this one took
-    it in; ``digest``: of its file.
+    it in; ``derived``: near to a run of one of its ``origins``; ``digest``: of its file.
     """
 
     file: str
@@ -108,6 +117,7 @@ class Run(Judged):
     confirmed: bool = False
     again: bool = False
     taken: str = ""
+    derived: bool = False
 
     @cached_property
     def key(self) -> Key:
@@ -134,6 +144,12 @@ class Run(Judged):
         """The ladder that ranks it."""
         return ASSISTED if self.assisted else PLAYED
 
+    @property
+    def origins(self) -> set[str]:
+        """The players, folded, whose runs an assisted one is made of, as it says; none for any other run."""
+        names = (parse_provenance(self.made).begun_by, *names_of_text(self.co_authors)) if self.assisted else ()
+        return {folded(name) for name in names if name}
+
     @cached_property
     def medal(self) -> str:
         """Its medal, "" for none."""
@@ -145,12 +161,9 @@ class Run(Judged):
         return self.folder.inputs(self.file, self.record, self.digest, self.tick + 1)
 
     @property
-    def path(self) -> str:
-        """Its path over the level, as ``path_data``."""
-        drawn = self.folder.drawn
-        if self.key not in drawn:
-            drawn[self.key] = path_data(run_level(self.entry.named.level, self.inputs).positions)
-        return drawn[self.key]
+    def positions(self) -> NDArray[np.float64]:
+        """The ninja after each tick: float64 (ticks, 2), px."""
+        return run_level(self.entry.named.level, self.inputs).positions
 
     def decided(self, row: Mapping[str, Any]) -> Run | Rejected:
         """The run after the keeper's decision in a row of the ledger."""
@@ -159,7 +172,7 @@ class Run(Judged):
             way = self.entry.title, self.way, self.added
             return Rejected(*self.key, "moderated", f"rejected {said}", self.player, *way)
         remark = "; ".join(filter(None, (self.remark, f"moved to {row['what']} {said}")))
-        return replace(self, assisted=row["what"] == ASSISTED, remark=remark)
+        return replace(self, kind="", assisted=row["what"] == ASSISTED, remark=remark)
 
     @property
     def replay(self) -> Replay:
@@ -176,7 +189,7 @@ class Run(Judged):
 class Rejected:
     """A run, or a file, that does not count. ``kind``: one of KINDS.
 
-    ``way``, ``added``: of a copy, as a run has them; ``first``: the run that it copies.
+    ``way``, ``added``: as a run has them, of one that was simulated to its end; ``first``: the run that it copies.
     """
 
     file: str

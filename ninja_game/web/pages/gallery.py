@@ -178,12 +178,12 @@ def level_page(
 
 def run_page(
     entry: Entry, stem: str, title: str, facts: Links, folder: str, game: str, links: Links, site: str,
-    drawn: Content = None, more: Content = None,
+    drawn: Content = None, more: Content = None, below: Content = None,
 ) -> str:  # fmt: skip
     """The small page of a run, beside it in ``replays``, for the preview of its link in a chat, with links to it.
 
     ``folder``: of the pages with the level's; ``game``, ``links``: relative to their first one; ``site``: as above;
-    ``drawn``: its path over the level; ``more``: the part below the facts.
+    ``drawn``: its path over the level; ``more``: the part below the facts; ``below``: all that.
     """
     place = f"../{folder}/"
     facts = [*((name, text) for name, text in facts if text), ("Author of the level", entry.named.author or "unknown")]
@@ -199,7 +199,7 @@ def run_page(
     summary = ". ".join(f"{name}: {text}" for name, text in facts)
     picture = (site or place) + picture_name(entry.digest)
     links = [(normpath(place + address), name) for address, name in links]
-    return frame.page(title, shown, up=place, links=links, picture=picture, description=summary)
+    return frame.page(title, shown, below, up=place, links=links, picture=picture, description=summary)
 
 
 MAX_POINTS = 400  # of a drawn path
