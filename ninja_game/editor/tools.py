@@ -86,6 +86,7 @@ class EditorTools:
         self._doing = ""
         self._copies = False
         self._chosen_before = stamps.Selection()
+        self._previewed: tuple[tuple[object, ...], Tiles] = ((), {})
 
     def _take_first(self) -> None:
         self.tool, self.symmetry, self.nearest = "brush", "off", True
@@ -264,15 +265,19 @@ class EditorTools:
 
     @property
     def preview(self) -> Tiles:
-        """The tiles that a press of the brush, or a fill, would change."""
-        cells = stamps.filled(self.draft, self.cell) if self.effective_tool == "fill" else [self.cell]
-        after = self._with(stamps.Stamp(dict.fromkeys(cells, self.tile)), self.draft)
-        return {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
+        """The tiles that a press of the brush, or a fill, would change; kept while the pointer stays in its cell."""
+        key = self.draft, self.cell, self.effective_tool, self.tile, self.sets_slopes, self.symmetry
+        if key != self._previewed[0]:
+            cells = stamps.filled(self.draft, self.cell) if self.effective_tool == "fill" else [self.cell]
+            after = self._with(stamps.Stamp(dict.fromkeys(cells, self.tile)), self.draft)
+            self._previewed = key, {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
+        return self._previewed[1]
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
         if not self.objects:
-            tile = 0 if erasing else self.tile
-            self._change(stamps.Stamp(dict.fromkeys(stamps.covered("line", before, self.cell, 0.0), tile)))
+            tile, cells = 0 if erasing else self.tile, stamps.covered("line", before, self.cell, 0.0)
+            cells += stamps.steps(cells) if self.slopes else []
+            self._change(stamps.Stamp(dict.fromkeys(cells, tile)))
         elif erasing:
             self.delete_nearest()
         else:
