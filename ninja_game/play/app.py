@@ -294,11 +294,12 @@ class App:
     def _draw_notice(self, theme: Theme) -> pygame.Rect:
         left, right = self.top.notice_room
         most = min(NOTICE_WIDE, right - left - 28)
-        middle, lines = (left + right) / 2, wrapped(theme, self.notice, most, NOTICE)[:NOTICE_LINES]
-        size, margin, high = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
-        if self.top.plays and len(lines) == 1:
-            # In the border: no text covers a level during play.
-            size, margin, high = IN_BORDER, 1.0, 20.0
+        # In the border: no text covers a level.
+        middle, size, margin, high = (left + right) / 2, IN_BORDER, 1.0, 20.0
+        lines = wrapped(theme, self.notice, most, size)
+        if len(lines) > 1 or not (self.top.plays or self.top.small_notices):
+            size, margin, high = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
+            lines = wrapped(theme, self.notice, most, size)[:NOTICE_LINES]
         foot = theme.canvas.logical((0, theme.canvas.stage.bottom))[1] - self.top.foot_high
         y = foot - high * len(lines) - 2 * margin
         wide = min(most, max(theme.width(line, size) for line in lines)) + 28
