@@ -267,7 +267,7 @@ class PaletteView(Widget):
         x, y, w, _ = self.area
         tools = self.tools
         taken = set[str]().union(*live_changes(tools).values())
-        for text, top, high, lit in (("Tiles", y, 89, not tools.objects), ("Objects", y + 89, 124, tools.objects)):
+        for text, top, high, lit in (("Tiles", y, 89, not tools.objects), ("Objects", y + 89, 126, tools.objects)):
             if lit:
                 lit_area = x - 3, top - 2, w + 5, high
                 canvas.fill_rect(surface, mixed(palette.panel, palette.accent, 0.2), *lit_area, 3)
