@@ -309,6 +309,11 @@ def joined(cells: list[Cell]) -> list[Cell]:
     return cells if left == right or top == bottom else [*cells, *((x + dx, y + dy) for x, y in cells)]
 
 
+def steps(cells: list[Cell]) -> list[Cell]:
+    """Of a line, for two cells that touch only at a corner: the cell below the upper one, so that slopes join them."""
+    return [(min(a, b, key=lambda cell: cell[1])[0], max(a[1], b[1])) for a, b in pairwise(cells) if dist(a, b) > 1]
+
+
 def sloped(before: Draft, after: Draft) -> Draft:
     """The draft after a stroke of full or empty tiles, with slopes at the corners of rock that it touched.
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from enum import StrEnum, auto
 from math import ceil
 
 from ninja_game.document import History
@@ -35,6 +36,22 @@ DRAGGED = PICK_REACH = 12.0
 """A press that moves farther than this is a drag; a nearer object is picked, px."""
 REACH = 17.32
 """px within which an object is deleted (√300: game.md §6), or selected by a click."""
+
+
+class Gesture(StrEnum):
+    """What a pressed button does until its release; the shapes are named like their tools."""
+
+    IDLE = ""
+    DRAW = auto()
+    ERASE = auto()
+    DROP = auto()
+    RECTANGLE = auto()
+    LINE = auto()
+    ELLIPSE = auto()
+    CHOOSE = auto()
+    DRAG = auto()
+    MESSAGE = auto()
+
 
 OTHER_KINDS = tuple(kind.name for kind in brush.OBJECT_TYPES if kind.spec.kind not in (NINJA, EXIT, DOOR))
 """Types that an object can become: without single ones, and those with a side or a switch."""
@@ -83,9 +100,10 @@ class EditorTools:
         self.ghost: stamps.Stamp | None = None
         self.marquee: tuple[Cell, Cell] | None = None
         self.takes = TAKES[0]
-        self._doing = ""
+        self._gesture = Gesture.IDLE
         self._copies = False
         self._chosen_before = stamps.Selection()
+        self._previewed: tuple[tuple[object, ...], Tiles] = ((), {})
 
     def _take_first(self) -> None:
         self.tool, self.symmetry, self.nearest = "brush", "off", True
@@ -119,12 +137,12 @@ class EditorTools:
     @property
     def dragging(self) -> bool:
         """Whether the selection follows the pointer."""
-        return self._doing == "drag"
+        return self._gesture == Gesture.DRAG
 
     @property
     def busy(self) -> bool:
         """Whether anything is being drawn or dragged."""
-        return bool(self._doing)
+        return bool(self._gesture)
 
     def load(self, draft: Draft, history: History[Draft] | None = None) -> None:
         """Edit another level, with the first tile and without a symmetry.
@@ -140,21 +158,21 @@ class EditorTools:
         """Move the pointer, and what is being dragged."""
         before = self.cell
         self.pointer = min(max(0.0, x), WORLD_WIDTH - 1e-6), min(max(0.0, y), WORLD_HEIGHT - 1e-6)
-        if self._doing in ("draw", "erase"):
-            self._draw_line(before, erasing=self._doing == "erase")
+        if self._gesture in (Gesture.DRAW, Gesture.ERASE):
+            self._draw_line(before, erasing=self._gesture == Gesture.ERASE)
         elif self._switchless is not None:
             self._put_switch()
-        elif self._doing == "drop":
+        elif self._gesture == Gesture.DROP:
             self._drop()
-        elif self._doing in SHAPES:
+        elif self._gesture in SHAPES:
             self._draw_shape()
-        elif self._doing == "drag":
+        elif self._gesture == Gesture.DRAG:
             self._drag()
-        elif self._doing == "message" and is_inside(self.cell):
+        elif self._gesture == Gesture.MESSAGE and is_inside(self.cell):
             began = self.history.began
             place = said_cells(began.says).index(cell_of(*self._pressed_at))
             self.history.change(replace(began, says=with_message_moved(began.says, place, self.cell)))
-        elif self._doing == "choose":
+        elif self._gesture == Gesture.CHOOSE:
             self.marquee = cell_of(*self._pressed_at), self.cell
             self.selection = self._joined(self._taken(stamps.chosen_in(self.draft, stamps.area_between(*self.marquee))))
 
@@ -188,38 +206,38 @@ class EditorTools:
             self._change(stamps.Stamp({} if self.objects else dict.fromkeys(cells, self.tile), objects))
             return
         many = not self.objects or self.spec.kind in (GOLD, MINE)
-        drawn = self.tool if self.effective_tool in SHAPES else "draw" if many else "drop"
-        self._doing = "erase" if erase else drawn
+        drawn = Gesture(self.tool) if self.effective_tool in SHAPES else Gesture.DRAW if many else Gesture.DROP
+        self._gesture = Gesture.ERASE if erase else drawn
         self.move(*self.pointer)
 
     def release(self) -> None:
-        if self._doing == "drop" and has_switch(self.placed(*self.pointer)):
+        if self._gesture == Gesture.DROP and has_switch(self.placed(*self.pointer)):
             self._switchless = self.placed(*self._pressed_at)
-            self._doing = ""
+            self._gesture = Gesture.IDLE
             far = max(abs(a - b) for a, b in zip(self.pointer, self._pressed_at, strict=True)) > DRAGGED
             if far:
                 self._put_switch()
                 self.finish()
             return
-        if self._doing == "choose" and self.marquee is None and not self._chosen_before:
+        if self._gesture == Gesture.CHOOSE and self.marquee is None and not self._chosen_before:
             part, area = self.near(REACH), (*self.cell, 1, 1) if self.takes == "tiles" else None
             self.selection = stamps.Selection(area, frozenset({part} if part else ()))
-        self._doing, self.marquee = "", None
+        self._gesture, self.marquee = Gesture.IDLE, None
         self.history.end()
 
     def finish(self) -> None:
         self._switchless = self.ghost = None
-        self._doing, self.marquee = "", None
+        self._gesture, self.marquee = Gesture.IDLE, None
         self.history.end()
 
     def cancel(self) -> bool:
         """Cancel the operation under way, else the selection; whether there was one. A copy stays."""
         kept = self._chosen_before if self.ghost else stamps.Selection()
-        busy = bool(self._doing or self.placing_switch or self.ghost or self.selection)
-        if self._doing or self.placing_switch:
+        busy = bool(self._gesture or self.placing_switch or self.ghost or self.selection)
+        if self._gesture or self.placing_switch:
             self.history.abandon()
         self._switchless = self.ghost = None
-        self._doing, self.marquee, self.selection = "", None, kept
+        self._gesture, self.marquee, self.selection = Gesture.IDLE, None, kept
         return busy
 
     def pick(self) -> None:
@@ -264,15 +282,19 @@ class EditorTools:
 
     @property
     def preview(self) -> Tiles:
-        """The tiles that a press of the brush, or a fill, would change."""
-        cells = stamps.filled(self.draft, self.cell) if self.effective_tool == "fill" else [self.cell]
-        after = self._with(stamps.Stamp(dict.fromkeys(cells, self.tile)), self.draft)
-        return {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
+        """The tiles that a press of the brush, or a fill, would change; kept while the pointer stays in its cell."""
+        key = self.draft, self.cell, self.effective_tool, self.tile, self.sets_slopes, self.symmetry
+        if key != self._previewed[0]:
+            cells = stamps.filled(self.draft, self.cell) if self.effective_tool == "fill" else [self.cell]
+            after = self._with(stamps.Stamp(dict.fromkeys(cells, self.tile)), self.draft)
+            self._previewed = key, {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
+        return self._previewed[1]
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
         if not self.objects:
-            tile = 0 if erasing else self.tile
-            self._change(stamps.Stamp(dict.fromkeys(stamps.covered("line", before, self.cell, 0.0), tile)))
+            tile, cells = 0 if erasing else self.tile, stamps.covered("line", before, self.cell, 0.0)
+            cells += stamps.steps(cells) if self.slopes else []
+            self._change(stamps.Stamp(dict.fromkeys(cells, tile)))
         elif erasing:
             self.delete_nearest()
         else:
@@ -281,11 +303,11 @@ class EditorTools:
     def _draw_shape(self) -> None:
         """Tiles that fill it, or objects: they fill a box, and lie along a line or an ellipse."""
         if not self.objects:
-            cells = stamps.covered(self._doing, cell_of(*self._pressed_at), self.cell, self._bend)
-            if self.slopes and self._doing == "line" and self.tile in (brush.EMPTY, brush.FULL):
+            cells = stamps.covered(self._gesture, cell_of(*self._pressed_at), self.cell, self._bend)
+            if self.slopes and self._gesture == Gesture.LINE and self.tile in (brush.EMPTY, brush.FULL):
                 cells = stamps.joined(cells)
             tiles = dict.fromkeys(cells, self.tile)
-            if self.slopes and self._doing == "ellipse" and self.tile == brush.FULL:
+            if self.slopes and self._gesture == Gesture.ELLIPSE and self.tile == brush.FULL:
                 column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
                 tiles = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
                 # Slopes of the shape remove no tiles.
@@ -294,8 +316,8 @@ class EditorTools:
             self._change(stamps.Stamp(tiles), self.history.began)
             return
         ends = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)
-        if self._doing in CURVES:
-            places, snap = stamps.spread(stamps.curve(self._doing, *ends, self._bend), self.spacing), "px"
+        if self._gesture in CURVES:
+            places, snap = stamps.spread(stamps.curve(self._gesture, *ends, self._bend), self.spacing), "px"
         else:
             step, snap = max(brush.SNAPS[self.snap], 12.0), self.snap
             (x, right), (y, bottom) = (sorted(along) for along in zip(*ends, strict=True))
@@ -305,7 +327,7 @@ class EditorTools:
 
     def bend(self, steps: int) -> bool:
         """Bend the line that is being drawn to its right; whether it is busy."""
-        if self._doing == "line":
+        if self._gesture == Gesture.LINE:
             self._bend += BEND * steps
             self._draw_shape()
         return self.busy
@@ -332,7 +354,7 @@ class EditorTools:
     @property
     def framed(self) -> tuple[int, int] | None:
         """Columns and rows of the shape or the frame that is being drawn."""
-        drawn = self._doing in (*SHAPES, "choose")
+        drawn = self._gesture in (*SHAPES, Gesture.CHOOSE)
         return stamps.area_between(cell_of(*self._pressed_at), self.cell)[2:] if drawn else None
 
     def near(self, reach: float) -> stamps.ObjectPart | None:
@@ -366,9 +388,9 @@ class EditorTools:
         self._chosen_before = self.selection if add else stamps.Selection()
         if part is None and not add and self.cell in said_cells(self.draft.says):
             self.history.begin()
-            self._doing = "message"
+            self._gesture = Gesture.MESSAGE
         elif part is None:
-            self._doing = "choose"
+            self._gesture = Gesture.CHOOSE
         elif add and part in self.selection.parts:
             self.selection = stamps.Selection(self.selection.area, self.selection.parts - {part})
         else:
@@ -377,7 +399,7 @@ class EditorTools:
 
     def _begin_drag(self) -> None:
         self.history.begin()
-        self._doing = "drag"
+        self._gesture = Gesture.DRAG
         self._chosen_before = self.selection
 
     def _drag(self) -> None:

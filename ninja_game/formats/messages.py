@@ -11,7 +11,7 @@ from ninja_game.formats.ascii.places import middle_of
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
-MAX_MESSAGES, MAX_LETTERS = 4, 120
+MAX_MESSAGES, MAX_LETTERS = 8, 120
 NEAR = 2.5 * CELL
 """Range, px along both axes, from the middle of its cell, within which a text with a place is shown."""
 BAR = "|"
@@ -24,19 +24,24 @@ TARGETS = ("switch", "exit")
 """Objects that a text may name in the same way: an arrow points to each of them."""
 
 _KEY = re.compile(r"\{([^{}]*)\}")
-_DEATH = re.compile(r"death ([1-9][0-9]?)")
+_COUNTED = re.compile(r"death ([1-9][0-9]?)|after ([1-9][0-9]?) s")
 _PLACE = re.compile(r"at ([0-9]{1,2}),([0-9]{1,2})")
+_TIME = re.compile(r"(.*) for ([1-9][0-9]?) s")
 _EVENTS = ("start", "switch", "gold", "lock", "trap")
-_WHEN = f"{', '.join(_EVENTS)}, 'death 3' or 'at 12,5'"
+_WHEN = f"{', '.join(_EVENTS)}, 'death 3', 'after 20 s' or 'at 12,5', then perhaps 'for 9 s'"
 
 
 class LevelMessage(NamedTuple):
-    """``when``: a name of _EVENTS, "death" or "at"; ``deaths``: after how many deaths; ``cell``: column and row."""
+    """``when``: a name of _EVENTS, "death", "after" or "at". ``number``: after how many deaths, or seconds of a try.
+
+    ``cell``: column and row. ``seconds``: how long it is shown; 0: the usual time.
+    """
 
     when: str
     text: str
-    deaths: int = 0
+    number: int = 0
     cell: tuple[int, int] = (0, 0)
+    seconds: int = 0
 
     @property
     def place(self) -> tuple[float, float] | None:
@@ -47,8 +52,8 @@ class LevelMessage(NamedTuple):
 def parse_messages(value: str) -> tuple[LevelMessage, ...]:
     """The texts in a header's value, separated by bars. Raises LevelError.
 
-    >>> parse_messages("start: {jump} jumps | death 3: Wait for the drone")[1]
-    LevelMessage(when='death', text='Wait for the drone', deaths=3, cell=(0, 0))
+    >>> parse_messages("start: {jump} jumps | death 3 for 9 s: Wait for the drone")[1]
+    LevelMessage(when='death', text='Wait for the drone', number=3, cell=(0, 0), seconds=9)
     """
     parts = value.split(BAR) if value.strip() else []
     if len(parts) > MAX_MESSAGES:
@@ -75,11 +80,11 @@ def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
 def with_message_moved(says: str, number: int, cell: tuple[int, int]) -> str:
     """A header's value with one of its messages, by number from 0, moved to another cell.
 
-    >>> with_message_moved("start: Go | at 12,5: Jump: here", 1, (3, 4))
-    'start: Go | at 3,4: Jump: here'
+    >>> with_message_moved("start: Go | at 12,5 for 9 s: Jump: here", 1, (3, 4))
+    'start: Go | at 3,4 for 9 s: Jump: here'
     """
     parts = [part.strip() for part in says.split(BAR)]
-    parts[number] = f"at {cell[0]},{cell[1]}:{parts[number].partition(':')[2]}"
+    parts[number] = _PLACE.sub(f"at {cell[0]},{cell[1]}", parts[number], count=1)
     return f" {BAR} ".join(parts)
 
 
@@ -92,12 +97,14 @@ def _read(part: str) -> LevelMessage:
         raise LevelError("a text in 'says'", found=found, expected=f"at most {MAX_LETTERS} printable letters")
     for name in unknown_words(text):
         raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + TARGETS))
-    if when in _EVENTS:
-        return LevelMessage(when, text)
-    if match := _DEATH.fullmatch(when):
-        return LevelMessage("death", text, deaths=int(match[1]))
-    if (match := _PLACE.fullmatch(when)) and 1 <= int(match[1]) <= COLUMNS and 1 <= int(match[2]) <= ROWS:
-        return LevelMessage("at", text, cell=(int(match[1]), int(match[2])))
+    timed = _TIME.fullmatch(when)
+    moment, seconds = (timed[1], int(timed[2])) if timed else (when, 0)
+    if moment in _EVENTS:
+        return LevelMessage(moment, text, seconds=seconds)
+    if match := _COUNTED.fullmatch(moment):
+        return LevelMessage(moment.split()[0], text, int(match[1] or match[2]), seconds=seconds)
+    if (match := _PLACE.fullmatch(moment)) and 1 <= int(match[1]) <= COLUMNS and 1 <= int(match[2]) <= ROWS:
+        return LevelMessage("at", text, cell=(int(match[1]), int(match[2])), seconds=seconds)
     raise LevelError("an unknown moment in 'says'", found=repr(when[:40]), expected=_WHEN)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable, Sequence
 from operator import attrgetter
@@ -49,6 +50,9 @@ IN_BORDER = 10.0  # the same in the border below a level
 NOTICE_WIDE = 764.0  # longest line of a notice, px
 NOTICE_LINES = 5  # most lines of a notice
 NOTICE_MS = 4000
+SWITCH_S = 0.0005
+"""The longest that a thread of Python waits for another one, s: what works in the background, as a compiler, must not
+make the window slow."""
 WARNING_MS = 12_000  # for which a warning about the start of the game is shown
 
 
@@ -199,6 +203,7 @@ class App:
         Without a real display (SDL's dummy driver) a bounded run counts pictures as time, 60 a second, and does not
         wait: its pictures are always the same.
         """
+        sys.setswitchinterval(SWITCH_S)
         clock = pygame.time.Clock()
         simulated = frames is not None and pygame.display.get_driver() in UNSEEN
         last = pygame.time.get_ticks()
@@ -294,11 +299,12 @@ class App:
     def _draw_notice(self, theme: Theme) -> pygame.Rect:
         left, right = self.top.notice_room
         most = min(NOTICE_WIDE, right - left - 28)
-        middle, lines = (left + right) / 2, wrapped(theme, self.notice, most, NOTICE)[:NOTICE_LINES]
-        size, margin, high = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
-        if self.top.plays and len(lines) == 1:
-            # In the border: no text covers a level during play.
-            size, margin, high = IN_BORDER, 1.0, 20.0
+        # In the border: no text covers a level.
+        middle, size, margin, high = (left + right) / 2, IN_BORDER, 1.0, 20.0
+        lines = wrapped(theme, self.notice, most, size)
+        if len(lines) > 1 or not (self.top.plays or self.top.small_notices):
+            size, margin, high = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
+            lines = wrapped(theme, self.notice, most, size)[:NOTICE_LINES]
         foot = theme.canvas.logical((0, theme.canvas.stage.bottom))[1] - self.top.foot_high
         y = foot - high * len(lines) - 2 * margin
         wide = min(most, max(theme.width(line, size) for line in lines)) + 28

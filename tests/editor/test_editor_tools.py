@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from itertools import pairwise
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 
+from ninja_game.editor import stamp
 from ninja_game.editor.brush import (
     FAMILIES,
     OBJECT_TYPES,
@@ -351,6 +353,27 @@ def test_slopes_set_themselves_on_steps_and_corners(tools: EditorTools) -> None:
     assert picture(tools, range(15, 26), range(17, 24)) == hill
 
 
+_UP = ["....#", "...sq", "..sq.", ".sq..", "#q..."]
+
+
+@pytest.mark.parametrize(
+    "ends, rows",
+    [
+        ((60, 60, 156, 156), ["#....", "wa...", ".wa..", "..wa.", "...w#"]),
+        ((60, 156, 156, 60), _UP),
+        ((156, 60, 60, 156), _UP),
+    ],
+)
+def test_a_quick_freehand_diagonal_is_one_band_with_slopes(
+    tools: EditorTools, ends: tuple[int, int, int, int], rows: list[str]
+) -> None:
+    tools.slopes = True
+    ax, ay, bx, by = ends
+    # At every move of the mouse a cell on and a cell up or down.
+    drag(tools, *((ax + (bx - ax) * k / 4, ay + (by - ay) * k / 4) for k in range(5)))
+    assert picture(tools, range(2, 7), range(2, 7)) == rows
+
+
 def test_slopes_that_nobody_touched_stay_as_they_are(root: Path) -> None:
     level = open_source(root / "levels" / "00-1-mind-the-gap.txt").draft
     for tool, tile, ends in (
@@ -512,6 +535,21 @@ def test_the_preview_of_a_press_shows_the_slopes_too(tools: EditorTools) -> None
     assert tools.preview == {(19, 22): TILE_CHARS.index("s"), (20, 22): TILE_CHARS.index("a")}
     tools.slopes = False
     assert tools.preview == {(20, 22): 1}
+
+
+def test_the_preview_of_a_fill_is_made_once_while_the_pointer_stays_in_its_cell(tools: EditorTools) -> None:
+    tools.tool = "fill"
+    with patch.object(stamp, "filled", wraps=stamp.filled) as flooded:
+        for x in range(360, 384, 3):
+            tools.move(x, 300)
+            assert len(tools.preview) == 713
+        assert flooded.call_count == 1
+        tools.pick_up(0)
+        assert not tools.preview
+        drag(tools, (370, 300))
+        tools.pick_up(1)
+        tools.move(390, 300)
+        assert len(tools.preview) == 713
 
 
 def test_chosen_objects_move_in_the_order_with_their_selection(tools: EditorTools) -> None:

@@ -20,9 +20,13 @@ PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
         ("death 0: jump", "unknown moment"),
         ("at 32,5: jump", "unknown moment"),
         ("start: press {fly}", "unknown key in 'says'; found {fly}; expected left, right, jump"),
+        ("after 0 s: jump", "unknown moment"),
+        ("after 20: jump", "unknown moment"),
+        ("start for 100 s: jump", "unknown moment"),
+        ("start for 0 s: jump", "unknown moment"),
         ("start: " + "x" * (MAX_LETTERS + 1), "at most 120 printable letters"),
         ("start: \x07", "printable"),
-        (" | ".join(["start: a"] * 5), "too many texts in 'says'; found 5; expected at most 4"),
+        (" | ".join(["start: a"] * 9), "too many texts in 'says'; found 9; expected at most 8"),
     ],
 )
 def test_what_cannot_be_said_is_refused_with_its_line(value: str, words: str) -> None:
@@ -32,11 +36,12 @@ def test_what_cannot_be_said_is_refused_with_its_line(value: str, words: str) ->
 
 
 def test_each_moment_is_read() -> None:
-    says = "start: a | switch: b | death 12: c | at 31,23: d"
+    says = "start: a | switch: b | death 12: c | at 31,23 for 9 s: d | after 20 s for 99 s: e"
     read = parse_ascii_level(f"ninja-game level 1\nsays: {says}\n{PICTURE}").says
-    assert [(each.when, each.text, each.deaths, each.cell) for each in parse_messages(read)] == [
-        ("start", "a", 0, (0, 0)),
-        ("switch", "b", 0, (0, 0)),
-        ("death", "c", 12, (0, 0)),
-        ("at", "d", 0, (31, 23)),
+    assert [(each.when, each.text, each.number, each.cell, each.seconds) for each in parse_messages(read)] == [
+        ("start", "a", 0, (0, 0), 0),
+        ("switch", "b", 0, (0, 0), 0),
+        ("death", "c", 12, (0, 0), 0),
+        ("at", "d", 0, (31, 23), 9),
+        ("after", "e", 20, (0, 0), 99),
     ]

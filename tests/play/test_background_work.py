@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from threading import Event
@@ -13,6 +14,7 @@ from ninja_game.editor.certify import Certifier
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import Replay
+from ninja_game.play.app import App
 from ninja_game.play.editor import session as editor_session
 from ninja_game.play.replay import film
 from ninja_game.play.replay.screen import ReplayScreen
@@ -31,6 +33,15 @@ from tests.support.tas_driver import TasDriver
 from tests.support.waiting import LONGEST
 
 RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
+
+
+def test_a_window_waits_shortly_for_what_works_in_the_background(app: App) -> None:
+    usual = sys.getswitchinterval()
+    try:
+        app.run(1)
+        assert sys.getswitchinterval() < usual / 5
+    finally:
+        sys.setswitchinterval(usual)
 
 
 class LibraryPanic(BaseException):

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
+from math import dist
 
 import pygame
 
@@ -36,29 +37,40 @@ from ninja_game.play.level.places import Things
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow, MenuScreen, ask_to_keep
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.rules import LIFETIME, TICKS_PER_SECOND
+from ninja_game.sim.rules import CELL, LIFETIME, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.text_entry import TextArea, TextEntry
-from ninja_game.ui.theme import Area, Palette, Theme, inside
+from ninja_game.ui.theme import Area, Palette, Theme, inside, mixed
 from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.sprites.thumbnail import open_exit, thumbnail
 
 ROW, TOP, WIDE = 112, 60, 294
+SHOWN = 4
+"""Rows that are shown at once."""
+END = TOP + ROW * SHOWN
 PICTURE: Area = (342, TOP, 422, 422 * HEIGHT / WIDTH)
 """Where the level is shown with the selected message."""
 
 _WHEN = {
-    "start": ("At the start", "At each start and 12 s on, until the exit is open"),
+    "start": ("At the start", "At each start, until the exit is open"),
     "switch": ("Exit opens", "Once, when the ninja opens the exit"),
     "gold": ("The first gold", "Once, when the ninja takes the first gold"),
     "death": ("After deaths", "At the start, after so many deaths"),
     "lock": ("A door unlocks", "Once, when a locked door opens"),
     "trap": ("A trap closes", "Once, when a trap door closes"),
+    "after": ("After seconds", "Once, when a try has lasted so long"),
     "at": ("Near a place", "Beside it, when the ninja first comes into its frame"),
 }
 """The name of each moment, and when it is."""
+
+_DETAILS = {
+    "death": "How many deaths: a number from 1 to 99",
+    "after": "How many seconds: a number from 1 to 99",
+    "at": "Column and row of the cell: 1,1 to 31,23, as in 12,5",
+}
+"""What some moments need besides."""
 
 _SAID_AT = {
     "switch": ("exit", SWITCH), "gold": ("gold", BODY), "lock": ("locked door", SWITCH), "trap": ("trap door", SWITCH),
@@ -71,37 +83,48 @@ _HELP = (
     "at an exit alone once it is open.",
 )
 
+DETAIL, TIME, TEXT = 1, -3, -1
+"""Places of the fields in a row."""
+
+_TIME_HINT = "Seconds that it stays: a number from 1 to 99; empty: as long as usual"
+
 _WORDS = ", ".join(f"{{{name}}}" for name in KEYS + TARGETS)
 
 
 @dataclass
 class Message:
-    """``when``: as of a LevelMessage; ``detail``: the number of deaths or the cell, as typed."""
+    """``when``: as of a LevelMessage. As typed: ``detail``, of _DETAILS, and ``time``, the seconds that it is shown."""
 
     when: str = "start"
     detail: str = ""
     text: str = ""
+    time: str = ""
 
     @property
     def moment(self) -> str:
-        return f"{self.when} {self.detail.replace(' ', '')}"
+        return f"{self.when} {self.detail.replace(' ', '')}{' s' * (self.when == 'after')}".strip()
+
+    @property
+    def seconds(self) -> int:
+        return int(self.time) if self.time.isdecimal() else 0
 
     @property
     def source(self) -> str:
-        return f"{self.moment.strip()}: {self.text.strip()}"
+        return f"{self.moment}{f' for {self.seconds} s' if self.seconds else ''}: {self.text.strip()}"
 
     @property
-    def problem(self) -> tuple[bool, str]:
-        """Whether the detail is wrong, and the problem in words; '' for none."""
+    def problem(self) -> tuple[int, str]:
+        """Which field of the row is wrong, DETAIL, TIME or TEXT, and the problem in words; '' for none."""
         moment = self.moment
-        if self.when in ("death", "at") and (":" in moment or not _fits(f"{moment}: a text")):
-            place = "column,row: 1,1 to 31,23, as in 12,5"
-            return True, f"A place is {place}" if self.when == "at" else "How many deaths: a number from 1 to 99"
+        if self.when in _DETAILS and (":" in moment or not _fits(f"{moment}: a text")):
+            return DETAIL, _DETAILS[self.when]
+        if self.time and not self.seconds:
+            return TIME, _TIME_HINT
         if not self.text.strip():
-            return False, "Type what is said, or remove the message"
+            return TEXT, "Type what is said, or remove the message"
         if BAR in self.text:
-            return False, f"A message has no {BAR}"
-        return False, self.unknown and f"{self.unknown} is not one of {_WORDS}"
+            return TEXT, f"A message has no {BAR}"
+        return TEXT, self.unknown and f"{self.unknown} is not one of {_WORDS}"
 
     @property
     def unknown(self) -> str:
@@ -117,8 +140,10 @@ def _fits(source: str) -> bool:
 
 
 def messages_of(says: str) -> list[Message]:
-    details = {"death": "{0.deaths}", "at": "{0.cell[0]},{0.cell[1]}"}
-    return [Message(line.when, details.get(line.when, "").format(line), line.text) for line in parse_messages(says)]
+    return [
+        Message(when, "{},{}".format(*cell) if when == "at" else str(number or ""), text, str(seconds or ""))
+        for when, text, number, cell, seconds in parse_messages(says)
+    ]
 
 
 class _Stage:
@@ -179,22 +204,37 @@ class MessagesScreen(MenuScreen):
         super().enter()
         place = next((k for k, row in enumerate(self.messages) if self._wanted and row.detail == self._wanted), None)
         if place is not None:
-            self.focus, self._wanted = self._row_widgets[place][-1], ""
+            self._wanted = ""
+            self._select(place)
+
+    def _select(self, number: int, field: int = TEXT) -> None:
+        """Show the row of a message, with the focus on a field of it."""
+        self._selected = number
+        self.enter()
+        self.focus, self.redraw = self._row_widgets[number][field], True
 
     def build(self) -> Sequence[Widget]:
         self._row_widgets = [self._row(number) for number in range(len(self.messages))]
-        rows = [widget for row in self._row_widgets for widget in row]
-        y = TOP + ROW * MAX_MESSAGES + 14
-        full = len(self.messages) >= MAX_MESSAGES
+        rows = [widget for row in self._row_widgets[self._first : self._first + SHOWN] for widget in row]
+        y, count = END + 14, len(self.messages)
+        full, others = count >= MAX_MESSAGES, (self._first + SHOWN) % MAX_MESSAGES
         words = "Remove one first" if full else "Add a message"
         add = Button((36, y, 160, 28), words, None if full else self._add)
+        if count > SHOWN:
+            text = f"{others + 1} to {min(others + SHOWN, count)}"
+            rows.append(Button((264, y, 66, 28), text, partial(self._select, others), hint="The other messages"))
         hint = "Play from just before the selected message; Esc comes back"
         test = Button((342, y, 132, 28), "Test", self._try, hint=hint)
         end = [Button((488, y, 132, 28), "OK", self._accept), Button((632, y, 132, 28), "Cancel", self.close)]
         return [*rows, add, test, *end]
 
+    @property
+    def _first(self) -> int:
+        """The number of the first message that is shown."""
+        return self._selected // SHOWN * SHOWN
+
     def _row(self, number: int) -> list[Widget]:
-        message, y = self.messages[number], TOP + ROW * number
+        message, y = self.messages[number], TOP + ROW * (number % SHOWN)
         text = TextArea((36, y + 31, WIDE, 60), "What is said", message.text, lambda _: None, longest=MAX_LETTERS)
 
         def put(typed: str) -> None:
@@ -206,10 +246,12 @@ class MessagesScreen(MenuScreen):
         text.put = put
         moment = Button((36, y, 116, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
         about: list[Widget] = []
-        if message.when in ("death", "at"):
-            hint = "Column and row of the cell" if message.when == "at" else "How many deaths"
-            detail = partial(setattr, message, "detail")
+        if message.when in _DETAILS:
+            hint, detail = _DETAILS[message.when], partial(setattr, message, "detail")
             about.append(TextEntry((155, y, 66, 28), hint, message.detail, detail, longest=6, hint=hint))
+        usual = f"{shown_ticks(message.when, len(self._together(message))) // TICKS_PER_SECOND} s"
+        put_time = partial(setattr, message, "time")
+        about.append(TextEntry((224, y, 48, 28), usual, message.time, put_time, longest=2, hint=_TIME_HINT))
         remove = Button((275, y, 55, 28), "Remove", lambda: self._remove(message), size=10)
         return [moment, *about, remove, text]
 
@@ -218,7 +260,7 @@ class MessagesScreen(MenuScreen):
             if when == message.when:
                 return
             message.when = when
-            message.detail = {"death": "3", "at": "{},{}".format(*self._here)}.get(when, "")
+            message.detail = {"death": "3", "after": "20", "at": "{},{}".format(*self._here)}.get(when, "")
             self.enter()
 
         rows: list[MenuRow] = [(name, partial(choose, when), about) for when, (name, about) in _WHEN.items()]
@@ -236,12 +278,12 @@ class MessagesScreen(MenuScreen):
         if not inside(PICTURE, x, y):
             super()._handle_mouse(event)
             return
-        column, row = cell_of(*((at - start) * WIDTH / PICTURE[2] for at, start in zip((x, y), PICTURE, strict=False)))
-        near = {f"{column + i},{row + j}": abs(i) + abs(j) for i in (-1, 0, 1) for j in (-1, 0, 1)}
-        there = [k for k, message in enumerate(self.messages) if message.when == "at" and message.detail in near]
-        if pressed and there:
-            self._selected = min(there, key=lambda k: near[self.messages[k].detail])
-            self.focus = self._row_widgets[self._selected][-1]
+        x, y = ((at - start) * WIDTH / PICTURE[2] for at, start in zip((x, y), PICTURE, strict=False))
+        column, row = cell_of(x, y)
+        eyes = ((k, self._eye(message)) for k, message in enumerate(self.messages))
+        there = {k: dist(eye, (x, y)) for k, eye in eyes if eye}
+        if pressed and min(there.values(), default=NEAR) < 1.5 * CELL:
+            self._select(min(there, key=there.__getitem__))
         elif self.selected and self.selected.when == "at" and is_inside((column, row)):
             self.selected.detail = f"{column},{row}"
             self.enter()
@@ -251,20 +293,20 @@ class MessagesScreen(MenuScreen):
 
     def _add(self) -> None:
         self.messages.append(Message())
-        self.enter()
-        self.focus = self._row_widgets[-1][-1]
+        self._select(len(self.messages) - 1)
 
     def _remove(self, message: Message) -> None:
         self.messages = [other for other in self.messages if other is not message]
+        self._selected = min(self._selected, max(0, len(self.messages) - 1))
         self.enter()
 
     def _is_sound(self) -> bool:
         """Whether all messages are valid; else the first that is not gets the focus and shows the problem."""
         for number, message in enumerate(self.messages):
-            about_detail, problem = message.problem
+            field, problem = message.problem
             if problem:
-                self.focus = self._row_widgets[number][1 if about_detail else -1]
-                self._refused = self.redraw = True
+                self._refused = True
+                self._select(number, field)
                 return False
         return True
 
@@ -304,8 +346,9 @@ class MessagesScreen(MenuScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme = self.theme
-        for number, message in enumerate(self.messages):
-            row, length = TOP + ROW * number, len(message.text)
+        for number, message in list(enumerate(self.messages))[self._first : self._first + SHOWN]:
+            row, length = TOP + ROW * (number % SHOWN), len(message.text)
+            theme.text(surface, str(number + 1), 32, row + 36, size=9, bold=True, align="right")
             colour = theme.palette.faint if length < MAX_LETTERS else theme.palette.bad
             count = f"{length} of {MAX_LETTERS}"
             theme.text(surface, count, 36 + WIDE, row + 95, size=8.5, colour=colour, align="right")
@@ -320,7 +363,7 @@ class MessagesScreen(MenuScreen):
             if self.focus in self._row_widgets[number]:
                 self._selected = number
         count = f"{len(self.messages)} of {MAX_MESSAGES}"
-        theme.text(surface, count, 208, TOP + ROW * MAX_MESSAGES + 21, size=11, colour=theme.palette.faint)
+        theme.text(surface, count, 204, END + 21, size=11, colour=theme.palette.faint, width=58)
         selected = self.selected
         self._draw_level(surface, selected)
         name, when = _WHEN[selected.when] if selected else ("", "")
@@ -329,15 +372,17 @@ class MessagesScreen(MenuScreen):
         if selected and not selected.problem[1]:
             about += [finding.advice for finding in unseen_messages(selected.source, self._ground)]
         x, y, w, h = PICTURE
-        below = x, y + h + 10, w, TOP + ROW * MAX_MESSAGES - y - h - 10
+        below = x, y + h + 10, w, END - y - h - 10
         theme.paragraph(surface, (*about, *_HELP), below, 11, 15, colour=theme.palette.faint)
 
     def _turn_of(self, message: Message) -> str:
-        """How many ticks a message is shown, and its number among those of its moment."""
-        together = [other for other in self.messages if other.moment == message.moment]
+        """The number of a message among those of its moment; '' for an only one."""
+        together = self._together(message)
         place = next(k for k, other in enumerate(together, 1) if other is message)
-        which = f"No. {place} of {len(together)}, " if len(together) > 1 else ""
-        return f"{which}{shown_ticks(message.when, len(together)) / TICKS_PER_SECOND:.0f} s"
+        return f"No. {place} of {len(together)}" if len(together) > 1 else ""
+
+    def _together(self, message: Message) -> list[Message]:
+        return [other for other in self.messages if other.moment == message.moment]
 
     def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
         """The level with a message as in play. The level is drawn once, the message in each picture."""
@@ -357,22 +402,24 @@ class MessagesScreen(MenuScreen):
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
             where = draft.level.tiles, self._kept.get(known, ()), self._eye(message), when == "start", when == "at"
             message_said = PlacedMessage(text, *where) if text else None
-            if when == "at" and (eye := self._eye(message)):
-                frame = eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR
-                stage.hud.theme.canvas.frame_rect(picture, palette.accent, *frame, 2)
+        for other in self.messages:
+            if other.when == "at" and (eye := self._eye(other)):
+                frame, chosen = (eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR), other is message
+                colour = palette.accent if chosen else mixed(palette.background, palette.accent, 0.4)
+                stage.hud.theme.canvas.frame_rect(picture, colour, *frame, 1 + chosen)
         foot = draft.name, f"gold 0 / {draft.level.gold}"
         labels = named_in(stage.world, arrow_targets(texts)) if stage.world else ()
         stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=message_said, named=labels))
         surface.blit(picture, place)
         for number, other in enumerate(self.messages, 1):
-            if other is not message and other.when == "at" and (eye := self._eye(other)):
+            if other is not message and (eye := self._eye(other)):
                 x, y = (start + at * PICTURE[2] / WIDTH for start, at in zip(PICTURE, eye, strict=False))
                 theme.canvas.circle(surface, theme.palette.accent, (x, y), 6)
                 theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
 
     def _eye(self, message: Message) -> Point | None:
         """Where the ninja is when a message appears, px; None at the start, or where that is unknown."""
-        if message.when == "at" and not message.problem[0]:
+        if message.when == "at" and message.problem[0] != DETAIL:
             return parse_messages(f"{message.moment}: a text")[0].place
         name, part = _SAID_AT.get(message.when, ("", BODY))
         return next((points(spec).get(part) for spec in self._draft.objects if object_type_name(spec) == name), None)

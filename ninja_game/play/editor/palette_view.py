@@ -264,12 +264,15 @@ class PaletteView(Widget):
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         canvas, palette = theme.canvas, theme.palette
-        x, y, _, _ = self.area
+        x, y, w, _ = self.area
         tools = self.tools
         taken = set[str]().union(*live_changes(tools).values())
-        for text, top, lit in (("Tiles", y + 4, not tools.objects), ("Objects", y + 91, tools.objects)):
-            colour = palette.accent if lit else palette.text
-            theme.text(surface, text if lit else f"{text}: `", x + 1, top, size=10, colour=colour, bold=lit)
+        for text, top, high, lit in (("Tiles", y, 89, not tools.objects), ("Objects", y + 89, 126, tools.objects)):
+            if lit:
+                lit_area = x - 3, top - 2, w + 5, high
+                canvas.fill_rect(surface, mixed(palette.panel, palette.accent, 0.2), *lit_area, 3)
+                canvas.frame_rect(surface, palette.accent, *lit_area, 1, 3)
+            theme.text(surface, text if lit else f"{text}: `", x + 1, top + 2, size=10, bold=lit)
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW
@@ -291,9 +294,9 @@ class PaletteView(Widget):
                 canvas.frame_rect(surface, palette.accent, *area, 2)
 
     def _draw_key(self, surface: pygame.Surface, theme: Theme, key: str, at: Point, *, live: bool) -> None:
-        """The key of an entry, faint while the key means something else."""
-        colour = theme.palette.text if live else mixed(theme.palette.faint, theme.palette.panel, 0.5)
-        theme.text(surface, key_label_of(key), *at, size=8, height=KEY, colour=colour)
+        """The key of an entry; none while the key means something else."""
+        if live:
+            theme.text(surface, key_label_of(key), *at, size=8, height=KEY, bold=True)
 
     def _icon(self, theme: Theme, what: Entry, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size

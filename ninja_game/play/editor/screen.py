@@ -18,6 +18,7 @@ from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.menus.menu_screen import DIRECTIONS
 from ninja_game.play.workspace import Pane, WorkspaceScreen
+from ninja_game.ui.canvas import HEIGHT
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.text_entry import TextEntry
@@ -28,6 +29,8 @@ class EditorScreen(WorkspaceScreen):
     """The level editor. ``session``: the edited level; ``view``: the level in the middle."""
 
     table = TABLE
+    small_notices = True
+    foot_high = HEIGHT - LAYOUT.findings[1]  # in the level's lower border
 
     def __init__(self, app: App, source: Source | None = None, *, offers_recovered: bool = True) -> None:
         super().__init__(app)
@@ -45,6 +48,10 @@ class EditorScreen(WorkspaceScreen):
         ]  # fmt: skip
         self._dragged_to: InputEvent | None = None
         self._entered = not offers_recovered
+
+    @property
+    def notice_room(self) -> tuple[float, float]:
+        return LAYOUT.level[0], LAYOUT.level[0] + LAYOUT.level[2]
 
     @property
     def parts(self) -> Sequence[Pane]:

@@ -63,7 +63,8 @@ CHECK_SPACING = 0.1
 PICTURE_WIDTH = 1584
 
 _HISTORIES: dict[Path, tuple[str, History[Draft]]] = {}
-"""The undo history of each level that was left, with the digest of its file at that time."""
+"""The undo history of each of the last _LEFT levels that were left, with the digest of its file at that time."""
+_LEFT = 20
 
 Question = tuple[Level, tuple[Finding, ...], str]
 """A level to examine, what the solver has found about it, and its messages."""
@@ -339,7 +340,10 @@ class EditorSession:
         """The level is closed: a search of the level in its file continues in the background, any other one ends."""
         path, level = self.source.path, self.source.draft.level
         if path:
+            _HISTORIES.pop(path, None)
             _HISTORIES[path] = self.source.digest, self.tools.history
+            if len(_HISTORIES) > _LEFT:
+                del _HISTORIES[next(iter(_HISTORIES))]
         if path and self._keeps_runs(path) and self.certifier.busy and not self.certifier.is_stale(level):
             self.certifier.leave(partial(self._keep, path, name=self.source.draft.name or path.stem))
         else:

@@ -24,7 +24,7 @@ from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.rules import CELL, STRIDE
-from ninja_game.ui.canvas import Canvas, Colour, Lens
+from ninja_game.ui.canvas import WIDTH, Canvas, Colour, Lens
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import DrawTarget, is_near, shared_book
 from ninja_game.view.sprites.tile_sheet import TileSheet, around, scrolled
@@ -58,7 +58,8 @@ class LevelSheet:
         self._grid: list[tuple[tuple[int, ...], pygame.Rect]] = []
         self._dirty: list[pygame.Rect] = []
         self.canvas = canvas
-        self.surface, self._tiles = pygame.Surface(canvas.size), TileSheet(canvas, palette.tile)
+        self.surface: pygame.Surface
+        self._tiles: TileSheet
         self.look(canvas)
 
     def look(self, canvas: Canvas) -> None:
@@ -181,6 +182,8 @@ def joined(rects: Iterable[pygame.Rect]) -> list[pygame.Rect]:
 MIDDLE = (396.0, 300.0)
 SIGN = 7.0
 """Half the height of a finding's sign, px."""
+SIGN_AWAY = 14.0
+"""From its cause, across and up, px."""
 
 
 class Grid(NamedTuple):
@@ -248,8 +251,8 @@ def route_mark(canvas: Canvas, colour: Colour, route: PathPoints) -> LevelMark:
 
 
 def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
-    """The sign of a finding: a triangle with an exclamation mark."""
-    x, y = at[0], at[1] - 4.0
+    """The sign of a finding: a triangle with an exclamation mark, above its cause and to the right, or below it."""
+    x, y = min(at[0] + SIGN_AWAY, WIDTH - SIGN), at[1] + (SIGN_AWAY if at[1] < 2 * CELL else -SIGN_AWAY)
     corners = [(x, y - SIGN), (x + SIGN, y + SIGN - 1), (x - SIGN, y + SIGN - 1)]
 
     def draw(target: DrawTarget) -> None:
@@ -259,7 +262,7 @@ def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
         target.line(palette.outline, x, y - 2.4, x, y + 1.6, 1.6)
         target.disc(palette.outline, x, y + 4.0, 0.9)
 
-    return LevelMark(draw, (canvas.rect(x - 9, y - 9, 18, 18),))
+    return LevelMark(draw, (canvas.rect(x - 11, y - 11, 22, 22),))
 
 
 def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:

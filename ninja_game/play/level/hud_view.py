@@ -43,8 +43,10 @@ def hud_view(play: LevelPlay) -> HudView:
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.messages.text
     # The text of the start, and the one for a player who is stuck, stay in place and may cover open space.
     covers = play.messages.is_start or "\n" in text
-    place = play.messages.place
-    where = context.level.tiles, play.things, place or play.about, covers, place is not None
+    place, came = play.messages.place, play.about
+    # A text with a place lies beside it, and never over the ninja that has just come there.
+    things = (*play.things, (*came, MUST)) if place and came else play.things
+    where = context.level.tiles, things, place or came, covers, place is not None
     message_said = PlacedMessage(named_keys(text, key), *where) if text else None
     if play.phase is Phase.DEAD:
         cause, help_text = cause_of_death(play)

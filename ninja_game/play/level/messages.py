@@ -9,7 +9,7 @@ from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.messages import NEAR, LevelMessage, arrow_targets
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.rules import CELL
+from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 from ninja_game.sim.states import SLIDING
 
 SHOWN_TICKS = 240  # for which a text is shown after its event
@@ -77,7 +77,7 @@ class MessageQueue:
 
     def at_start(self) -> None:
         """Called when the level waits at its start."""
-        due = [message for message in self._messages if message.when == "death" and message.deaths == self._deaths]
+        due = [message for message in self._messages if message.when == "death" and message.number == self._deaths]
         self._say(*_in_turn([*due, *self._starts()]))
         self._still = self._quiet = 0
         self._jumped_at = self._wall = 0.0
@@ -87,8 +87,12 @@ class MessageQueue:
         self._unread = READ_TICKS
 
     def _say_first(self, *texts: _Text) -> None:
-        """Show these texts first, then the interrupted and waiting ones; none of the start once the exit is open."""
-        over = {message.text for message in self._said if message.when == "start"}.union(text for text, *_ in texts)
+        """Show these texts first, then the interrupted and waiting ones.
+
+        Once the exit is open, none of the start without a time of its own.
+        """
+        over = {message.text for message in self._said if message.when == "start" and not message.seconds}
+        over.update(text for text, *_ in texts)
         now = [(self.text, self._left, self.place)] if self.is_start or self._unread > 0 else []
         self._say(*texts, *(line for line in (*now, *self._next) if line[0] and line[0] not in over))
 
@@ -127,8 +131,13 @@ class MessageQueue:
         if "switch" in happened:
             # The player has understood the goal: do not repeat the text of the start.
             self._said.update(message for message in self._messages if message.when == "start")
-        new = [message for message in self._messages if message.when in happened or _is_near(world, message.place)]
-        if new := [message for message in new if message not in self._said]:
+        new = [
+            message
+            for message in self._messages
+            if message not in self._said
+            and (message.when in happened or _is_near(world, message.place) or _is_due(world, message))
+        ]
+        if new:
             self._said.update(new)
             self._say_first(*_in_turn(new))
         if self._again and self._is_stuck(world):
@@ -165,12 +174,22 @@ class MessageQueue:
 
 
 def shown_ticks(when: str, together: int) -> int:
-    """Ticks for a text of a moment with ``together`` texts: a single one of the start or the switch stays longer."""
+    """Ticks for a text without a time of its own, of a moment with ``together`` texts.
+
+    A single one of the start or the switch stays longer.
+    """
     return START_TICKS if together == 1 and when in {"start", "switch"} else SHOWN_TICKS
 
 
 def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
-    return [(message.text, shown_ticks(message.when, len(messages)), message.place) for message in messages]
+    return [
+        (line.text, line.seconds * TICKS_PER_SECOND or shown_ticks(line.when, len(messages)), line.place)
+        for line in messages
+    ]
+
+
+def _is_due(world: World, message: LevelMessage) -> bool:
+    return message.when == "after" and world.tick >= message.number * TICKS_PER_SECOND
 
 
 def _is_near(world: World, place: Point | None, near: float = NEAR) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from time import thread_time
@@ -15,7 +16,7 @@ from ninja_game.editor import packs
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, object_type_of, placed
 from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Certification, Reach, with_ninja_at
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import Source, open_source
+from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.specs import BODY, SWITCH, points
 from ninja_game.editor.stamp import Selection, Stamp, chosen_in, put
 from ninja_game.formats.ascii.places import place_text
@@ -23,10 +24,13 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
+from ninja_game.play.app import App
 from ninja_game.play.editor.commands import TABLE, TryScreen
 from ninja_game.play.editor.palette_view import entry_of_key, live_changes
 from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine
 from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.editor.session import _HISTORIES, _LEFT
+from ninja_game.play.editor.sheet import sign_mark
 from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.main_menu import MainMenu
@@ -40,6 +44,7 @@ from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import Choice, Label
 from tests.support.draw_log import drawn, noted_texts
 from tests.support.level_maker import ROOM, Maker
@@ -180,8 +185,10 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
         room.frames(70)
         room.press("r")
     room.press("escape")
-    room.wait(lambda: session.test_map and len(session.test_map.deaths) == 2, "map")
+    session._maps.finish(LONGEST)
     assert session.test_map
+    assert len(session.test_map.deaths) == 2
+    room.frames()
     died, _ = session.test_map.deaths
     assert 70 < died[0] < 100
     assert session.test_map.visits == {(2, 22): 2, (3, 22): 2}
@@ -779,6 +786,62 @@ def test_a_turn_that_leaves_the_level_is_refused_in_words(room: Maker, how: str)
     assert "would leave the level" in room.app.notice
     room.press("h")
     assert tools.selection.area == (1, 22, 6, 2), "a mirror image fits"
+
+
+@pytest.mark.parametrize(
+    "text", ["Saved", "2 exits now: each has its own switch. Undo takes it back", "A long text " * 12]
+)
+def test_a_notice_lies_over_the_levels_lower_border_and_nothing_that_one_reads(room: Maker, text: str) -> None:
+    rects: list[pygame.Rect] = []
+    draw = App._draw_notice
+
+    def noted(app: App, theme: Theme) -> pygame.Rect:
+        rects.append(draw(app, theme))
+        return rects[-1]
+
+    with patch.object(App, "_draw_notice", noted):
+        room.app.notify(text)
+        room.frames()
+    others = (area for name, area in LAYOUT._asdict().items() if name != "level")
+    assert rects[0].collidelist([room.app.canvas.rect(*area) for area in others]) < 0
+    border = room.at(0, 576)[1]
+    assert rects[0].top >= room.app.canvas.point(0, border)[1] - 1 or len(text) > 100
+
+
+def test_the_sign_of_a_finding_leaves_its_cause_visible(room: Maker) -> None:
+    sheet, rects = room.editor.view.sheet, []
+    for at in ((396.0, 300.0), (780.0, 300.0), (36.0, 12.0), (780.0, 588.0)):
+        (rect,) = sign_mark(sheet.flat, sheet.palette, at).rects
+        rects.append(rect)
+        assert not rect.collidepoint(sheet.flat.point(*at))
+        assert sheet.flat.rect(0, 0, 792, 600).inflate(8, 8).contains(rect)
+
+
+def test_only_keys_that_act_stand_in_the_palette_and_its_part_in_use_is_lit(room: Maker) -> None:
+    for part, keys in (("Tiles", "12345678"), ("Objects", "1234567890")):
+        shown = drawn(room.app)
+        labels = re.findall(r"text '(\d)' at \S+ size 8 ", shown)
+        assert sorted(labels) == sorted([*keys, *"90"] if part == "Tiles" else keys)
+        assert re.search(f"text '{part}' .*bold", shown)
+        room.press("grave")
+
+
+def test_only_the_newest_levels_that_were_left_keep_their_undo(room: Maker, tmp_path: Path) -> None:
+    session, first = room.editor.session, tmp_path / "0.txt"
+    for number in range(_LEFT + 5):
+        session.save(tmp_path / f"{number}.txt")
+        session.begin(Source(ROOM))
+    assert len(_HISTORIES) == _LEFT
+    assert first not in _HISTORIES
+
+
+def test_a_level_with_a_name_is_saved_without_a_question(room: Maker, tmp_path: Path) -> None:
+    room.editor.session.begin(new_source())
+    room.press("f2")
+    room.fill("Mine", "OK")
+    room.chord("s", pygame.KMOD_LCTRL)
+    assert isinstance(room.top(), EditorScreen)
+    assert room.editor.session.source.path == tmp_path / "levels" / "mine.txt"
 
 
 def test_what_was_saved_is_said_in_the_editor_only(room: Maker) -> None:

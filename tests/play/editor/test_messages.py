@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 from unittest.mock import patch
@@ -16,7 +17,7 @@ from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_message
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
 from ninja_game.play.editor.commands import TryScreen
-from ninja_game.play.editor.messages import _WHEN, PICTURE, Message, MessagesScreen, messages_of
+from ninja_game.play.editor.messages import _WHEN, PICTURE, TEXT, TIME, Message, MessagesScreen, messages_of
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.level.hud import Box, Hud
@@ -36,7 +37,10 @@ from tests.support.level_maker import ROOM, Maker
 
 LONG = "to the right and take the gold before you leave and then look for"
 """Its lines are broken elsewhere if they are measured in small letters."""
-ALL = "start: {jump} jumps | switch: Now the exit | death 3: Wait | at 12,5: Jump: here"
+ALL = (
+    "start: {jump} jumps | switch for 9 s: Now the exit | death 3: Wait | at 12,5: Jump: here | after 20 s: Slide"
+    " | death 5 for 12 s: Go round | at 3,5 for 1 s: No | gold: Yes"
+)
 
 
 def opened(maker: Maker) -> MessagesScreen:
@@ -70,7 +74,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     room.choose("Add a message")
     room.type("run")
     room.choose("Add a message")
-    choice = screen.widgets[3]
+    choice = screen._row_widgets[1][0]
     room.mouse(*choice.centre)
     room.choose("Exit opens")
     room.choose("Add a message")
@@ -116,8 +120,56 @@ def test_those_of_one_moment_are_numbered_with_their_seconds(room: Maker) -> Non
     room.editor.session.tools.history.change(replace(draft, says="start: a | gold: b | start: c | switch: d"))
     opened(room)
     shown = drawn(room.app)
-    for text in ("'No. 1 of 2, 6 s'", "'6 s'", "'No. 2 of 2, 6 s'", "'12 s'"):
-        assert shown.count(f"text {text}") == 1
+    for text, times in (("No. 1 of 2", 1), ("6 s", 3), ("No. 2 of 2", 1), ("12 s", 1)):
+        assert shown.count(f"text '{text}'") == times
+
+
+def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usual(room: Maker) -> None:
+    screen = opened(room)
+    room.choose("Add a message")
+    room.type("on")
+    assert "text '12 s'" in drawn(room.app)
+    room.mouse(*screen._row_widgets[0][TIME].centre)
+    room.type("0")
+    room.choose("OK")
+    assert screen._refused
+    assert screen.focus is screen._row_widgets[0][TIME]
+    room.press("backspace")
+    room.type("25")
+    room.press("return")
+    assert room.draft.says == "start for 25 s: on"
+    assert opened(room).source == room.draft.says
+
+
+def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
+    screen = opened(room)
+    for name in "abcdefgh":
+        room.choose("Add a message")
+        room.type(name)
+    assert not room.button("Remove one first").enabled
+    assert [widget in screen.widgets for widget in (screen._row_widgets[3][0], screen._row_widgets[4][0])] == [0, 1]
+    room.choose("1 to 4")
+    assert screen.focus is screen._row_widgets[0][TEXT]
+    room.type("z")
+    screen.messages[5].text = ""
+    room.choose("OK")
+    assert screen.focus is screen._row_widgets[5][TEXT], "what is wrong is shown, on whatever page it is"
+    room.mouse(*screen._row_widgets[5][-2].centre)
+    assert [message.text for message in screen.messages] == ["az", *"bcdegh"]
+
+
+def test_all_places_are_seen_and_a_click_on_one_selects_its_message(room: Maker) -> None:
+    draft = put(room.draft, Stamp({}, (ObjectSpec(GOLD, (300.0, 300.0)),)))
+    says = "start: a | at 5,5: b | at 20,12: c | gold: d | switch: e"
+    room.editor.session.tools.history.change(replace(draft, says=says))
+    screen = opened(room)
+    shown = drawn(room.app)
+    assert shown.count("circle accent") == 4
+    assert len(re.findall(r"frame \S+ .* 120 x 120", shown)) == 2
+    for point, selected in (((300.0, 300.0), 3), ((120.0, 540.0), 4), ((132.0, 132.0), 1)):
+        left, top, wide, _ = PICTURE
+        room.mouse(left + point[0] * wide / 792, top + point[1] * wide / 792)
+        assert screen._selected == selected
 
 
 def test_a_word_that_is_not_known_is_named_at_its_field_while_it_is_typed(room: Maker) -> None:
@@ -161,6 +213,7 @@ def test_every_message_comes_back_as_it_was(room: Maker) -> None:
         (Message("at", "32,1", "x"), True, "31,23"),
         (Message("at", "", "x"), True, "31,23"),
         (Message("death", "0", "x"), True, "1 to 99"),
+        (Message("after", "0", "x"), True, "How many seconds"),
         (Message("death", "3: x | start", "x"), True, "1 to 99"),
     ],
 )
@@ -428,7 +481,7 @@ def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Mak
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "only what a text names"
     assert shown.count("text 'all of it'") == 2, "in its field and in the level"
-    assert "text '1 of 4'" in shown
+    assert "text '1 of 8'" in shown
     assert len(painted) == 1
     screen = room.shown(MessagesScreen)
     screen.messages[0].text = "to the {switch} and the {exit}"

@@ -26,7 +26,7 @@ from ninja_game.play.level.messages import (
     START_TICKS,
     MessageQueue,
 )
-from ninja_game.play.level.places import MUST, solid_place, tag_top
+from ninja_game.play.level.places import MUST, away_from, solid_place, tag_top
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
@@ -38,7 +38,7 @@ from ninja_game.runs.deaths import SELF
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
-from ninja_game.sim.rules import CELL
+from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import CLASSIC, Theme
@@ -214,6 +214,44 @@ def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
         simulation.world.events[0].kind = kind or 0
         texts += [quick.text for _ in range(1 if kind else 2 * START_TICKS) if quick.on_tick(simulation.world)]
     assert texts == ["one", "three", "one", "two", ""], "what happens is said first, and takes nothing away"
+
+
+def test_text_of_the_start_with_a_time_of_its_own_keeps_it_after_the_exit_has_opened() -> None:
+    simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,700,564"))
+    simulation.world.events[0].kind = EXIT_OPENED
+    for own, shown in (("", ["open", ""]), (" for 20 s", ["open", "go", ""])):
+        messages = MessageQueue(parse_messages(f"start{own}: go | switch: open"))
+        told = []
+        for tick in range(START_TICKS + 20 * TICKS_PER_SECOND + 1):
+            simulation.world.event_count = int(tick == 0)
+            told += [messages.text] if messages.on_tick(simulation.world) else []
+        assert told == shown
+
+
+def test_text_comes_after_its_seconds_once_and_stays_as_long_as_it_says() -> None:
+    messages = MessageQueue(parse_messages("after 2 s for 3 s: slide"))
+    simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!11^400,564,700,564"))
+    for times in (1, 0):
+        heard = []
+        for tick in range(1, 10 * TICKS_PER_SECOND):
+            simulation.step_keys(0)
+            heard += [(tick, messages.text)] if messages.on_tick(simulation.world) else []
+        assert heard == [(2 * TICKS_PER_SECOND, "slide"), (5 * TICKS_PER_SECOND, "")] * times
+        simulation.reset()
+        messages.at_start()
+
+
+def test_text_at_a_place_does_not_lie_over_the_ninja_that_has_come_there(driver: MenuDriver) -> None:
+    driver.press("return")
+    level, hud = driver.shown(LevelScreen), Hud(driver.app.theme)
+    level.begin()
+    play, place = level.play, (396.0, 300.0)
+    play.messages.text, play.messages.place, play.things = "Jump up here", place, ()
+    x, y, w, h = hud.box(hud_view(play).said or PlacedMessage("", (), (), None, covers=False)).area
+    for play.about in ((x + 4, y + 4), (x + w - 4, y + h - 4), (x + w / 2, y + h / 2)):
+        said = hud_view(play).said
+        assert said
+        assert away_from(play.about, *hud.box(said).area) > 10
 
 
 def test_text_at_a_place_is_said_there_once() -> None:
