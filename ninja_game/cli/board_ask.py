@@ -22,8 +22,8 @@ from ninja_game.files.shown_text import shown_text
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
     from ninja_game.levels.episodes import Entry
-    from ninja_game.web.board.ranking import Ranked, Ranking
     from ninja_game.web.board.categories import Category
+    from ninja_game.web.board.ranking import Ranked, Ranking
 
 QUESTIONS = ("rank", "best", "inputs", "splits", "trace", "film")
 MAX_RUNS = 5  # side by side, where no players are named

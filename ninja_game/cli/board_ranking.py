@@ -75,10 +75,10 @@ def ranking_of(
     ``same``: ``levels`` and ``rules`` that are not given are those of the folder's last board; so is ``ledger`` where
     nothing is decided.
     """
+    from ninja_game.web.board.categories import USUAL, read_categories
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
     from ninja_game.web.board.report import dates_of, read_board, read_dates
-    from ninja_game.web.board.categories import USUAL, read_categories
     from ninja_game.web.board.runs import NO_LEDGER
     from ninja_game.web.pages.gallery import published_levels
 

@@ -28,7 +28,8 @@ class BaseScreen:
     ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
     app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
     comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written. ``hides_game``:
-    it shows that nobody plays, and no notice. ``foot_high``: px at the foot that notices leave free. ``small_notices``: those of one line are as high as a border.
+    it shows that nobody plays, and no notice. ``foot_high``: px at the foot that notices leave free.
+    ``small_notices``: those of one line are as high as a border.
     """
 
     see_through = False

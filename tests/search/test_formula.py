@@ -26,7 +26,7 @@ from ninja_game.search.formula.leg import LegSearch
 from ninja_game.search.formula.methods import REPORT_TICKS, count_ways, search_span
 from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
 from ninja_game.search.formula.task import (
-    LONGEST_SPAN,
+    MAX_SPAN,
     SAME_WAY_PX,
     SpanResult,
     SpanTask,
@@ -473,7 +473,7 @@ def test_a_miss_says_which_part_of_the_goal_is_missing_and_how_far_it_is() -> No
 
 
 def test_a_long_beam_reports_again_and_again_and_ends_when_it_is_told() -> None:
-    task = SpanTask(LEVEL, bytes(LONGEST_SPAN), 0, LONGEST_SPAN, goal="x > 10000 and tick > 3000")
+    task = SpanTask(LEVEL, bytes(MAX_SPAN), 0, MAX_SPAN, goal="x > 10000 and tick > 3000")
     ticks: list[int] = []
 
     def report(ticks_run: int, _: object) -> bool:

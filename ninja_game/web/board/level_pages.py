@@ -23,8 +23,8 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, aligned, run_splits, split_table, sum_of_best
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.web.board.charts import PLACE, lead_chart, paths, signed, speed_and_keys, steps, swatch
 from ninja_game.web.board.categories import FASTEST, HIGHEST, Category
+from ninja_game.web.board.charts import PLACE, lead_chart, paths, signed, speed_and_keys, steps, swatch
 from ninja_game.web.board.ranking import Leaderboard, Ranked, Ranking
 from ninja_game.web.board.runs import PLAYED, Key, Run
 from ninja_game.web.pages.frame import (
