@@ -125,7 +125,7 @@ class FixedSearch:
         self.done, self.problem = False, ""
         self.ticks_run, self.seconds = 2_500_000, 7.0
         self.own = self._found(task, 28, 1.5)
-        self.found = self._found(task, 21, 2.25), self._found(task, 25, -1.5)
+        self.results = self._found(task, 21, 2.25), self._found(task, 25, -1.5)
         self.miss: SpanResult | None = None
 
     @staticmethod
@@ -304,8 +304,8 @@ def _tabs(at: TasDriver) -> Iterator[str]:
     search.results.search.problem = ""  # type: ignore[attr-defined]
     at.press("return")
     fixed = search.results.search  # type: ignore[attr-defined]
-    found, own = fixed.found, fixed.own
-    fixed.found, fixed.own, fixed.miss = (), None, replace(fixed.own, score=np.inf, missed_by=14.25)
+    found, own = fixed.results, fixed.own
+    fixed.results, fixed.own, fixed.miss = (), None, replace(fixed.own, score=np.inf, missed_by=14.25)
     search._cut = at.editor.track  # type: ignore[attr-defined]  # its pieces would come at any time
     at.frames(2)
     yield "tas-search-miss"
@@ -314,7 +314,7 @@ def _tabs(at: TasDriver) -> Iterator[str]:
     at.frames(2)
     yield "tas-search-pieces"
     search.close()
-    fixed.found, fixed.own = found, own
+    fixed.results, fixed.own = found, own
     at.frames(2)
     at.press("escape")
     at.editor.edit(lambda track: track.replaced(10, 12, [4, 4]))
