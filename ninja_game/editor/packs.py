@@ -11,7 +11,6 @@ from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from itertools import count
-from math import ceil
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -380,6 +379,7 @@ _MISSING = {"no-certificate": "exit", "no-gold-run": "gold"}
 """Codes of findings about missing runs, with the kind of run."""
 
 _SOUGHT = {"exit": "run to the exit", "gold": "run with all gold"}
+_GOALS = {"exit": "exit", "gold": "all gold"}
 
 MADE_READY = (*_MISSING, "certificate", "no-pars", "old-pars")
 """Codes of findings that ``make_ready`` removes, unless its search fails."""
@@ -483,26 +483,36 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
     levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in KINDS)}
     options = CertifyOptions({"exit": 0, "gold": -1}, {"seconds": seconds})
     files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
-    goals = {file: " and ".join(f"a {_SOUGHT[kind]}" for kind in KINDS if is_open(file, kind)) for file in levels}
-    names = {Path(file).stem: f"{goals[file]} of {shown_text(named.name)}" for file, named in levels.items()}
-    total = counted(len(files), "level")
-    done, longest = 0, max(1.0, -(-len(files) // jobs) * len(KINDS) * seconds)
+    goals = {
+        file: [_GOALS[kind] for kind in KINDS[: 1 + (named.level.gold > 0)] if not is_certified(pack, file, kind)]
+        for file, named in levels.items()
+    }
+    planned = {Path(file).stem: seconds * len(sought) for file, sought in goals.items()}
+    names = [f"{shown_text(levels[file].name)} ({' and '.join(sought)})" for file, sought in goals.items()]
+    begun, done, share = dict[str, float](), 0, 0.0
 
-    def report(name: str, progress: Progress) -> None:
-        over = monotonic() - began
-        left = f"at most {ceil(longest - over)} s left" if over < longest else "longer than usual"
-        text = f"Looking for {names[name]}: {progress.seconds:.0f} s; {done} of {total} done, {left}"
-        say(text, max(done / len(files), over / longest if over < longest else 0.0))
+    def report(name: str, _: Progress) -> None:
+        """What is left goes by what the planned seconds took so far, of which the first are taken to go as planned."""
+        nonlocal share
+        now = monotonic()
+        begun.setdefault(name, now)
+        rest = [max(0.0, planned[stem] - now + begun.get(stem, now)) for stem in list(planned)[done:]]
+        elapsed, worked = now - min(begun.values()), sum(planned.values()) - sum(rest)
+        pace = (elapsed + seconds / min(jobs, len(levels))) / (worked + seconds)
+        left = max(pace * sum(rest), *rest, 0.0)
+        share = max(share, elapsed / max(elapsed + left, 1.0))
+        spent = now - begun.get(list(planned)[done], now)
+        about = f"about {left:.0f} s left" if left >= 1 else "nearly done"
+        say(f"Certifying level {done + 1} of {len(levels)}, {names[done]}: {spent:.0f} s so far, {about}", share)
 
     if levels:
         say(f"{COMPILING}. You can go on with something else meanwhile", None)
         compile_solver()
         say("Starting the search", None)
-    began = monotonic()
     all_found = certify_all(list(levels.values()), files, options, jobs=jobs, report=report)
     for named, by_goal in zip(levels.values(), all_found, strict=True):
         for kind, certified in by_goal.items() if isinstance(by_goal, dict) else ():
             if not certified.run and certified.progress:
                 obstacles[named.level, kind] = obstacle(named.level, certified.gold, certified.progress)
         done += 1
-        say(f"Looking for runs: {done} of {total} done", done / len(files))
+        say(f"Certifying: {done} of {counted(len(levels), 'level')} done", share)

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
+from ninja_game.files.user_folder import DAILY
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
@@ -125,8 +126,8 @@ class EpisodeSet(NamedTuple):
 
     @property
     def changeable(self) -> bool:
-        """Whether it is a folder that belongs to the player."""
-        return bool(self.key and self.path and self.path.is_dir())
+        """Whether it is a folder that belongs to the player, other than that of the daily levels."""
+        return bool(self.key and self.path and self.path.name != DAILY and self.path.is_dir())
 
     @property
     def received(self) -> bool:

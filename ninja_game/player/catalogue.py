@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import Skipped, files_below, files_in, stamp_of
-from ninja_game.files.user_folder import DAILY, data_folder
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.index import PackIndex
 from ninja_game.formats.pack.pack import CERTIFICATES, Pack, PackFiles, certificate_name, is_pack
@@ -97,8 +97,7 @@ class Catalogue:
     def is_own(self, entry: Entry) -> bool:
         """Whether the player has made a level: it is in no received pack, and no daily level."""
         pack = self._pack_of(entry)
-        made = pack and pack.changeable and not pack.received and pack.path and pack.path.name != DAILY
-        return entry.source == YOURS or bool(made)
+        return entry.source == YOURS or bool(pack and pack.changeable and not pack.received)
 
     def _pack_of(self, entry: Entry) -> EpisodeSet | None:
         return self.ours if entry.source == GAME else self._known.get(entry.source)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -158,6 +158,45 @@ def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tm
     assert ready.zipped == Pack(pack).files.zipped()
 
 
+def test_the_time_that_is_left_goes_by_the_time_that_was_measured(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two levels with two searches each, of 20 s as planned, of which the first takes half as long again."""
+    first, second = "00-0-first-steps", "00-1-mind-the-gap"
+    for file in Pack(pack).levels:
+        if not file.startswith((first, second)):
+            packs.accept(pack, file, "no-gold-run", "not here")
+    for name in (first, second):
+        (pack / f"certificates/{name}.exit.replay.txt").unlink()
+    now, said = 0.0, list[tuple[str, float | None]]()
+
+    def certify_all(
+        levels: list[NamedLevel], *_: object, report: Callable[[str, Progress], object], **__: object
+    ) -> Iterator[object]:
+        nonlocal now
+        for level in levels:
+            for _turn in range(4):
+                report(Path(level.file).stem, Progress())
+                now += 15
+            yield {}
+
+    monkeypatch.setattr("ninja_game.search.certify.certify_all", certify_all)
+    monkeypatch.setattr("ninja_game.search.solve.compile_solver", lambda: None)
+    monkeypatch.setattr(packs, "monotonic", lambda: now)
+    packs._certify(Pack(pack), pack, 20.0, 1, lambda text, share: said.append((text, share)), {})
+    first, second = "level 1 of 2, First Steps (exit and all gold)", "level 2 of 2, Mind the Gap (exit and all gold)"
+    assert [text for text, _ in said if "so far" in text] == [
+        f"Certifying {first}: 0 s so far, about 80 s left",
+        f"Certifying {first}: 15 s so far, about 65 s left",
+        f"Certifying {first}: 30 s so far, about 50 s left",
+        f"Certifying {first}: 45 s so far, about 43 s left",
+        f"Certifying {second}: 0 s so far, about 53 s left",
+        f"Certifying {second}: 15 s so far, about 32 s left",
+        f"Certifying {second}: 30 s so far, about 12 s left",
+        f"Certifying {second}: 45 s so far, nearly done",
+    ]
+    shares = [share for _, share in said if share is not None]
+    assert shares == sorted(shares)
+
+
 def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Path) -> None:
     for file in pack.glob("0[01]-[0-9]-*.txt"):
         if file.name != FIRST:
@@ -218,30 +257,8 @@ def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch)
     make_ready(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
     assert said[0].startswith("Compiling the solver, the first time on a machine a minute or more. You can go on")
     assert said[1] == "Starting the search", "compiled once, it takes its time too"
-    assert said[2].startswith(
-        "Looking for a run to the exit and a run with all gold of First Steps: 2 s; 0 of 2 levels"
-    )
-    assert said[3].startswith("Looking for a run with all gold of Springtime: 2 s; ")
-
-
-def test_a_search_that_takes_longer_says_so_with_no_full_bar(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (pack / RUN).unlink()
-    for file in Pack(pack).levels:
-        packs.accept(pack, file, "no-gold-run", "a joke")
-    clock, said = [0.0], list[tuple[str, float | None]]()
-
-    def search(
-        levels: list[NamedLevel], *_: object, report: Callable[[str, Progress], None], **__: object
-    ) -> list[Any]:
-        for clock[0] in (10.0, 39.7, 40.0):
-            report(Path(levels[0].file).stem, Progress(seconds=16.0))
-        return [{} for _ in levels]
-
-    monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
-    monkeypatch.setattr(packs, "monotonic", lambda: clock[0])
-    make_ready(pack, seconds=20.0, jobs=1, say=lambda text, share: said.append((text.rpartition(", ")[2], share)))
-    reports = [each for each in said if each[0].startswith(("at most", "longer"))]
-    assert reports == [("at most 30 s left", 0.25), ("at most 1 s left", 39.7 / 40), ("longer than usual", 0.0)]
+    assert said[2] == "Certifying level 1 of 2, First Steps (exit and all gold): 0 s so far, about 3 s left"
+    assert {"Certifying: 1 of 2 levels done", "Certifying: 2 of 2 levels done"} < {*said}
 
 
 def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:

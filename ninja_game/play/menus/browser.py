@@ -14,7 +14,7 @@ from ninja_game.files.shown_text import name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import DAILY, free_path
 from ninja_game.formats.load import load_levels
-from ninja_game.formats.pack.pack import RECEIVED
+from ninja_game.formats.pack.pack import RECEIVED, is_pack
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import GAME, YOURS, Entry, author_name
 from ninja_game.play.app import App
@@ -121,8 +121,14 @@ class Browser(ThumbnailScreen):
         return super().capture(event)
 
     def handle(self, event: InputEvent) -> None:
-        """A file dropped on the window is copied into the player's folder; back in the window the list is reread."""
-        if event.raw.type == pygame.DROPFILE:
+        """A dropped file is copied into the player's folder, a pack goes to the screen of packs.
+
+        Back in the window the list is read again.
+        """
+        if event.raw.type == pygame.DROPFILE and self._packs and is_pack(Path(event.raw.file)):
+            self._packs()
+            self.app.top.handle(event)
+        elif event.raw.type == pygame.DROPFILE:
             self._take_in(Path(event.raw.file))
         elif event.raw.type == pygame.WINDOWFOCUSGAINED:
             self.look_again()

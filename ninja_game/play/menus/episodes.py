@@ -111,7 +111,7 @@ def draw_look(surface: pygame.Surface, theme: Theme, look: str, area: Area) -> N
 
 
 PREVIEW = "Preview as player"
-_PREVIEWED = "What whoever pastes the link sees before the first try. Nothing is kept"
+_PREVIEWED = "As it is for whoever pastes the link. Nothing that you do here is kept"
 _OPENS = (
     "Finish an episode and the one below it opens: 1.2 comes after 1.1.",
     "Each column has a theme of its own. The left one is easiest.",

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.files.shown_text import shown_text
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, EpisodeIndex
 from ninja_game.levels.episodes import Entry
 from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND, PackStatus
@@ -109,13 +109,15 @@ class Rack(ListView):
             self._draw_level(surface, theme, cell.level, x + 6, y + 6, w - 12)
         if marked and not lifted:
             theme.canvas.circle(surface, theme.palette.accent, (x + 11, y + 11), 6)
+        free = not (cell.head or cell.level)
         if marked or (chosen and focused and not self.lifted):
             theme.canvas.frame_rect(surface, theme.palette.accent, *inner, 2.5, 4)
-        elif lifted or not (cell.head or cell.level):
+        elif lifted or free:
             theme.canvas.frame_rect(surface, theme.palette.panel_edge, *inner, 1, 4)
-            if self.cells[index - 1].head and not lifted:
-                place, faint = (x + 8, y + h / 2 - 12, w - 16, 40), theme.palette.faint
-                theme.paragraph(surface, ["Drag a level here"], place, 9, 12, colour=faint, align="centre")
+        if free and (self.cells[index - 1].head or self.cells[index - 1].level):
+            text = "New level, or drag one here" if cell.episode else "Drag a level here"
+            place, faint = (x + 8, y + h / 2 - 18, w - 16, 40), theme.palette.faint
+            theme.paragraph(surface, [text], place, 9, 12, colour=faint, align="centre")
 
     def _draw_level(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
         canvas, palette, state, right = theme.canvas, theme.palette, self.status.state(level), x + WIDE - 12
@@ -176,3 +178,7 @@ class Marks(set[str]):
         if self != {level.named.file}:
             self.symmetric_difference_update({level.named.file})
         return True
+
+
+def called(levels: Sequence[Entry]) -> str:
+    return shown_text(levels[0].title) if len(levels) == 1 else counted(len(levels), "level")

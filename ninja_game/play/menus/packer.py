@@ -66,6 +66,11 @@ class Packer(Aside):
         """Whether the pack is what is looked at."""
         return self.app.top is self.desk and self.shown == self.path
 
+    @property
+    def fresh(self) -> bool:
+        """Whether the zip has all that is in the pack now."""
+        return self.text.startswith("Saved")
+
     def start(self, path: Path, seconds: float = SECONDS) -> None:
         self.path, self.busy, self._stopped = path, True, False
         self.saved, self.open_problems, self._seconds = None, None, seconds
@@ -239,7 +244,9 @@ class PackStatus:
         to_do = self.to_do() or (f"{vain} without a run" if vain else "All certified and measured")
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
         where = f"{counted(len(levels), 'level')} in {counted(len(index.episodes), 'episode')}{alone}"
-        open_ones = counted(len(self.now.problems), "problem") if self.now else "Looking for problems"
+        open_ones = (
+            counted(len(self.now.problems), "problem") if self.now else self._checks.problem or "Looking for problems"
+        )
         return f"{where}. {to_do}. {open_ones}" if levels else where
 
 

@@ -24,7 +24,7 @@ class Problem(NamedTuple):
     """``text``: where and what; ``hint``: how to fix it. ``go``: leads to its place, ``accept``: accepts it as it is.
 
     ``accepted``: it is accepted already, and ``accept`` takes that back. ``search``: gives the solver more time.
-    ``to_do``: no problem, but work that nobody has begun.
+    ``step``: what comes next, where nothing is wrong: the text of the button of ``go``.
     """
 
     text: str
@@ -33,17 +33,22 @@ class Problem(NamedTuple):
     accept: Callable[[], object] | None = None
     accepted: bool = False
     search: Callable[[], object] | None = None
-    to_do: bool = False
+    step: str = ""
 
 
 class ProblemsScreen(MenuScreen):
-    """``find``: gives the present problems, called whenever the screen is entered."""
+    """``find``: gives the present problems whenever the screen is entered, None while they are looked for.
+
+    ``news``: whether they have been found since; asked before each picture.
+    """
 
     title = "Problems"
 
-    def __init__(self, app: App, find: Callable[[], Sequence[Problem]]) -> None:
+    def __init__(
+        self, app: App, find: Callable[[], Sequence[Problem] | None], news: Callable[[], bool] = lambda: False
+    ) -> None:
         super().__init__(app)
-        self._find = find
+        self._find, self._news, self._looks = find, news, 0
         self.problems: Sequence[Problem] = ()
         self.list = ListView(
             (44, 66, 704, 10 * ROW),
@@ -54,31 +59,47 @@ class ProblemsScreen(MenuScreen):
             selected=lambda _: self._offer(),
             opens=True,
         )
-        self.search = Button((316, 530, 136, 28), SEARCH, self._search, size=10)
-        self.search.hint = "For the run that is missing: the solver had less time before"
-        self.go = Button((464, 530, 136, 28), "Go there", self._go)
-        self.accept = Button((612, 530, 136, 28), "Accept it...", self._accept)
+        self.buttons = {
+            "search": Button((316, 530, 136, 28), SEARCH, self._search, size=10),
+            "go": Button((464, 530, 136, 28), "Go there", self._go),
+            "accept": Button((612, 530, 136, 28), "Accept it...", self._accept),
+        }
+        self.buttons["search"].hint = "For the run that is missing: the solver had less time before"
 
     def build(self) -> Sequence[Widget]:
-        self.problems = self._find()
+        known = self._find()
+        self._looks, self.list.empty = (1, "Looking for problems") if known is None else (0, "There are no problems")
+        self.problems = self.problems if known is None else known
         self.list.fill(self.problems)
         self._offer()
-        searches = [self.search] * any(problem.search for problem in self.problems)
-        return [self.list, *searches, self.go, self.accept]
+        offered = (button for what, button in self.buttons.items() if any(getattr(p, what) for p in self.problems))
+        return [self.list, *offered]
+
+    def update(self, real_ms: int) -> None:
+        super().update(real_ms)
+        if self._looks:
+            self._looks += real_ms
+            self.redraw = True
+        if self._news():
+            self.enter()
 
     @property
     def selected(self) -> Problem:
         return self.problems[self.list.index] if self.problems else Problem("")
 
     def _offer(self) -> None:
-        self.go.enabled, self.accept.enabled = bool(self.selected.go), bool(self.selected.accept)
-        self.search.enabled = bool(self.selected.search)
-        self.accept.text = "Take it back" if self.selected.accepted else "Accept it..."
-        self.accept.hint = "It is a problem again" if self.selected.accepted else "With a reason, kept in the pack"
-        self.list.hint = "Enter or a second click leads there" if self.selected.go else ""
+        for what, button in self.buttons.items():
+            button.enabled = bool(getattr(self.selected, what)) and not self._looks
+        step, go, accept = self.selected.step, self.buttons["go"], self.buttons["accept"]
+        go.text = step or "Go there"
+        accept.text = "Take it back" if self.selected.accepted else "Accept it..."
+        accept.hint = "It is a problem again" if self.selected.accepted else "With a reason, kept in the pack"
+        self.list.hint = f"Enter or a second click: {step or 'go there'}" if self.selected.go else ""
 
     def _go(self) -> None:
-        if self.selected.go:
+        if self.selected.go and self.buttons["go"].enabled:
+            if self.selected.step:
+                self.app.pop()
             self.selected.go()
 
     def _search(self) -> None:
@@ -97,9 +118,10 @@ class ProblemsScreen(MenuScreen):
         theme.panel(surface, 44, 418, 704, 104)
         texts = [f"{shown_text(problem.text, MAX_TEXT)}.", problem.hint] if problem.text else []
         theme.paragraph(surface, texts, (54, 426, 684, 90), 11, 14)
-        accepted, to_do = (sum(getattr(other, kind) for other in self.problems) for kind in ("accepted", "to_do"))
-        count = counted(len(self.problems) - accepted - to_do, "problem") + f", {accepted} accepted" * bool(accepted)
-        theme.text(surface, count, 44, 538, size=10, colour=theme.palette.faint)
+        accepted, steps = (sum(bool(getattr(other, kind)) for other in self.problems) for kind in ("accepted", "step"))
+        count = counted(len(self.problems) - accepted - steps, "problem") + f", {accepted} accepted" * bool(accepted)
+        text = f"Looking for problems: {self._looks // 1000} s" if self._looks else count
+        theme.text(surface, text, 44, 538, size=10, colour=theme.palette.faint)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area
@@ -107,7 +129,7 @@ class ProblemsScreen(MenuScreen):
         problem = self.problems[index]
         text, palette = shown_text(problem.text, MAX_TEXT), theme.palette
         top = y + (h - 13 * min(2, len(wrapped(theme, text, w - 20, 10)))) / 2
-        colour = palette.faint if problem.accepted or problem.to_do else palette.text
+        colour = palette.faint if problem.accepted or problem.step else palette.text
         theme.paragraph(surface, [text], (x + 10, top, w - 20, y + h - top), 10, 13, colour=colour)
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import re
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from threading import Event
+from threading import Event, Thread, current_thread, main_thread
 from unittest.mock import patch
 from zipfile import ZipFile
 
@@ -24,16 +24,17 @@ from ninja_game.formats.links import write_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay
-from ninja_game.levels.findings import level_finding, pack_finding
+from ninja_game.levels.findings import PackFinding, level_finding, pack_finding
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus import pack_menus, pack_sharing
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
 from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.pack_shelves import GAP, PackCell
 from ninja_game.play.menus.packs import PackScreen
-from ninja_game.play.menus.problems import ProblemsScreen
+from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.player_data import save_work
 from ninja_game.runs.packs import lint
@@ -65,6 +66,19 @@ def opened(driver: MenuDriver) -> PackScreen:
     driver.choose("Packs")
     driver.frames(2)
     return driver.shown(PackScreen)
+
+
+def problems_of(driver: MenuDriver, screen: PackScreen) -> Sequence[Problem]:
+    """The problems of the shown pack, once they are known."""
+    driver.wait(lambda: pack_sharing.problems(screen) is not None and screen.status.now, "the problems are known")
+    return pack_sharing.problems(screen) or []
+
+
+def problem_page(driver: MenuDriver) -> ProblemsScreen:
+    """The page of problems on top, once they are known."""
+    page = driver.shown(ProblemsScreen)
+    driver.wait(lambda: not page._looks, "the problems are known")
+    return page
 
 
 def layout(path: Path) -> dict[int, list[str]]:
@@ -285,12 +299,12 @@ def test_a_level_of_the_players_folder_goes_into_the_pack_and_one_of_the_game_is
     own = driver.player.folder / "levels" / "mine.txt"
     own.write_text((path / "00-0-first-steps.txt").read_text("utf-8").replace("First Steps", "Mine"), "utf-8")
     screen = opened(driver)
-    screen._choose_tray("yours")
+    screen.choose_tray("yours")
     driver.frames(2)
     driver.carry(screen.tray.row_area(0), screen.shelves.row_area(11))
     assert not own.exists()
     assert (path / "mine.txt").exists()
-    screen._choose_tray("")
+    screen.choose_tray("")
     driver.carry(screen.tray.row_area(0), screen.shelves.row_area(11))
     assert layout(path)[1][3:] == ["mine", "00-0"]
     driver.carry(screen.shelves.row_area(10), screen.tray.row_area(0))
@@ -325,7 +339,7 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     level.write_text(level.read_text("utf-8").replace("name: First Steps\n", ""), "utf-8")
     opened(driver)
     driver.choose("Problems")
-    screen = driver.shown(ProblemsScreen)
+    screen = problem_page(driver)
     assert [problem.text for problem in screen.problems] == [
         "00-0-first-steps: no name",
         "Make ready will look for all gold in 8 levels",
@@ -337,21 +351,101 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     driver.app.pop()
     driver.choose("Accept it...")
     typed(driver, "found on the street")
-    assert driver.top() is screen
+    assert problem_page(driver) is screen
     assert screen.problems[0].text == "00-0-first-steps: no name. Accepted: found on the street"
     assert (screen.list.index, screen.focus) == (0, screen.list), "the choice stays at its row"
     assert Pack(path).index.accepted[0].reason == "found on the street"
     driver.choose("Take it back")
+    problem_page(driver)
     assert (len(screen.problems), Pack(path).index.accepted) == (count, ())
     driver.choose("Accept it...")
     typed(driver, "found on the street")
     packs.rename_level(level, "First Steps")
     driver.app.push(EpisodeGrid(driver.app, "Laundry"))
     driver.press("escape")
-    assert [problem.to_do for problem in screen.problems] == [True], "what is mended meanwhile is gone"
+    problem_page(driver)
+    assert [problem.step for problem in screen.problems] == ["Make ready"], "what is mended meanwhile is gone"
     assert Pack(path).index.accepted
     driver.mouse(BACK[0] + 10, BACK[1] + 10)
     driver.shown(PackScreen)
+
+
+def test_the_page_of_a_pack_without_problems_offers_what_comes_next(
+    driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pack = Pack(path)
+    for file in pack.levels:
+        packs.accept(path, file, "no-gold-run", "none is meant")
+    ready = ReadyPack(pack, [], Pack(path).files.zipped(), pack.files.link(), [])
+    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", lambda *_, **__: ready)
+    screen = opened(driver)
+    driver.choose("Problems")
+    page = problem_page(driver)
+    page.list.index = len(page.problems) - 1
+    page._offer()
+    assert page.selected.text == "Nothing is wrong"
+    assert not page.buttons["accept"].enabled
+    driver.choose("Make ready")
+    assert driver.top() is screen
+    driver.wait(lambda: screen.packer.saved, "it is made ready")
+    assert "Send the zip or the link" in drawn(driver.app)
+    driver.choose("Problems")
+    page.problems = problem_page(driver).problems
+    driver.shown(ProblemsScreen).list.index = len(page.problems) - 1
+    driver.shown(ProblemsScreen)._offer()
+    copied: list[str] = []
+    with patch("pygame.scrap.put_text", copied.append):
+        driver.choose("Copy the link")
+    assert len(copied) == 1
+    assert driver.top() is screen
+
+
+def test_problems_are_looked_for_beside_the_window(
+    driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> None:
+    go_on = Event()
+    request.addfinalizer(go_on.set)
+    threads: list[Thread] = []
+
+    def found(*_: object) -> list[PackFinding]:
+        threads.append(current_thread())
+        assert go_on.wait(LONGEST)
+        return [pack_finding("no-author", "pack.toml")]
+
+    monkeypatch.setattr("ninja_game.play.menus.packer.problems_of", found)
+    opened(driver)
+    driver.choose("Problems")
+    assert "text 'Looking for problems: 0 s'" in drawn(driver.app)
+    driver.frames(40, 50)
+    assert "text 'Looking for problems: 2 s'" in drawn(driver.app)
+    go_on.set()
+    assert problem_page(driver).problems[0].text == "The pack has no author"
+    assert main_thread() not in threads
+    assert "1 problem'" in drawn(driver.app)
+
+
+def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(driver: MenuDriver) -> None:
+    screen = opened(driver)
+    assert "a zip to drop here" in drawn(driver.app)
+    driver.choose("New pack...")
+    typed(driver, "Walls")
+    assert "drag them into the places" in drawn(driver.app)
+    driver.choose("New level...")
+    typed(driver, "Brick")
+    driver.shown(EditorScreen).session.close()
+    driver.app.pop()
+    assert not [each for each in screen.widgets if getattr(each, "text", "") == "New level..."]
+    driver.wait(lambda: screen.status.now, "the problems are known")
+    assert "to mend: Problems, above" in drawn(driver.app)
+    screen.choose(screen.shelves.cells[2])
+    assert driver.shown(FormPanel).title == "New level: its name"
+    typed(driver, "Mortar")
+    assert layout(screen.path) == {0: ["bric", "mort"]}
+
+
+def test_levels_of_days_are_no_pack_of_ones_own(driver: MenuDriver, path: Path) -> None:
+    shutil.copytree(path, path.with_name(DAILY))
+    assert [pack.path for pack in opened(driver).mine] == [path]
 
 
 def test_a_pack_is_made_ready_in_the_background(
@@ -402,13 +496,13 @@ def test_a_pack_is_made_ready_in_the_background(
     driver.wait(lambda: screen.status.now, "the problems are known")
     driver.choose("Problems")
     assert driver.app.notice == "", "what is said there goes with the screen"
-    assert [problem.to_do for problem in driver.shown(ProblemsScreen).problems] == [True]
+    assert [problem.step for problem in problem_page(driver).problems] == ["Make ready"]
     assert "0 problems" in drawn(driver.app)
     driver.press("escape")
     assert screen.status.counts() == "8 levels in 2 episodes. Make ready will look for all gold in 8 levels. 0 problems"
     assert screen.status.counts()[:30] in drawn(driver.app)
     assert "laundry-1.zip" in drawn(driver.app), "it stays"
-    assert "Send either" in drawn(driver.app)
+    assert "Send the zip or the link" in drawn(driver.app)
     assert driver.button("Make ready")
     opened_folders: list[str] = []
     monkeypatch.setattr("webbrowser.open", opened_folders.append)
@@ -417,7 +511,7 @@ def test_a_pack_is_made_ready_in_the_background(
     assert screen.packer.text == saved, "the clipboard may hold something else by now"
     driver.carry(screen.shelves.row_area(2), half(screen, 8))
     assert screen.packer.text == "Changed since laundry-1.zip"
-    assert "Send either" not in drawn(driver.app)
+    assert "Send the zip or the link" not in drawn(driver.app)
     driver.choose("Undo")
     assert screen.packer.text == saved
     copied: list[str] = []
@@ -459,7 +553,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     [entry] = [cell.level for cell in screen.shelves.cells if cell.level and cell.level.title == "First Steps"]
     assert screen.status.state(entry) == "no run yet", "though its time is measured"
     driver.choose("Problems")
-    [to_do] = [problem.text for problem in driver.shown(ProblemsScreen).problems if problem.to_do]
+    [to_do] = [problem.text.removeprefix("Nothing is wrong. ") for problem in problem_page(driver).problems]
     assert to_do.startswith("Make ready is at work, and will certify 1 level"), "it has begun"
     driver.press("escape")
     assert to_do in screen.status.counts()
@@ -491,14 +585,14 @@ def test_what_was_made_ready_asks_only_at_its_own_desk(
     monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", lambda *_, **__: ready)
     other = packs.new_pack(path.parent, "Other", "me")
     screen = opened(driver)
-    screen._read(path)
-    screen._make_ready()
-    screen._read(other)
+    screen.read(path)
+    pack_sharing.make_ready(screen)
+    screen.read(other)
     driver.wait(lambda: not screen.packer.busy)
     driver.frames(3)
     assert driver.top() is screen
     assert driver.app.notice == "Laundry: Neither zip nor link yet: 1 open problem"
-    screen._read(path)
+    screen.read(path)
     driver.frames(2)
     assert driver.shown(MenuScreen).title == "Laundry: 1 open problem"
 
@@ -514,7 +608,7 @@ def test_a_link_of_levels_without_certificate_is_asked_about(driver: MenuDriver,
         driver.choose("Copy all the same")
     assert (driver.top(), driver.app.notice, len(copied)) == (screen, "Link copied", 1)
     (path / "received").touch()
-    screen._read()
+    screen.read()
     with patch("pygame.scrap.put_text", copied.append):
         driver.choose("Copy the link")
     assert len(copied) == 2, "it is not for who received it to mend"
@@ -544,10 +638,11 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
     driver.choose("Make ready")
     driver.wait(lambda: "no run found" in drawn(driver.app), "the card says so before all is done")
     assert screen.packer.busy
-    assert all(each.search is None for each in screen.problems())
+    assert all(each.search is None for each in problems_of(driver, screen))
     go_on.set()
     driver.wait(lambda: not screen.packer.busy)
     driver.choose("Problems")
+    problem_page(driver)
     assert "the solver never reached it, although it was open" in drawn(driver.app)
     driver.choose("Search for 5 minutes")
     driver.shown(PackScreen)
@@ -561,7 +656,7 @@ def test_problems_speak_of_what_is_seen_not_of_files(driver: MenuDriver, path: P
     packs.describe(path, {"author": ""})
     packs.new_episode(path, "", 0)
     screen = opened(driver)
-    texts = [problem.text for problem in screen.problems() if not problem.to_do]
+    texts = [problem.text for problem in problems_of(driver, screen) if not problem.step]
     assert texts == ["The pack has no author", "Episode 3 has no name", "Episode 3 has no levels"]
     assert "medal times" in screen.status.to_do()
 
@@ -570,7 +665,7 @@ def test_a_remark_about_the_order_names_levels_and_can_be_accepted(driver: MenuD
     table = path / "pars.toml"
     table.write_text(table.read_text("utf-8").replace("difficulty = 0.39", "difficulty = 5.00"), "utf-8")
     screen = opened(driver)
-    remarks = [problem for problem in screen.problems() if problem.accept]
+    remarks = [problem for problem in problems_of(driver, screen) if problem.accept]
     assert [problem.text for problem in remarks] == [
         "First Steps: hard, harder than Mind the Gap (easy), but comes right before it",
         "First Steps: hard: the first level is the hardest of the pack",
@@ -615,7 +710,7 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     assert screen.status.counts().startswith("9 levels in 2 episodes. Make ready will certify 2 levels")
     [entry] = [each.level for each in screen.shelves.cells if each.level and each.level.title == "Empty"]
     assert screen.status.state(entry) == "no run yet"
-    no_ninja = [problem for problem in screen.problems() if "there is no ninja" in problem.text]
+    no_ninja = [problem for problem in problems_of(driver, screen) if "there is no ninja" in problem.text]
     assert [(problem.text[:5], problem.accept) for problem in no_ninja] == [("Mind ", None), ("Empty", None)]
 
 
@@ -623,19 +718,19 @@ def test_what_the_editor_certified_is_certified_in_the_folder_too(driver: MenuDr
     levels, name = path.parent, "00-0-first-steps"
     shutil.copy(path / f"{name}.txt", levels)
     screen = opened(driver)
-    screen._choose_tray("yours")
+    screen.choose_tray("yours")
     entry = screen.tray.cells[0].level
     assert entry
     assert screen.status.state(entry) == "no run yet"
     (levels / "certificates").mkdir()
     shutil.copy(path / "certificates" / f"{name}.exit.replay.txt", levels / "certificates")
-    screen._read()
+    screen.read()
     assert screen.status.state(entry) == "certified"
-    screen._level_menu(screen.tray.cells[0])
+    pack_menus.level_menu(screen, screen.tray.cells[0])
     driver.choose("Watch the run")
     driver.shown(ReplayScreen)
     driver.app.pop()
-    screen._level_menu(screen.tray.cells[0])
+    pack_menus.level_menu(screen, screen.tray.cells[0])
     driver.choose("Play")
     driver.shown(LevelScreen)
 
@@ -659,7 +754,7 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
     monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
     screen = opened(driver)
-    screen._choose_tray("yours")
+    screen.choose_tray("yours")
     for index in (0, 1):
         for _ in "12":
             driver.mouse(*(value + 30 for value in screen.tray.row_area(index)[:2]))
@@ -722,14 +817,14 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
 
     driver.carry(screen.shelves.row_area(2), half(screen, 8))
     done()
-    screen._choose_tray("yours")
+    screen.choose_tray("yours")
     driver.carry(screen.tray.row_area(0), screen.shelves.row_area(11))
     done()
-    screen._level_menu(screen.shelves.cells[1])
+    pack_menus.level_menu(screen, screen.shelves.cells[1])
     driver.choose("Rename...")
     typed(driver, "Early steps")
     done()
-    screen._choose(screen.shelves.cells[6])
+    screen.choose(screen.shelves.cells[6])
     driver.choose("Remove the episode")
     done()
     driver.choose("New pack...")
@@ -738,7 +833,7 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     driver.press("escape")
     driver.choose("Packs")
     screen = driver.shown(PackScreen)
-    screen._read(path)
+    screen.read(path)
     driver.choose("More...")
     driver.choose("Delete the pack...")
     assert driver.shown(MenuScreen).title == "Delete Laundry with its 9 levels?"
@@ -753,7 +848,7 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     assert not (levels / "other").exists()
     driver.chord("z", pygame.KMOD_LCTRL)
     assert driver.app.notice == "there is nothing to undo"
-    screen._choose(screen.shelves.cells[0])
+    screen.choose(screen.shelves.cells[0])
     driver.choose("Remove the episode")
     packs.describe(path, {"version": "3"})
     driver.choose("Undo")
@@ -832,8 +927,8 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
 
 def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
-    with patch.object(screen, "_read", wraps=screen._read) as read:
-        screen._choose(screen.shelves.cells[1])
+    with patch.object(screen, "read", wraps=screen.read) as read:
+        screen.choose(screen.shelves.cells[1])
         read.reset_mock()
         driver.choose("Edit")
         assert read.call_count == 1, "when its menu closes"
@@ -843,6 +938,10 @@ def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: P
         read.reset_mock()
         screen.change(lambda: packs.rename_episode(path, 0, "Other"), "Rename")
         assert read.call_count == 1
+        read.reset_mock()
+        with patch("pygame.scrap.get_text", Pack(PACK).files.link):
+            pack_sharing.paste(screen)
+        assert [read.call_count, screen.path.name] == [1, "test-pack"]
 
 
 def test_an_episode_is_sorted_by_difficulty(driver: MenuDriver, path: Path) -> None:
@@ -865,7 +964,7 @@ def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Pat
         driver.choose("Paste link")
         driver.choose("Receive it once more")
     assert [bool(pack.received) for pack in screen.mine] == [False, True]
-    assert (screen.pack and screen.pack.received, screen.focus) == (True, screen.view)
+    assert (screen.pack and screen.pack.received, screen.focus) == (True, screen.opener)
 
 
 def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(driver: MenuDriver, path: Path) -> None:
@@ -939,12 +1038,12 @@ def test_what_is_no_link_of_a_pack_changes_nothing(driver: MenuDriver, path: Pat
 
 def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
-    screen._choose_tray("yours")
-    screen._level_menu(screen.shelves.cells[1])
+    screen.choose_tray("yours")
+    pack_menus.level_menu(screen, screen.shelves.cells[1])
     driver.choose("Take out")
     assert [cell.level.title for cell in screen.tray.cells if cell.level] == ["First Steps"]
-    screen._choose_tray("yours")
-    screen._choose(screen.shelves.cells[0])
+    screen.choose_tray("yours")
+    screen.choose(screen.shelves.cells[0])
     driver.choose("Remove the episode")
     assert len(screen.tray.cells) == 5
     driver.carry(screen.tray.row_area(0), half(screen, 4))
@@ -959,7 +1058,7 @@ def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path) -> None:
     driver.press("escape")
     assert driver.top() is screen
     packs.new_pack(path.parent, "Empty", "me")
-    screen._read(path.parent / "empty")
+    screen.read(path.parent / "empty")
     driver.choose("More...")
     assert not driver.button("Play it").enabled
 
@@ -1017,7 +1116,7 @@ def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(driver: MenuD
     assert driver.shown(MenuScreen).title == "Received: Laundry by the ninja-game developers"
     driver.choose("Cancel")
     assert folder_texts(received) == before
-    screen._choose_tray("yours")
+    screen.choose_tray("yours")
     driver.carry(screen.shelves.row_area(1), screen.tray.area)
     assert folder_texts(received) == before, "taken from it, a level is copied"
     assert (screen.folder / "00-0-first-steps.txt").is_file()
@@ -1026,7 +1125,7 @@ def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(driver: MenuD
     assert (screen.pack and screen.pack.name, folder_texts(received)) == ("Laundry copy", before)
     drag()
     assert layout(screen.path)[1] == ["01-0", "00-1", "01-1", "01-2"], "the copy asks nothing"
-    screen._read(received)
+    screen.read(received)
     drag()
     driver.choose("Change it all the same")
     assert layout(received)[1] == ["01-0", "00-1", "01-1", "01-2"]
@@ -1062,7 +1161,7 @@ def test_an_empty_place_says_what_it_is_for(driver: MenuDriver, path: Path) -> N
     seen = drawn(driver.app)
     assert seen.count("text 'Drag a level' at") + seen.count("text 'Drag a level here' at") >= 2
     assert "of its episode" in screen.tray.empty
-    screen._choose_tray("yours")
+    screen.choose_tray("yours")
     assert "into your folder" in screen.tray.empty
 
 
@@ -1134,7 +1233,7 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     level.write_text(level.read_text("utf-8") + "mine 5,21\ngauss turret 7,21\n", "utf-8")
     screen = PackScreen(driver.app, lambda _, finding: shown.append(finding.records if finding else ()))
     driver.app.push(screen)
-    inside = [problem for problem in screen.problems() if "inside a tile" in problem.text]
+    inside = [problem for problem in problems_of(driver, screen) if "inside a tile" in problem.text]
     for problem in inside:
         assert problem.go
         problem.go()
@@ -1142,7 +1241,7 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     assert inside[0].accept
     inside[0].accept()
     typed(driver, "meant")
-    accepted = [problem for problem in screen.problems() if problem.accepted]
+    accepted = [problem for problem in problems_of(driver, screen) if problem.accepted]
     assert [each.text for each in accepted] == [f"{each.text}. Accepted: meant" for each in inside]
     assert accepted[1].go
     accepted[1].go()
@@ -1161,8 +1260,8 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     driver.app.pop()
     packs.take_back(path, level.name, Pack(path).index.accepted[0].code)
     packs.accept(path, level.name, "no-gold-run", "a joke")
-    screen._read()
-    assert not [problem for problem in screen.problems() if problem.accepted], "it is not certified since"
+    screen.read()
+    assert not [problem for problem in problems_of(driver, screen) if problem.accepted], "it is not certified since"
 
 
 def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
@@ -1189,6 +1288,7 @@ def test_an_author_is_asked_for_once(driver: MenuDriver, path: Path) -> None:
         "the pack's is that of all"
     )
     driver.choose("Problems")
+    problem_page(driver)
     driver.choose("Go there")
     form = driver.shown(FormPanel)
     assert form.widgets.index(form.focus) == 1  # type: ignore[arg-type]
@@ -1201,7 +1301,7 @@ def test_an_author_is_asked_for_once(driver: MenuDriver, path: Path) -> None:
     shown = {entry.named.author for entry in (screen.pack.levels if screen.pack else ())}
     assert "ida" in shown
     assert "" not in shown
-    screen._form(Pack(path))
+    pack_menus.pack_form(screen, Pack(path))
     driver.shown(FormPanel).texts[1] = "bob"
     driver.choose("OK")
     assert driver.player.settings.name == "ida", "a name that is set stays"

@@ -20,6 +20,7 @@ from ninja_game.play.main import first_screen
 from ninja_game.play.menus.browser import Browser, LevelChoice
 from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.player.progress import Mark, next_par, reached
 from tests.support.draw_log import drawn
@@ -97,13 +98,15 @@ def test_pack_without_episodes_is_refused_before_a_window_opens(tmp_path: Path) 
         first_screen(str(tmp_path), None, body="circle", practice=False)
 
 
-def test_zip_dropped_on_the_list_of_levels_becomes_a_pack(driver: MenuDriver, tmp_path: Path) -> None:
+def test_zip_dropped_on_the_list_of_levels_is_received_as_a_pack(driver: MenuDriver, tmp_path: Path) -> None:
     path = other_pack(tmp_path / "elsewhere")
     zipped = shutil.make_archive(str(tmp_path / "dropped"), "zip", path)
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
     pygame.event.post(pygame.Event(pygame.DROPFILE, file=zipped))
     driver.frames(2)
+    assert [(pack.name, pack.received) for pack in driver.shown(PackScreen).mine] == [("Other", True)]
+    driver.press("escape")
     assert browser.message == ""
     assert {entry.source for entry in browser.entries} == {"game", "Other"}
 

@@ -1,0 +1,317 @@
+"""A pack of the player's as rows of levels, which the mouse or keys move; what is done with it can be undone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+
+import pygame
+
+from ninja_game.editor import packs
+from ninja_game.errors import NinjaGameError, reason
+from ninja_game.files.shown_text import shown_text
+from ninja_game.files.user_folder import LEVELS
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
+from ninja_game.formats.pack.pack import INDEX, RECEIVED, Pack
+from ninja_game.levels.episodes import GAME, Entry, EpisodeSet
+from ninja_game.levels.findings import Finding
+from ninja_game.play.app import App
+from ninja_game.play.menus.menu_screen import ask_received, ask_text
+from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Marks, PackCell, Rack, called
+from ninja_game.play.menus.packer import PackStatus, packer_of
+from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.ui.list_view import BAR
+from ninja_game.ui.widgets import Widget
+
+Edit = Callable[[Entry, Finding | None], object]
+
+
+class PackDesk(ThumbnailScreen):
+    """``pack``: the shown one. ``held``: what is dragged; ``pointer``: the mouse's place during a drag, else None.
+
+    ``mine``: the player's packs; ``sets``: all; ``made``: a new one, to be shown. ``beside``: what is at the right:
+    "none" (levels in no episode), "yours", or the key of a pack. ``chosen``: the pack's name; ``opener``: the button
+    that plays it. ``edit``: opens a level in the editor, at a finding.
+    """
+
+    title = "Packs"
+
+    def __init__(self, app: App, edit: Edit) -> None:
+        super().__init__(app)
+        self.edit = edit
+        self.pack: EpisodeSet | None = None
+        self.mine: list[EpisodeSet] = []
+        self.sets: list[EpisodeSet] = []
+        self.beside = "none"
+        self.held: PackCell | None = None
+        self.made: Path | None = None
+        self.chosen: Widget | None = None
+        self.opener: Widget | None = None
+        self.pointer: tuple[float, float] | None = None
+        self.marked = Marks()
+        self.packer = packer_of(app)
+        self.packer.desk = self
+        self.status = PackStatus(self.packer, self.player.catalogue)
+        rack = partial(Rack, status=self.status, thumbnails=self.thumbnails, marked=self.marked, pull=self._pull)
+        self.shelves = rack((36, 96, 0, 0), 6, choose=self.choose)
+        self.tray = rack((622, 126, WIDE + BAR + 24, 4 * HIGH - 28), 1, choose=self.choose)
+
+    @property
+    def path(self) -> Path:
+        return (self.pack and self.pack.path) or self.folder
+
+    @property
+    def folder(self) -> Path:
+        return self.player.folder / LEVELS
+
+    @property
+    def zipped(self) -> Path | None:
+        """The zip that was just made of this pack."""
+        return self.packer.saved if self.packer.path == self.path else None
+
+    def read(self, shown: Path | None = None, *, news: bool = False) -> None:
+        """Read all packs from the disk; show this one, or the one before. ``news``: only if that has changed."""
+        before, catalogue, self.made = shown or self.made or self.path, self.player.catalogue, None
+        catalogue.problems.clear()
+        self.sets = catalogue.packs()
+        self.mine = [pack for pack in self.sets if pack.changeable]
+        now = next((pack for pack in self.mine if pack.path == before), None)
+        if not (news and now is self.pack):
+            self.show(now)
+
+    def show(self, pack: EpisodeSet | None) -> None:
+        self.pack = pack = pack or next(iter(self.mine), None)
+        self.status.show(pack)
+        if not self.packer.busy:
+            self.packer.follow(next((shelf.pack for shelf in self.mine if shelf.path == self.packer.path), None))
+        cells: list[PackCell] = []
+        if pack and pack.pack:
+            for episode in pack.pack.index.episodes:
+                levels = pack.episodes[episode.number].levels if episode.number in pack.episodes else ()
+                cells += [PackCell(episode, head=True), *(PackCell(episode, level) for level in levels)]
+                cells += [PackCell(episode)] * (LEVELS_PER_EPISODE - len(levels))
+            cells += [PackCell(None, head=True), *[PackCell(None)] * LEVELS_PER_EPISODE]
+        entries: Sequence[Entry] = pack.singles if pack else ()
+        if self.beside == "yours":
+            entries = self.player.catalogue.own()
+        elif self.beside != "none":
+            entries = [entry for shelf in self.sets if shelf.key == self.beside for entry in shelf.levels]
+        goals = {"none": "take it out of its episode", "yours": "put it into your folder"}
+        self.tray.empty = f"Drag a level here to {goals.get(self.beside, 'put it into this pack')}"
+        self.shelves.area = (36, 96, 6 * WIDE + BAR + 4, HIGH * min(4, len(cells) // 6))
+        self.shelves.show(cells)
+        self.tray.show([PackCell(None, entry) for entry in entries])
+        self.marked &= {level.named.file for level in self.levels()}
+        self.redraw = True
+
+    def enter(self) -> None:
+        self.read()
+        super().enter()
+
+    def pack_now(self) -> Pack | None:
+        """The shown pack as it is on the disk; None if its folder is gone, and the screen shows what there is."""
+        path = self.path
+        self.enter()
+        return self.pack.pack if self.pack and self.pack.path == path else None
+
+    def do(self, action: Callable[[], object], what: str = "") -> None:
+        """Change something on the disk, and show the result. ``what``: its name for undo; "" is no step."""
+        try:
+            if what and not self.packer.steps.do(what, action):
+                return
+            if not what:
+                action()
+        except (NinjaGameError, OSError) as error:
+            self.app.notify(reason(error))
+        self.app.top.enter()
+
+    def change(self, action: Callable[[], object], what: str) -> None:
+        """Change the shown pack; for a received one ask first whether to change a copy."""
+        if not (self.pack and self.pack.pack and self.pack.received):
+            self.do(action, what)
+            return
+        pack = self.pack.pack
+
+        def own() -> None:
+            packs.make_own(pack.files.path)
+            action()
+
+        ask_received(self.app, pack.index.title, partial(self.copy, pack), lambda: self.do(own, what))
+
+    def copy(self, pack: Pack) -> None:
+        def copy() -> None:
+            self.made = packs.copy_pack(pack, self.folder, f"{pack.name} copy")
+            self.app.notify("This copy is yours to change")
+
+        self.do(copy, "Copy")
+
+    def undo(self) -> None:
+        self.do(lambda: self.app.notify(f"Undone: {self.packer.steps.undo()}"))
+
+    def choose(self, cell: PackCell | None) -> None:
+        """Show what can be done with a cell, or with the pack."""
+        raise NotImplementedError
+
+    def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
+        what = shown_text(title.partition(":")[0])
+        ask_text(self.app, title, "", text, "OK", lambda typed: self.change(lambda: action(typed), what), 60)
+
+    def choose_tray(self, key: str) -> None:
+        self.beside = key
+        self.show(self.pack)
+
+    def entry_of(self, file: str) -> Entry | None:
+        levels = self.pack.levels if self.pack else []
+        return next((entry for entry in levels if entry.named.file == str(self.path / file)), None)
+
+    @property
+    def next_name(self) -> str:
+        """The default name of a new episode."""
+        return f"Episode {sum(cell.head for cell in self.shelves.cells)}"
+
+    @property
+    def column(self) -> int:
+        numbers = [cell.episode.number for cell in self.shelves.cells if cell.episode]
+        return max(numbers, default=0) // EPISODES_PER_COLUMN
+
+    def set_aside(self, action: Callable[[], object], what: str) -> None:
+        """Take levels out of their episode, and show them in their new place."""
+        self.beside = "none"
+        self.change(action, f"Take out {shown_text(what)}")
+
+    def levels(self, rack: Widget | None = None) -> list[Entry]:
+        """The visible levels, in order, of one row or of both."""
+        racks = [each for each in (self.shelves, self.tray) if rack in (None, each)]
+        return [cell.level for each in racks for cell in each.cells if cell.level]
+
+    def taken(self, level: Entry) -> list[Entry]:
+        """The levels that an action on this one is for."""
+        return self.marked.together(level, self.levels())
+
+    def _mark(self, x: float, y: float) -> bool:
+        """Whether a click marks levels."""
+        rack = self._at(x, y)
+        index = rack.at(x, y) if isinstance(rack, Rack) else None
+        if not isinstance(rack, Rack) or index is None or not self.marked.click(rack, index):
+            return False
+        self.focus, rack.index, self.redraw = rack, index, True
+        return True
+
+    def _pull(self, cell: PackCell, pointer: tuple[float, float]) -> None:
+        """Begin or continue to drag a cell."""
+        if self.held is None and (cell.level or (cell.head and cell.episode)):
+            self.held = cell
+        self.pointer = pointer if self.held else None
+        if (over := self.shelves.at(*pointer)) is not None:
+            self.focus, self.shelves.index = self.shelves, over
+
+    def hold(self, cell: PackCell) -> None:
+        self.held = cell
+        self.app.notify("Choose its new place; Enter or a click puts it there, Esc leaves it where it is")
+
+    def back(self) -> None:
+        if self.held:
+            self.held = self.pointer = None
+        elif self.marked:
+            self.marked.clear()
+        else:
+            super().back()
+
+    def drop(self, goal: PackCell | None, *, after: bool = False) -> None:
+        held, self.held, self.pointer = self.held, None, None
+        levels = self.taken(held.level) if held and held.level else []
+        if levels and not (goal and goal.level in levels and len(levels) == 1):
+            do = self.do if goal is None and self.beside != "none" else self.change
+            do(partial(self._put_levels, levels, goal, after=after), f"Move {called(levels)}")
+        elif held and held.episode and goal and goal.episode:
+            numbers = held.episode.number, goal.episode.number
+            self.change(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
+
+    def _is_after(self, index: int) -> bool:
+        """Whether the mouse is over the right half of a cell: a dropped level lands behind that cell."""
+        left, _, w, _ = self.shelves.row_area(index)
+        return self.pointer is not None and self.pointer[0] > left + w / 2
+
+    def _landing(self) -> tuple[int, bool] | None:
+        """The cell beside which the dragged level would land, and whether behind it."""
+        over = self.shelves.at(*self.pointer) if self.pointer else self.shelves.index
+        if over is None or not (self.held and self.held.level):
+            return None
+        cells, index, after = self.shelves.cells, over, self._is_after(over)
+        if not cells[over].level:
+            row = [k for k, cell in enumerate(cells) if cell.episode is cells[over].episode]
+            index, after = next((k for k in row if not (cells[k].head or cells[k].level)), row[-1]), False
+        return index, after
+
+    def _put_levels(self, levels: Sequence[Entry], goal: PackCell | None, *, after: bool) -> None:
+        target = self.path
+        if goal is None and self.beside != "none":
+            target = next((pack.path for pack in self.sets if pack.key == self.beside and pack.path), self.folder)
+        if target != self.folder and target not in [pack.path for pack in self.mine]:
+            raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
+        if target != self.path and (target / RECEIVED).exists():
+            raise NinjaGameError("that pack was received, and stays as it is")
+        names: list[str] = []
+        for level in levels:
+            file = Path(level.named.file)
+            others = level.source == GAME or self.folder not in file.parents or (file.parent / RECEIVED).exists()
+            names.append(file.name if file.parent == target else packs.transfer(level.named, target, keep=others))
+        if (target / INDEX).is_file():
+            number = goal.episode.number if goal and goal.episode else None
+            if goal and number is None:
+                number = packs.new_episode(target, self.next_name, self.column)
+            row = [cell.level for cell in self.shelves.cells if goal and cell.episode is goal.episode and cell.level]
+            behind = row[row.index(goal.level) + after :] if goal and goal.level else []
+            before = (Path(entry.named.file).name for entry in behind if entry not in levels)
+            packs.place(target, names, number, next(before, ""))
+
+    def _handle_mouse(self, event: pygame.Event) -> None:
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_RIGHT and not self.held:
+            place = self.theme.canvas.logical(event.pos)
+            widget = self._at(*place)
+            if widget and (widget is self.chosen or (isinstance(widget, Rack) and widget.click(*place))):
+                self.focus_on(widget)
+                self.choose(widget.chosen if isinstance(widget, Rack) else None)
+                return
+        left = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT and not self.held
+        if left and self._mark(*self.theme.canvas.logical(event.pos)):
+            return
+        dragged = self._dragged
+        super()._handle_mouse(event)
+        if event.type == pygame.MOUSEBUTTONUP and isinstance(dragged, Rack):
+            x, y = self.theme.canvas.logical(event.pos)
+            if self.pointer is None:
+                dragged.release()
+            elif (index := self.shelves.at(x, y)) is not None:
+                self.pointer = (x, y)
+                self.drop(self.shelves.cells[index], after=self._is_after(index))
+            elif self.tray.contains(x, y):
+                self.drop(None)
+            self.held, self.pointer = (self.held if self.pointer is None else None), None
+            self.redraw = True
+
+    def leave(self) -> None:
+        super().leave()
+        self.held = self.pointer = None
+        if not self.packer.busy:
+            self.packer.left()
+
+    def draw_widgets(self, surface: pygame.Surface) -> None:
+        landing, held = self._landing(), self.held.level if self.held else None
+        lifted = self.taken(held) if held and self.pointer else []
+        self.shelves.lifted = self.tray.lifted = {each.named.file for each in lifted}
+        self.shelves.gap = landing[0] + landing[1] if landing and self.pointer else 0
+        super().draw_widgets(surface)
+        if self.held and self.pointer:
+            x, y = self.pointer
+            if held:
+                self.thumbnails.draw(surface, held, x + 6, y + 6, 60)
+                if len(lifted) > 1:
+                    self.theme.text(surface, called(lifted), x + 36, y + 54, size=11, bold=True, align="centre")
+            else:
+                self.theme.row(surface, (x + 6, y + 6, 2 * WIDE, HIGH / 4), chosen=True, focused=True)
+        if landing:
+            x, y, w, h = self.shelves.row_area(landing[0])
+            place = x + w * landing[1] - 2 + self.shelves.shift(self.shelves.gap) / 2, y + 4, 4, h - 8
+            self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *place, 2)

@@ -1,0 +1,174 @@
+"""The menus of the screen of packs: what can be done with a pack, an episode, a level."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from math import inf
+from pathlib import Path
+
+from ninja_game.editor import packs
+from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, EpisodeIndex
+from ninja_game.formats.pack.pack import Pack
+from ninja_game.play.level.screen import play_level
+from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
+from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, MenuRow, Question
+from ninja_game.play.menus.pack_desk import PackDesk
+from ninja_game.play.menus.pack_shelves import PackCell, called
+from ninja_game.play.menus.replays import watch
+
+DELETED = "deleted"
+"""The folder of deleted packs among the player's files."""
+
+MADE = "Made, and opened in the editor"
+
+
+def view(desk: PackDesk) -> None:
+    """Show the episodes of the pack; those of the player's own packs as a new player sees them."""
+    if desk.pack:
+        newcomer = None if desk.pack.received else desk.player.newcomer()
+        desk.app.push(EpisodeGrid(desk.app, desk.pack.key, newcomer))
+
+
+def pack_menu(desk: PackDesk) -> None:
+    pack = desk.pack_now()
+    if not (desk.pack and pack):
+        return
+    key, name, own = desk.pack.key, desk.pack.name, not desk.pack.received
+    empty = not pack.episodes
+    busy = desk.packer.busy and desk.packer.path == desk.path
+    gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
+    without = "No episode has levels" if empty else ""
+    rows: list[MenuRow] = [
+        ("Play it", None if empty else lambda: desk.app.push(EpisodeGrid(desk.app, key)), without),
+        *[("Show it as received", None if empty else lambda: view(desk), without or PREVIEW)] * own,
+        ("Name, author, version...", lambda: pack_form(desk, pack), ""),
+        ("Copy of the pack", lambda: desk.copy(pack), ""),
+        ("Delete the pack...", None if busy else lambda: _delete(desk, pack, name), gone),
+        CANCEL,
+    ]
+    desk.app.push(Menu(desk.app, pack.name, rows))
+
+
+def pack_form(desk: PackDesk, pack: Pack, first: int = 0) -> None:
+    """Ask for the texts of the index; the field number ``first`` has the focus."""
+    index, path = pack.index, pack.files.path
+    keys = ("name", "author", "version", "comment")
+    fields = [(key.capitalize(), getattr(index, key), 200) for key in keys]
+
+    def describe(texts: list[str]) -> None:
+        desk.app.know_author(index.author, texts[1])
+        desk.change(lambda: packs.describe(path, dict(zip(keys, texts, strict=True))), "About the pack")
+
+    form = FormPanel(desk.app, "About the pack", fields, "OK", describe)
+    desk.app.push(form)
+    form.focus = form.widgets[first]
+
+
+def _delete(desk: PackDesk, pack: Pack, name: str) -> None:
+    def delete() -> None:
+        there = packs.bin_pack(pack.files.path, desk.player.folder / DELETED)
+        desk.app.notify(f"{shown_text(name)} is in the folder {there.relative_to(desk.player.folder)} now")
+
+    title = f"Delete {shown_text(name)} with its {counted(len(pack.files.levels), 'level')}?"
+    hint = f"All goes to the folder {DELETED}; Undo brings it back"
+    step = partial(desk.do, delete, f"Delete {shown_text(name)}")
+    desk.app.push(Question(desk.app, title, "Delete it", step, hint))
+
+
+def level_menu(desk: PackDesk, cell: PackCell) -> None:
+    level, episode = cell.level, cell.episode
+    if level is None:
+        return
+    file, levels = Path(level.named.file), desk.taken(level)
+    rename, edit = partial(packs.rename_level, file), partial(desk.edit, level, None)
+    run, title = desk.player.catalogue.author_run(level), called(levels)
+
+    def copy() -> None:
+        names = [packs.duplicate(desk.path, each.named) for each in levels]
+        packs.place(desk.path, names, episode.number if episode else None)
+
+    def play() -> None:
+        if why := play_level(desk.app, level):
+            desk.app.notify(why)
+
+    rows: list[MenuRow] = []
+    if len(levels) == 1:
+        rows = [
+            ("Edit", partial(desk.change, edit, "Edit") if file.parent == desk.path else edit, ""),
+            ("Play", play, ""),
+            ("Watch the run", partial(watch, desk.app, [run]) if run else None, "" if run else "None is known yet"),
+        ]
+        if file.parent == desk.path:
+            rows.append(("Rename...", lambda: desk.ask(f"Rename {level.named.name}", level.named.name, rename), ""))
+    rows.append(("Move...", lambda: desk.hold(cell), ""))
+    if all(Path(each.named.file).parent == desk.path for each in levels):
+        rows.append(("Copy", lambda: desk.change(copy, f"Copy {title}"), "Another level like it"))
+    if take_away := away(desk, cell):
+        rows.append(
+            ("Take out", take_away, "Into no episode") if episode else ("Delete", take_away, "Undo brings it back")
+        )
+    desk.app.push(Menu(desk.app, title, [*rows, CANCEL]))
+
+
+def away(desk: PackDesk, cell: PackCell) -> Callable[[], object] | None:
+    """Takes a level out of its episode, or deletes one of the player's in none; None for any other level."""
+    levels = desk.taken(cell.level) if cell.level else []
+    title = called(levels)
+    if levels and all(Path(each.named.file).parent == desk.path and each.episode for each in levels):
+        names = [Path(each.named.file).name for each in levels]
+        return lambda: desk.set_aside(partial(packs.place, desk.path, names, None), title)
+    if not levels or desk.beside not in ("none", "yours") or not all(each.named.ascii for each in levels):
+        return None
+
+    def delete() -> None:
+        for each in levels:
+            packs.transfer(each.named, desk.player.folder / DELETED, keep=False)
+        desk.app.notify(f"{title}: in the folder {DELETED} now; Ctrl+Z brings back")
+
+    return lambda: (desk.do if desk.beside == "yours" else desk.change)(delete, f"Delete {title}")
+
+
+def new_level(desk: PackDesk, number: int) -> None:
+    """Ask for the name of a new level of an episode; it is made, and opened in the editor."""
+    path = desk.path
+
+    def make(name: str) -> None:
+        file = packs.new_level(path, name, desk.player.settings.name)
+        packs.place(path, [file], number)
+        desk.read()
+        if entry := desk.entry_of(file):
+            desk.edit(entry, None)
+
+    desk.ask("New level: its name", "New level", make)
+
+
+def episode_menu(desk: PackDesk, episode: EpisodeIndex) -> None:
+    number, path, title = episode.number, desk.path, episode.name or f"Episode {episode.number + 1}"
+    column = number // EPISODES_PER_COLUMN
+    columns = list(desk.pack.columns if desk.pack else ())
+    columns += [""] * (column + 1 - len(columns))
+
+    def sort() -> None:
+        levels = [cell.level for cell in desk.shelves.cells if cell.level and cell.episode is episode]
+        levels.sort(key=lambda each: (each.pars and each.pars.difficulty) or inf)
+        names = [Path(each.named.file).name for each in levels]
+        desk.change(partial(packs.place, path, names, number), f"Sort {title}")
+
+    def name_column(name: str) -> None:
+        packs.describe(path, {"columns": [*columns[:column], name, *columns[column + 1 :]]})
+
+    rename, remove = partial(packs.rename_episode, path, number), partial(packs.remove_episode, path, number)
+    begin = partial(packs.new_episode, path, column=desk.column + 1)
+    rows: list[MenuRow] = [
+        ("New level...", lambda: new_level(desk, number), MADE),
+        ("Rename...", lambda: desk.ask(f"Rename {episode.name}", episode.name, rename), ""),
+        ("Move...", lambda: desk.hold(PackCell(episode, head=True)), ""),
+        ("Sort by difficulty", sort, "Easiest first, those not measured last"),
+        ("Name of the column...", lambda: desk.ask("Name of the column", columns[column], name_column), ""),
+        ("Begin a column...", lambda: desk.ask("Column: first episode", desk.next_name, begin), "Beside these"),
+        ("Remove the episode", lambda: desk.set_aside(remove, title), "Its levels stay, beside the others"),
+        CANCEL,
+    ]
+    desk.app.push(Menu(desk.app, title, rows))

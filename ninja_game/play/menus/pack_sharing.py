@@ -1,0 +1,195 @@
+"""A pack on its way to other players: its problems, made ready, zipped and linked; received from others."""
+
+from __future__ import annotations
+
+import webbrowser
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from ninja_game.editor import packs
+from ninja_game.editor.packs import ReadyPack, missing_run
+from ninja_game.errors import NinjaGameError, reason
+from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.user_folder import short_path
+from ninja_game.formats.links import link_kind
+from ninja_game.formats.pack.index import NEVER_ACCEPTED
+from ninja_game.formats.pack.pack import INDEX, Pack
+from ninja_game.levels.findings import PackFinding
+from ninja_game.play.clipboard import copy_link, pasted_text
+from ninja_game.play.menus.episodes import PREVIEW
+from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, MenuRow, ask_text
+from ninja_game.play.menus.pack_desk import PackDesk
+from ninja_game.play.menus.pack_menus import pack_form, pack_menu, view
+from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND
+from ninja_game.play.menus.problems import Problem, ProblemsScreen
+from ninja_game.runs.packs import level_of
+
+_STOPS = "It can be stopped at any time: what was found is kept."
+
+
+def problems(desk: PackDesk) -> list[Problem] | None:
+    """What is odd about the shown pack as it is on the disk, then what comes next; None until that is known."""
+    desk.read(news=True)
+    pack, status = desk.pack and desk.pack.pack, desk.status
+    if pack is None:
+        return []
+    if status.now is None:
+        return None
+    rows = [_problem(desk, pack, finding) for finding in status.now.findings]
+    to_do, well = status.to_do(), "Nothing is wrong" * (not status.now.problems)
+    step, go, hint = "Make ready", partial(make_ready, desk), _STOPS if to_do else "It writes the zip and the link."
+    if desk.zipped and desk.packer.fresh and not to_do:
+        step, go, hint = "Copy the link", partial(copy_the_link, desk), f"Or send the zip: {short_path(desk.zipped)}"
+    if text := ". ".join(filter(None, (well, to_do))):
+        rows.append(Problem(text, hint, None if desk.packer.busy else go, step=step))
+    return rows
+
+
+def _problem(desk: PackDesk, pack: Pack, finding: PackFinding) -> Problem:
+    file, code = finding.file, finding.code
+    entry = desk.entry_of(level_of(pack, file))
+    values = {name: _as_seen(pack, value) for name, value in finding.values.items()}
+    text = finding.text_with(values)
+    text = f"{entry.title}: {text}" if entry else text[:1].upper() + text[1:]
+    go: Callable[[], object] | None = partial(pack_menu, desk) if file == INDEX else None
+    if code == "no-author":
+        go = partial(pack_form, desk, pack, 1)
+    elif entry:
+        go = partial(desk.change, partial(desk.edit, entry, finding.odd), "Edit")
+    if finding.reason:
+        take_back = partial(packs.take_back, desk.path, file, code)
+        text = f"{text}. Accepted: {finding.reason}"
+        return Problem(text, "", go, lambda: desk.change(take_back, "Take it back"), accepted=True)
+
+    def accept(why: str) -> None:
+        packs.accept(desk.path, file, code, why)
+
+    may = bool(file) and code not in NEVER_ACCEPTED
+    accept_it = partial(desk.ask, "Accept this warning: why?", "", accept) if may else None
+    missing = missing_run(pack, finding) if finding.sought and not desk.packer.busy else None
+    longer = partial(desk.packer.search_longer, desk.path, missing) if missing else None
+    return Problem(text, finding.hint, go, accept_it, search=longer)
+
+
+def _as_seen(pack: Pack, value: object) -> object:
+    """A value of a finding as the desk shows it: files count columns and episodes from 0, and levels have names."""
+    if isinstance(value, int):
+        return value + 1
+    named = pack.levels.get(value) if isinstance(value, str) else None
+    return named.name if named else value
+
+
+def show_problems(desk: PackDesk) -> None:
+    desk.app.push(ProblemsScreen(desk.app, partial(problems, desk), desk.status.update))
+
+
+def open_folder(desk: PackDesk) -> None:
+    if desk.zipped and not webbrowser.open(desk.zipped.parent.as_uri()):
+        desk.app.notify(f"Nothing here opens folders: it is {short_path(desk.zipped.parent)}")
+
+
+def copy_the_link(desk: PackDesk) -> None:
+    """Copy it; of a pack of one's own, first ask whether levels that are not certified are to go along."""
+    pack = desk.pack_now()
+    if not (desk.pack and pack):
+        return
+    copy = partial(copy_link, desk.app, pack.files.link, title=desk.pack.name)
+    levels = [] if desk.pack.received else desk.pack.levels
+    without = [level for level in levels if desk.status.state(level) in (*NOT_CERTIFIED, NOT_FOUND)]
+    rows: list[MenuRow] = [
+        ("Make ready first", partial(make_ready, desk), "Certifies them, and gives the link"),
+        ("Copy all the same", copy, "Whoever gets it is not told whether they can be passed"),
+        CANCEL,
+    ]
+    if without:
+        title = f"The link has {counted(len(without), 'level')} without certificate"
+        desk.app.push(Menu(desk.app, title, rows))
+    else:
+        copy()
+
+
+def make_ready(desk: PackDesk) -> None:
+    path, name = desk.path, desk.player.settings.name
+
+    def sign(author: str) -> None:
+        if author.strip():
+            desk.app.know_author("", author)
+            desk.do(lambda: packs.describe(path, {"author": author.strip()}), "Author of the pack")
+        desk.packer.start(path)
+
+    if desk.pack and desk.pack.pack and desk.pack.pack.index.is_signed:
+        desk.packer.start(path)
+    else:
+        ask_text(desk.app, "Who made this pack?", "Author", name, "Make ready", sign, 40)
+
+
+def new_pack(desk: PackDesk) -> None:
+    def make(name: str, author: str = desk.player.settings.name) -> None:
+        desk.app.know_author("", author)
+        desk.beside = "yours" if desk.player.catalogue.own() else "none"
+        desk.made = packs.new_pack(desk.folder, name, author.strip())
+
+    fields, step = [("Name", "My pack", 60)], "New pack"
+    if not desk.player.settings.name:
+        fields.append(("Author", "", 40))
+    desk.app.push(FormPanel(desk.app, step, fields, "OK", lambda texts: desk.do(lambda: make(*texts), step)))
+
+
+def paste(desk: PackDesk) -> None:
+    """Take in the pack whose link is in the clipboard."""
+
+    def read() -> Pack:
+        text = pasted_text()
+        if link_kind(text) != "pack":
+            raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
+        return Pack(Path(f"#{text.partition('#')[2]}"))
+
+    take_in(desk, read)
+
+
+def take_in(desk: PackDesk, read: Callable[[], Pack]) -> None:
+    """Install a received pack among the player's, instead of an older version if the player agrees."""
+    try:
+        pack = read()
+    except (NinjaGameError, OSError) as error:
+        desk.app.notify(reason(error))
+        return
+
+    def receive(over: Pack | None = None) -> None:
+        def copy() -> None:
+            news = f": {packs.news(over, pack)}" if over else " is among your packs now: Enter plays it"
+            desk.made = packs.copy_pack(pack, desk.folder, pack.name, received=True, over=over)
+            desk.app.notify(f"{shown_text(pack.name)}{news}")
+
+        desk.do(copy, f"Update {pack.name}" if over else "Paste link")
+        desk.focus_on(desk.opener)
+
+    name, author = shown_text(pack.name), pack.index.author
+    older = [each.pack for each in desk.mine if each.pack and each.received and each.pack.name == pack.name]
+    if there := next((each for each in desk.mine if each.pack and packs.same_pack(pack, each.pack)), None):
+        desk.show(there)
+        rows: list[MenuRow] = [
+            ("Play it", partial(view, desk), "")
+            if there.received
+            else ("Show it as received", partial(view, desk), PREVIEW),
+            ("Receive it once more", receive, "Beside this one"),
+            CANCEL,
+        ]
+        desk.app.push(Menu(desk.app, f"{shown_text(there.name)} is among your packs already", rows))
+    elif over := next((each for each in older if each.index.author == author), None):
+        rows = [("Update it", partial(receive, over), packs.news(over, pack)), ("Keep both", receive, ""), CANCEL]
+        desk.app.push(Menu(desk.app, f"You have {name} {over.index.version or 'in another version'}", rows))
+    else:
+        receive()
+
+
+def ask_about(desk: PackDesk, ready: ReadyPack) -> None:
+    desk.packer.open_problems = None
+    rows: list[MenuRow] = [
+        ("Show the problems", lambda: show_problems(desk), "Make ready asks again"),
+        ("Zip and link all the same", lambda: desk.packer.publish(ready), ""),
+        CANCEL,
+    ]
+    title = f"{shown_text(ready.pack.name)}: {counted(len(ready.problems), 'open problem')}"
+    desk.app.push(Menu(desk.app, title, rows, unasked=True))
