@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli import options
+from ninja_game.cli.commands import BAD_INPUT, FAILED
 from ninja_game.cli.options import NEW_FOLDER, LevelPath
 from ninja_game.cli.progress import progress_line
+from ninja_game.cli.terminal import print_error
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import counted, name_key, shown_text
 from ninja_game.files.tree import Tree
@@ -20,6 +22,7 @@ from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.files.writing import check_output
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.kinds import DOOR
+from ninja_game.sim.level import makes_object, well_formed
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -87,8 +90,6 @@ def check(
       ninja-game check my-levels/ --first
       ninja-game check my-levels/ --gold both --replays my-levels/certificates --seconds 60
     """
-    from ninja_game.cli.commands import BAD_INPUT, FAILED
-    from ninja_game.cli.terminal import print_error
     from ninja_game.formats.load import load_levels
     from ninja_game.search.certify import CertifyOptions, certify_all
 
@@ -191,7 +192,6 @@ def _warnings(level: NamedLevel, run: Replay | None) -> list[str]:
     """The findings of a level, and the locked doors that its run does not open."""
     from ninja_game.levels.lint import level_warnings, object_name
     from ninja_game.sim.arithmetic import is_set
-    from ninja_game.sim.level import makes_object, well_formed
     from ninja_game.simulation import Simulation
 
     warnings = level_warnings(level.level, level.says)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
@@ -16,13 +15,16 @@ from ninja_game.errors import FileError, LevelError
 from ninja_game.files.shown_text import counted, file_stem, name_key, name_problem, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
+from ninja_game.files.writing import check_output, write_atomically
+from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
 from ninja_game.formats.lines import MAX_NAME
 from ninja_game.formats.links import is_link, level_link, recording_link
+from ninja_game.formats.load import NamedLevel, Recording, load_levels, load_replays, texts_of
+from ninja_game.formats.n14.level_string import write_level_string
+from ninja_game.formats.pack.pack import PackFiles, is_pack
+from ninja_game.formats.recording import holds_recordings
+from ninja_game.formats.replay.text import parse_replay
 from ninja_game.formats.run_time import seconds_text
-
-if TYPE_CHECKING:
-    from ninja_game.formats.named_level import NamedLevel
-    from ninja_game.formats.recording import Recording
 
 RUN_FORMS = {"replay": REPLAY_SUFFIX, "inputs": ".inputs.txt", "celeste": ".tas", "libtas": ".libtas.txt"}
 """The forms of recordings of which a file holds one, and how it is called."""
@@ -83,9 +85,6 @@ def convert(
       ninja-game convert run.replay.txt run.demo
       ninja-game convert first.nlevel -
     """
-    from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
-    from ninja_game.formats.load import load_levels, load_replays, texts_of
-    from ninja_game.formats.n14.level_string import write_level_string
     from ninja_game.runs.conversion import by_player, episode_text, input_texts, left_out, level_file_text, replay_texts
 
     output = Output(target, sources, force=force)
@@ -153,8 +152,6 @@ class Output:
 
     def _put(self, files: Sequence[tuple[Path, str]], tree: Tree | None = None) -> None:
         """Write files, those of a folder into ``tree``. Raises FileError, before any is written, if one must stay."""
-        from ninja_game.files.writing import check_output, write_atomically
-
         for path in [path for path, _ in files if os.path.lexists(path)]:
             if path.exists() and any(source.samefile(path) for source in self.sources):
                 raise FileError("the output is the input", str(path), hint="choose another name for the output")
@@ -208,8 +205,6 @@ def record(
       ninja-game record celeste.tas --level level.txt
       ninja-game record old.replay.txt --level changed.txt
     """
-    from ninja_game.formats.load import load_replays
-    from ninja_game.formats.replay.text import parse_replay
     from ninja_game.runs.conversion import on_level, replay_texts
 
     level = options.load_level_option(level_path)
@@ -247,11 +242,6 @@ def link(files: Sequence[Path], record: int | None, base: str) -> None:
 
 def link_of(files: Sequence[Path], record: int | None = None) -> str:
     """The link of what files hold: one pack, one level, or all the recordings. Raises NinjaGameError."""
-    from ninja_game.formats.ascii.writer import headers_of
-    from ninja_game.formats.load import load_levels, load_replays, texts_of
-    from ninja_game.formats.pack.pack import PackFiles, is_pack
-    from ninja_game.formats.recording import holds_recordings
-
     first = files[0]
     if is_pack(first):
         if len(files) > 1 or record is not None:

@@ -14,6 +14,7 @@ import click
 from ninja_game.cli.options import LevelPath, level_option, load_level_option, record_option
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import makes_object
 
 if TYPE_CHECKING:
@@ -79,8 +80,6 @@ def _level_of(run: Recording) -> NamedLevel:
 
 
 def _kind_counts(level: NamedLevel) -> Counter[str]:
-    from ninja_game.sim.kinds import KIND_NAMES
-
     return Counter(KIND_NAMES[spec.kind] for spec in filter(makes_object, level.level.objects))
 
 
@@ -90,7 +89,6 @@ def _object_counts(level: NamedLevel) -> Counter[str]:
     If there are more objects than can be played, which take long, the number of each kind.
     """
     from ninja_game.formats.ascii.writer import best_form
-    from ninja_game.sim.kinds import KIND_NAMES
     from ninja_game.sim.memory.schema import CAPACITY
 
     specs = list(filter(makes_object, level.level.objects))
