@@ -92,7 +92,7 @@ def verify(
     )  # fmt: skip
     with ExitStack() as stack:
         if report:
-            results = _reported(results, report, [*files, resume] if resume else files, stack)
+            results = _reported(results, totals, report, [*files, resume] if resume else files, stack)
         for result in with_progress(results, "run"):
             totals.add(result)
             if isinstance(result, Unreadable):
@@ -108,23 +108,22 @@ def verify(
     return BAD_INPUT if totals.unreadable else FAILED if totals.failed else 0
 
 
-def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], stack: ExitStack) -> Iterator[Result]:
-    """Results, written to a report as they pass."""
+def _reported(
+    results: Iterable[Result], totals: Totals, report: Path, files: Sequence[Path], stack: ExitStack
+) -> Iterator[Result]:
+    """Results, written to a report as they pass. ``totals``: of those that have passed."""
     from ninja_game.files.writing import open_atomically
     from ninja_game.formats.links import is_link
     from ninja_game.runs.archive import write_report
 
     out = stack.enter_context(open_atomically(report, keep=[file for file in files if not is_link(file)]))
-    return write_report(results, out) if report.suffix.lower() == ".json" else _write_table(results, out)
+    return write_report(results, out) if report.suffix.lower() == ".json" else _write_table(results, totals, out)
 
 
-def _write_table(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
-    from ninja_game.runs.archive import Totals
+def _write_table(results: Iterable[Result], totals: Totals, out: IO[bytes]) -> Iterator[Result]:
     from ninja_game.runs.recording_reader import Unreadable
 
-    totals = Totals()
     for result in results:
-        totals.add(result)
         if isinstance(result, Unreadable):
             row = f"??   {shown_text(result.message, 1000)}"
         else:
