@@ -51,7 +51,6 @@ from ninja_game.web.pages.gallery import (
     path_data,
     picture,
     picture_name,
-    place_mark,
     run_page,
     shared_text,
     watch_address,
@@ -364,7 +363,8 @@ class LevelPages:
             results = [categories[at].text(ranked[at].values[0]) for at in map(heads.index, names)]
             late = self.behind(categories[0], ranked[0], same[0].rows[0])
             cells = self.run_cells(run, *results, late, timed=FASTEST.unit in heads, mark=marks.get(run.key))
-            rows.append((place_mark(place), *cells))
+            marked = tag("span", place, class_=f"place {MEDALS[place]}") if 0 < place < len(MEDALS) else place or ""
+            rows.append((marked, *cells))
         lesser = LESSER.union(names[1:]) - {names[0]}
         best = table("Best run of each player", ("Place", "Player", *names, "Behind", *RUN_HEADS), rows, lesser)
         return section("; ".join(self.leaderboard_name(each.leaderboard) for each in same), best, anchor=anchor)

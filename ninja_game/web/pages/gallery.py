@@ -259,11 +259,6 @@ def _pars(pars: Pars) -> Markup:
     return table("To the exit in at most", ("Medal", "Time"), rows)
 
 
-def place_mark(place: int) -> Content:
-    """A place; the first three are highlighted."""
-    return tag("span", place, class_=f"place {MEDALS[place]}") if 0 < place < len(MEDALS) else place or ""
-
-
 def medal_mark(medal: str) -> Content:
     """A small mark for a medal, "" for none; its letter tells it as well as its colour."""
     return tag("span", medal[0].upper(), class_=f"medal {medal}", title=medal) if medal in MEDALS else joined()
