@@ -22,7 +22,6 @@ from hashlib import sha256
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 from typing import Any
-from uuid import uuid4
 
 from ninja_game.backend.code_digest import OPTIONS, code_digest
 from ninja_game.backend.numba_import import warn_once
@@ -30,6 +29,7 @@ from ninja_game.errors import FileError
 from ninja_game.files.locking import LOCK_SUFFIX, try_lock
 from ninja_game.files.reading import open_regular
 from ninja_game.files.user_folder import PACKAGE, cache_folder, folder_from_variable
+from ninja_game.files.writing import replacing
 
 SHIPPED = PACKAGE / "data" / "kernels"  # machine code of the installation; a checkout has none
 
@@ -180,16 +180,13 @@ class KernelCache:
         except Exception as error:  # noqa: BLE001 - whatever another version of Numba does here: it works without
             warn_once(f"compiled code cannot be kept ({type(error).__name__}: {error}){COMPILES_AGAIN}")
             return
-        part = path.with_suffix(f".{uuid4().hex[:16]}")
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            part.write_bytes(sha256(code).digest() + code)
-            part.replace(path)
+            with replacing(path, None, kept=False) as file:
+                file.write(sha256(code).digest() + code)
             evict_old_kernels(self.folder)
         except OSError as error:
             warn_once(f"compiled code cannot be kept in {self.folder}: {error.strerror or error}{COMPILES_AGAIN}")
-            with suppress(OSError):
-                part.unlink(missing_ok=True)
 
 
 def _read(path: Path, context: Any) -> Any:
