@@ -31,12 +31,8 @@ from ninja_game.sim.level import Level
 EASIEST = 1
 HARDEST = 10
 
-FIND_TICKS = 1_500_000  # work of the solver on one attempt
-SHORTEN_TICKS = 1_000_000  # work on the attempt after its hazards were changed
-ATTEMPTS = 3  # attempts for the solver; of those that it passes, the nearest to the wanted difficulty is taken
 MORE_ATTEMPTS = 4
-"""Factor of ATTEMPTS while none is about as hard as wanted; its square while none is passed."""
-ROUNDS = 22  # most changes of the hazards of an attempt
+"""Factor of the attempts while none is about as hard as wanted; its square while none is passed."""
 TRIES_TO_COMPOSE = 400
 
 
@@ -51,12 +47,12 @@ class Generated:
 
 @dataclass(frozen=True)
 class Effort:
-    """Amounts of work: see the constants; ``tries`` as in ``difficulty``."""
+    """Amounts of work; ``tries`` as in ``difficulty``."""
 
-    find: int = FIND_TICKS
-    shorten: int = SHORTEN_TICKS
-    attempts: int = ATTEMPTS
-    rounds: int = ROUNDS
+    find: int = 1_500_000  #: work of the solver on one attempt
+    shorten: int = 1_000_000  #: work on the attempt after its hazards were changed
+    attempts: int = 3  #: for the solver; of those that it passes, the nearest to the wanted difficulty is taken
+    rounds: int = 22  #: most changes of the hazards of an attempt
     tries: int = TRIES
 
 
