@@ -218,13 +218,10 @@ def recording_link(recordings: Iterable[Recording]) -> str:
 
     Raises LinkError; LevelError or DemoError for content that N's record cannot hold.
     """
-    return write_link("replay", [_recording_text(recording) for recording in recordings])
-
-
-def _recording_text(recording: Recording) -> str:
-    if not recording.of_n:
-        return replay_text(recording.replay, recording.level)
-    return write_level_file([record_of(recording)])
+    texts = [
+        write_level_file([record_of(run)]) if run.of_n else replay_text(run.replay, run.level) for run in recordings
+    ]
+    return write_link("replay", texts)
 
 
 def pack_link(texts: dict[str, str]) -> str:

@@ -351,7 +351,8 @@ class EnvWorlds:
         put_levels(self._worlds, numbers, levels)
         for index, fresh in zip(numbers.tolist(), initial_levels(self._worlds, numbers.tolist()), strict=True):
             self._context.fresh[index] = fresh
-            self._context.rewrite(index)
+            for write in self._context.writers:
+                write(index)
         self.levels_now[numbers] = chosen
 
     def _look(self, numbers: Indices, starts: NDArray[np.float64] | None) -> None:

@@ -132,9 +132,6 @@ class Route:
             self._leaving[key] = self.heuristics.may_leave(frontier.mask, *frontier.checkpoints[0].place)
         return self._leaving[key]
 
-    def never_taken(self) -> list[int]:
-        return [piece for piece in range(len(self._fields.points)) if not self.ever_taken >> piece & 1]
-
     def _restart(self) -> None:
         """Begin again from the start; the pieces missed this time get a higher priority."""
         last = max(self.frontiers.values(), key=lambda frontier: (frontier.count, -frontier.tries))

@@ -156,7 +156,8 @@ class _Job:
         run = None
         while not run and not spend(0):
             run = route.step(spend)
-        never = [self.heuristics.gold_ids[piece] for piece in route.never_taken()] if route.gold else None
+        pieces = enumerate(self.heuristics.gold_ids)
+        never = [id_ for piece, id_ in pieces if not route.ever_taken >> piece & 1] if route.gold else None
         self.state.note_unreached(route.search.untouched, route.most, never)
         if run:
             self.state.submit(run)

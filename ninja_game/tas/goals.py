@@ -93,14 +93,6 @@ def go_beyond(span: SearchedSpan) -> SpanGoal:
     return SpanGoal(f"x <= {ceil(end['x'] * 1000) / 1000:.7g}")
 
 
-def be_fast(span: SearchedSpan) -> SpanGoal:
-    return SpanGoal(_alive(span.last), "speed")
-
-
-def stay_alive(span: SearchedSpan) -> SpanGoal:
-    return SpanGoal(_alive(span.last))
-
-
 def reach_exit(span: SearchedSpan) -> SpanGoal:
     """Reach the exit from the first tick of the span on, by any route, sooner than the run if that reaches it."""
     tick, outcome = span.session.timeline.end
@@ -222,10 +214,10 @@ PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], SpanGoal]], ...] = (
     ("Same end exactly, sooner", "By the digest of all that decides what follows", same_state),
     ("Be there sooner", "Where the run is after tick {1}", be_there),
     ("Go beyond sooner", "Past the upright line of its place after tick {1}", go_beyond),
-    ("Greatest speed", "As fast as can be after tick {1}", be_fast),
+    ("Greatest speed", "As fast as can be after tick {1}", lambda span: SpanGoal(_alive(span.last), "speed")),
     ("Collect a piece", "The nearest gold that is left after tick {1}", collect),
     ("This piece too", "The nearest left on the way; then the same place", collect_too),
-    ("Stay alive", "No death from tick {0} to {1}", stay_alive),
+    ("Stay alive", "No death from tick {0} to {1}", lambda span: SpanGoal(_alive(span.last))),
 )
 """Name, explanation ({0}: the first tick, {1}: the last), and the function that makes goal and measure."""
 

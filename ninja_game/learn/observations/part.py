@@ -33,7 +33,7 @@ class PartContext:
     ``worlds``: the worlds, not loaded yet; ``fresh``: the first state of each level. ``changed`` (worlds): gold, mines
     or exits may have changed since the last observation. ``time_limit``: ticks of an episode. ``compiled``: kernels run
     compiled. ``goal``: their ``GoalDistance``, if a part needs it. ``max_objects``: most objects of a level that may
-    replace another; 0: levels are never replaced.
+    replace another; 0: levels are never replaced. ``writers``: rewrite the tables of a level that was replaced.
     """
 
     worlds: Worlds
@@ -89,11 +89,6 @@ class PartContext:
             write(number)
         self.writers.append(write)
         return [bounds, *columns]
-
-    def rewrite(self, number: int) -> None:
-        """Rewrite the tables for the level with this number, which was replaced."""
-        for write in self.writers:
-            write(number)
 
 
 @dataclass(frozen=True)
