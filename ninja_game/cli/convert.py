@@ -181,9 +181,7 @@ def _file_names(items: Sequence[NamedLevel | Recording], suffix: str) -> Iterato
 
 @click.command()
 @click.argument("inputs", metavar="FILE", type=options.OLD_FILE)
-@click.option(
-    "-o", "--output", type=options.NEW_FILE, help="The replay. [default: FILE's name and .replay.txt, in this folder]"
-)
+@options.output_option("The replay. [default: FILE's name and .replay.txt, in this folder]")
 @options.record_option
 @options.play_on_option
 @options.budget_option

@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from ninja_game.budget import DATASET_MIB
-from ninja_game.cli.options import NEW_FILE, OLD_PATH, level_option, load_level_option, memory_option
+from ninja_game.cli.options import OLD_PATH, level_option, load_level_option, memory_option, output_option
 from ninja_game.cli.progress import with_progress
 from ninja_game.cli.terminal import print_error
 from ninja_game.sim.rules import LIFETIME
@@ -17,7 +17,7 @@ from ninja_game.sim.rules import LIFETIME
 
 @click.command(name="demonstrations")
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=OLD_PATH)
-@click.option("-o", "--output", type=NEW_FILE, help="Write arrays to this .npz file.")
+@output_option("Write arrays to this .npz file.")
 @click.option("--minari", "dataset", metavar="NAME", help="Write a Minari data set of this name, such as ninja/set-v0.")
 @click.option(
     "--observation",

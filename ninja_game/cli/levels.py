@@ -138,13 +138,7 @@ def levels() -> None:
 @click.option(
     "--difficulty", type=click.IntRange(1, 10), default=4, show_default=True, help="On the scale that the game shows."
 )
-@click.option(
-    "-o",
-    "--output",
-    metavar="FILE",
-    type=NEW_FILE,
-    help="The level. [default: a new file in this folder, named after it]",
-)
+@options.output_option("The level. [default: a new file in this folder, named after it]", metavar="FILE")
 @click.option("--replay", metavar="FILE", type=NEW_FILE, help="Write the certificate too, the solver's run.")
 def generate(seed: int | None, difficulty: int, output: Path | None, replay: Path | None) -> int:
     """Make a new level, certified by the solver.

@@ -82,6 +82,11 @@ play_on_option = click.option(
 )
 
 
+def output_option(text: str, *, metavar: str | None = None, required: bool = False) -> Callable[[F], F]:
+    """``-o``, the file that a command writes; ``text``: the help."""
+    return click.option("-o", "--output", metavar=metavar, required=required, type=NEW_FILE, help=text)
+
+
 budget_option = click.option(
     "--budget", type=click.IntRange(1), default=RUN_BUDGET, show_default=True, help="Most ticks times objects of a run."
 )

@@ -60,12 +60,9 @@ class SearchLog:
 @options.record_option
 @options.shortening_options
 @options.body_option
-@click.option(
-    "-o",
-    "--output",
+@options.output_option(
+    "Where to keep the best run so far. [default: LEVEL's name and .replay.txt, in the current folder]",
     metavar="REPLAY",
-    type=options.NEW_FILE,
-    help="Where to keep the best run so far. [default: LEVEL's name and .replay.txt, in the current folder]",
 )
 def solve(level: Path, record: int | None, output: Path | None, smooth: int | None, **task_options: Any) -> int:
     """Find a run to the exit, then shorten it.
@@ -113,9 +110,7 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
 @click.option(
     "--resume", metavar="LOG", type=options.NEW_FILE, help="Log better runs here; go on from those that it has."
 )
-@click.option(
-    "-o", "--output", metavar="REPLAY", required=True, type=options.NEW_FILE, help="Where to keep the best run so far."
-)
+@options.output_option("Where to keep the best run so far.", metavar="REPLAY", required=True)
 def improve(
     replay: Path,
     record: int | None,
@@ -227,9 +222,7 @@ def improve(
 @options.search_jobs_option
 @options.record_option
 @options.level_option
-@click.option(
-    "-o", "--output", metavar="REPLAY", type=options.NEW_FILE, help="Where to keep the best run. [default: nowhere]"
-)
+@options.output_option("Where to keep the best run. [default: nowhere]", metavar="REPLAY")
 def search(
     replay: Path, first: int, last: int, goal: str, maximise: str, minimise: str, rest: bool,
     method: str, every: int, seconds: float, seed: int, jobs: int, record: int | None, level_path: Path | None,

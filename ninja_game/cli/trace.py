@@ -39,7 +39,7 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 @click.option("--against", type=options.OLD_FILE, help="Compare with this trace, or with this file of recordings.")
 @click.option("--against-record", type=click.IntRange(min=0), help="Compare every run with this record of --against.")
 @options.level_option
-@click.option("-o", "--output", type=options.NEW_FILE, help="Write to this .csv or .npz file.")
+@options.output_option("Write to this .csv or .npz file.")
 @options.memory_option
 @options.jobs_option
 @options.budget_option

@@ -160,9 +160,7 @@ FIGURES = (
 @click.command(epilog=f"\b\nFigures: {', '.join(FIGURES)}.")
 @click.argument("figure", metavar="[FIGURE]", required=False, type=click.Choice(FIGURES))
 @options.window_options
-@click.option(
-    "-o", "--output", type=options.NEW_FILE, help="Open no window: write a .png of it, or a .gif of its demonstration."
-)
+@options.output_option("Open no window: write a .png of it, or a .gif of its demonstration.")
 def lab(figure: str | None, output: Path | None, **window: Any) -> int:
     """Drag, paint and watch: figures about how the world works.
 
