@@ -6,7 +6,7 @@ from random import Random
 
 import pygame
 
-from ninja_game.play.screen import BaseScreen
+from ninja_game.play.screen import Screen
 from ninja_game.play.window import TITLE
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
@@ -39,7 +39,7 @@ def draw_spreadsheet(surface: pygame.Surface, theme: Theme) -> None:
             x += width
 
 
-class BossScreen(BaseScreen):
+class BossScreen(Screen):
     """The key that hides the game comes back to it, and so does Esc; the key for leaving ends the program."""
 
     hides_game = True
