@@ -11,7 +11,6 @@ from ninja_game.levels.episodes import EpisodeSet
 from ninja_game.play.app import App
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.records import has_words
-from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
@@ -31,17 +30,11 @@ class PackList(ThumbnailScreen):
         self._packs, self._choose = packs, choose
         self.shown = packs
         self.list = ListView((44, 106, 704, 5 * ROW), ROW, self._draw_row, self._take, empty="No pack is called so")
-        self.field = TextEntry((44, 64, 300, 32), "Search name or author", "", self._search)
+        self.field = self.search = TextEntry((44, 64, 300, 32), "Search name or author", "", self._find)
 
     def build(self) -> Sequence[Widget]:
         self.list.fill(self.shown)
         return [self.list, self.field]
-
-    def capture(self, event: InputEvent) -> bool:
-        """Typed letters go to the search, wherever the focus is."""
-        if event.raw.type == pygame.TEXTINPUT and event.raw.text.strip():
-            self.focus_on(self.field)
-        return super().capture(event)
 
     def act(self, action: str, *, held: bool = False) -> None:
         if action == "confirm" and self.focus is self.field:
@@ -49,7 +42,7 @@ class PackList(ThumbnailScreen):
         else:
             super().act(action, held=held)
 
-    def _search(self, text: str) -> None:
+    def _find(self, text: str) -> None:
         self.shown = [pack for pack in self._packs if has_words(text.casefold().split(), _about(pack))]
         self.list.index = self.list.first = 0
         self.list.fill(self.shown)

@@ -1316,7 +1316,7 @@ def test_mine_first_counts_packs_and_a_name_is_found_before_a_comment(driver: Me
     sources = [entry.source for entry in browser.shown]
     assert sources[0] == "yours"
     assert set(sources[1:9]) == {"Laundry"}
-    browser._search("rolling")
+    driver.type("rolling")
     assert [entry.title for entry in browser.shown][-1] == "Zz"
     assert len(browser.shown) > 1
     browser._sort("name")
