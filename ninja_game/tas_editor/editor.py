@@ -9,9 +9,7 @@ from math import ceil
 from typing import ClassVar, NamedTuple
 from weakref import WeakKeyDictionary
 
-import numpy as np
 import pygame
-from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.ascii.places import Point
@@ -41,11 +39,6 @@ class OtherRun:
     trajectory: Trajectory = field(repr=False)
     made: Contributions = field(default_factory=Contributions)
     ending: str = ""
-
-    @property
-    def positions(self) -> NDArray[np.float64]:
-        """The ninja after each tick: float64 (ticks, 2), px."""
-        return self.trajectory.positions
 
 
 class TasEditor:
@@ -298,9 +291,6 @@ class Splitters(TasPart):
             app.notify(f"The layout is as {'large as this window allows' if by > 0 else 'small as can be'}")
         else:
             app.change_settings(text_scale=text_scale)
-
-    def render_key(self) -> tuple[object, ...]:
-        return ()
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
         return []

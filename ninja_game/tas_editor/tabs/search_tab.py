@@ -105,11 +105,12 @@ class SpanResults:
         end = timeline.end[0]
         self._gold = int(timeline.column("gold")[end if end >= 0 else len(task.inputs) - 1]) if self._to_exit else 0
         self._others = tuple(editor.others) if every is None else ()
-        self.search = (
-            self._whole(method, jobs)
-            if every is None
-            else SpanSearch(task, method, jobs, every=every, memory=timeline.asked_memory)
-        )
+        self.search: RunSearch | SpanSearch
+        if every is None:
+            gold, runs = self._gold if method == IMPROVE_GOLD else 0, (other.track.inputs for other in self._others)
+            self.search = RunSearch(task, jobs, gold=gold, others=tuple(runs))
+        else:
+            self.search = SpanSearch(task, method, jobs, every=every, memory=timeline.asked_memory)
         # Beginnings of runs that results fit to, and in each the first tick that follows a result: of the searched run
         # and of those that results were put into.
         whole = len(task.inputs) if task.rest else task.last
@@ -120,10 +121,6 @@ class SpanResults:
         self.search.start()
         self._started = monotonic()
         self.stopped = False
-
-    def _whole(self, method: str, jobs: int) -> RunSearch:
-        gold = self._gold if method == IMPROVE_GOLD else 0
-        return RunSearch(self.task, jobs, gold=gold, others=tuple(other.track.inputs for other in self._others))
 
     @property
     def running(self) -> bool:
@@ -194,8 +191,8 @@ class SpanResults:
         """The other run whose route is nearest to that of a result, in words."""
 
         def apart(other: OtherRun) -> float:
-            ticks = min(len(result.path), len(other.positions))
-            return float(np.hypot(*(result.path[:ticks] - other.positions[:ticks]).T).mean())
+            ticks = min(len(result.path), len(other.trajectory.positions))
+            return float(np.hypot(*(result.path[:ticks] - other.trajectory.positions[:ticks]).T).mean())
 
         return f"like {min(self._others, key=apart).name}"
 
@@ -355,12 +352,8 @@ class SearchTab(Tab):
         )
         self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
         self._forget = Button(UNPLACED, "", self.earlier.clear, size=8, hint="The results of earlier searches")
-        self.list = Rows(
-            self._draw_row,
-            self._put,
-            keeps=False,
-            hint="Under the mouse: its path in the level; a click puts it into the run",
-        )
+        hint = "Under the mouse: its path in the level; a click puts it into the run"
+        self.list = Rows(self._draw_row, self._put, keeps=False, hint=hint)
         self.widgets = [
             Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL),
             Button(UNPLACED, "Presets", self.propose, size=SMALL, hint="Common goals, to begin with"),

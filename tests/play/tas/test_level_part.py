@@ -278,7 +278,7 @@ def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) ->
     there_and_back = editor.track.replaced(0, 40, right * 20 + left * 60 + right * 60)
     at.screen.level.others.open([at.session.recording(there_and_back, "to and fro")])
     other = editor.others[0]
-    x = other.positions[:, 0]
+    x = other.trajectory.positions[:, 0]
     editor.go(10)
     here = at.session.timeline.positions[10, 0]
     back = 20 + int(np.argmin(np.abs(x[20:80] - here)))

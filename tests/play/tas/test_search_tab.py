@@ -316,7 +316,7 @@ def test_the_result_under_the_mouse_is_looked_at(at: TasDriver, tab: SearchTab) 
     preview = at.editor.preview
     assert preview is not None
     assert preview.track.inputs == tab.found[0].inputs
-    assert len(preview.positions) >= 130
+    assert len(preview.trajectory.positions) >= 130
     at.mouse(300, 100, click=False)
     at.frames()
     assert at.editor.preview is None
@@ -712,7 +712,7 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     beside = replace(own, inputs=fast.inputs[: own.ticks], own_route=False)
     assert results.words(beside)[0].endswith(", this is Cy")
     assert results._taken(beside) == at.editor.others[0].made
-    other = replace(own, own_route=False, path=at.editor.others[0].positions[: own.ticks])
+    other = replace(own, own_route=False, path=at.editor.others[0].trajectory.positions[: own.ticks])
     cy = at.editor.others[0]
     results._others = (replace(cy, name="Dee", trajectory=at.session.timeline.trajectory()), cy)
     assert results.words(other)[0].endswith(", like Cy")
