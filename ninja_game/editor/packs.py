@@ -164,6 +164,14 @@ def _add(document: TOMLDocument, key: str, values: Values) -> None:
     tables.append(table)
 
 
+def _remove(document: TOMLDocument, key: str, values: Values) -> None:
+    """Delete the first table [[key]] with these values."""
+    tables: Any = document[key]
+    del tables[next(k for k, table in enumerate(tables) if all(table[name] == values[name] for name in values))]
+    if not tables:
+        del document[key]
+
+
 def new_pack(folder: Path, name: str, author: str) -> Path:
     """A pack with one empty episode; its folder, in ``folder``."""
     import tomlkit
@@ -225,14 +233,7 @@ def accept(path: Path, file: str, code: str, reason: str) -> None:
 
 def take_back(path: Path, file: str, code: str) -> None:
     """Undo the acceptance of a finding."""
-
-    def change(document: TOMLDocument) -> None:
-        tables: Any = document["accept"]
-        del tables[next(k for k, table in enumerate(tables) if (table["file"], table["code"]) == (file, code))]
-        if not tables:
-            del document["accept"]
-
-    _change_index(path, change)
+    _change_index(path, lambda document: _remove(document, "accept", {"file": file, "code": code}))
 
 
 def bin_pack(path: Path, folder: Path) -> Path:
@@ -288,14 +289,7 @@ def _free_number(numbers: set[int], column: int) -> int:
 
 def remove_episode(path: Path, number: int) -> None:
     """Take an episode out of the index; its levels stay, in no episode."""
-
-    def change(document: TOMLDocument) -> None:
-        tables: Any = document["episode"]
-        del tables[next(place for place, table in enumerate(tables) if table["number"] == number)]
-        if not tables:
-            del document["episode"]
-
-    _change_index(path, change)
+    _change_index(path, lambda document: _remove(document, "episode", {"number": number}))
 
 
 def move_episode(path: Path, number: int, to: int) -> None:
