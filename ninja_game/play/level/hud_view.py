@@ -109,11 +109,9 @@ def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
 def _reached(play: LevelPlay) -> list[str]:
     """Lines after a pass: the medal, the time for the next medal, the gold, unlocked levels."""
     attempt, pars = play.attempt, play.context.pars
-    following = (
-        [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!"]
-        if pars and play.medal
-        else []
-    )
+    following = []
+    if pars and play.medal:
+        following.append(next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!")
     gold = f"{attempt.gold} of {play.all_gold} gold" if attempt.gold < play.all_gold else f"All {play.all_gold} gold"
     medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
     clock = [f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"] * play.context.carries_clock
@@ -138,8 +136,11 @@ def named_in(world: World, names: Sequence[str]) -> list[tuple[str, float, float
 def _hint(play: LevelPlay, key: KeyName) -> str:
     """The key to press now; "" in play and after it."""
     if play.phase is Phase.READY:
-        show_tutorial = play.show_tutorial and not play.messages.text
-        return _ready_hint(key, practice_mode=play.context.practice_mode, show_tutorial=show_tutorial)
+        begin = f"{key('confirm')} or any move to start"
+        if play.show_tutorial and not play.messages.text:
+            return f"{key('left')} and {key('right')} to run    {key('jump')} to jump, hold it to go higher    {begin}"
+        inside = f"    {key('overlay_hitboxes')} to {key('overlay_thinkers')}: look inside"
+        return begin + inside * play.context.practice_mode
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
     named = play.phase is not Phase.PASSED and play.attempt.simulation.tick < _TOOLS_NAMED
@@ -151,15 +152,6 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
 def _after_death(play: LevelPlay, key: KeyName) -> str:
     try_again = f"{key('confirm')} or {key('jump')}: try again"
     return f"{try_again}    {key('replay')}: watch it" + f"    {key('skip')}: get help" * play.is_stuck
-
-
-def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> str:
-    begin = f"{key('confirm')} or any move to start"
-    if show_tutorial:
-        return f"{key('left')} and {key('right')} to run    {key('jump')} to jump, hold it to go higher    {begin}"
-    if practice_mode:
-        return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_thinkers')}: look inside"
-    return begin
 
 
 def cause_of_death(play: LevelPlay) -> tuple[str, str]:

@@ -78,7 +78,8 @@ class MessageQueue:
     def at_start(self) -> None:
         """Called when the level waits at its start."""
         due = [message for message in self._messages if message.when == "death" and message.number == self._deaths]
-        self._say(*_in_turn([*due, *self._starts()]))
+        starts = [message for message in self._messages if message.when == "start" and message not in self._said]
+        self._say(*_in_turn([*due, *starts]))
         self._still = self._quiet = 0
         self._jumped_at = self._wall = 0.0
 
@@ -95,9 +96,6 @@ class MessageQueue:
         over.update(text for text, *_ in texts)
         now = [(self.text, self._left, self.place)] if self.is_start or self._unread > 0 else []
         self._say(*texts, *(line for line in (*now, *self._next) if line[0] and line[0] not in over))
-
-    def _starts(self) -> list[LevelMessage]:
-        return [message for message in self._messages if message.when == "start" and message not in self._said]
 
     @property
     def is_start(self) -> bool:

@@ -344,7 +344,7 @@ def test_a_text_under_which_the_ninja_comes_fades_while_it_is_there(driver: Menu
 
 def test_texts_of_a_level_come_back_after_its_author_was_watched(driver: MenuDriver) -> None:
     level = stuck_level(driver)
-    first = level.play.messages._starts()[0].text
+    first = next(message.text for message in level.context.messages() if message.when == "start")
     level.play.messages._said.update(level.context.messages())
     driver.press("n")
     driver.choose("Watch how")
