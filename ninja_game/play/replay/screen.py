@@ -227,7 +227,8 @@ class ReplayScreen(Screen):
             "frame_back": lambda: self.step(-1), "frame_forward": lambda: self.step(1),
             "faster": lambda: self._change_speed(1), "slower": lambda: self._change_speed(-1),
             "retry": lambda: self.show(self.index), "jump": lambda: self.show(self.index + 1),
-            "export": self.start_export, "link": self.copy_link, "ghost": self._toggle_ghosts, "edit": self.edit,
+            "export": self.start_export, "link": self.copy_link, "edit": self.edit,
+            "ghost": lambda: self.app.change_settings(show_ghost=not self.app.settings.show_ghost),
             "back": self.app.pop, "quit": self.app.pop,
         }.get(action)  # fmt: skip
         if deed is not None:
@@ -252,9 +253,6 @@ class ReplayScreen(Screen):
         self.speed = min(len(SPEEDS) - 1, max(0, self.speed + by))
         self.clock.reset()
         self.redraw = True
-
-    def _toggle_ghosts(self) -> None:
-        self.app.change_settings(show_ghost=not self.app.settings.show_ghost)
 
     def start_export(self) -> None:
         if self.export is None:
