@@ -90,7 +90,7 @@ def test_escape_pauses_a_level_from_its_first_picture_to_its_pass(
     if phase is not Phase.READY:
         tap(app, "confirm")
     if phase is Phase.DEAD:
-        screen.play.give_up()
+        screen.give_up()
     for _ in range(2):
         tap(app, key)
         panel: object = app.top
@@ -128,7 +128,7 @@ def test_space_goes_on_and_does_not_jump(app: App, recording: Recording, monkeyp
     assert phase_of(screen) is Phase.PLAY
     assert not any(screen.attempt.inputs[-2:]), "it ends the pause"
     down(space=False)
-    screen.play.give_up()
+    screen.give_up()
     down(space=True)
     assert phase_of(screen) is Phase.DEAD, "a jump that came too late"
     frames(app, LATE_JUMP)

@@ -214,6 +214,9 @@ class LevelScreen(Screen):
         else:
             app.pop()
 
+    def give_up(self) -> None:
+        self.play.give_up()
+
     def run_on(self) -> None:
         """Continue in practice after single steps."""
         if self.play.tools.stepping:
@@ -349,7 +352,7 @@ _END: PhaseActions = {
 ACTIONS_BY_PHASE: dict[Phase, PhaseActions] = {
     Phase.READY: {"confirm": LevelScreen.begin, **_UNPASSED},
     Phase.PLAY: {
-        **_UNPASSED, "suicide": lambda screen: screen.play.give_up(),
+        **_UNPASSED, "suicide": LevelScreen.give_up,
         **dict.fromkeys(("confirm", "left", "right", "jump"), LevelScreen.run_on),
     },
     Phase.PAUSED: {},
