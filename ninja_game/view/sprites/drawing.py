@@ -85,10 +85,13 @@ class DrawTarget:
 
     def sprite(self, key: SpriteKey, x: float, y: float) -> None:
         """A sprite of the book, its point at (x, y)."""
-        self.picture(self.book.sprite(key), x, y)
+        self._put(self.book.sprite(key), x, y)
 
     def picture(self, sprite: Sprite, x: float, y: float) -> None:
-        """A drawing, of the book or not."""
+        """A drawing outside of the book."""
+        self._put(sprite, x, y)
+
+    def _put(self, sprite: Sprite, x: float, y: float) -> None:
         # Inlined is_near, Canvas.point and Sprite.blit: called a hundred times per picture.
         if -_FAR < x < _FAR and -_FAR < y < _FAR:
             (left, top), scale, covered = self.canvas.origin, self.canvas.scale, self.covered

@@ -287,7 +287,8 @@ def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) ->
         column = other.trajectory.columns[name]
         column[:20] += 0.01
         column[back] += here - x[back]
-    assert np.argmin(np.hypot(*(other.trajectory.positions - at.session.timeline.positions[10]).T)) == back, (
+    far = np.hypot(*(other.trajectory.positions - at.session.timeline.positions[10]).T)
+    assert np.argmin(far) == back, "nearest by place"
         "nearest by place"
     )
     editor.go(11)
