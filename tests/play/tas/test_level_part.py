@@ -289,8 +289,6 @@ def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) ->
         column[back] += here - x[back]
     far = np.hypot(*(other.trajectory.positions - at.session.timeline.positions[10]).T)
     assert np.argmin(far) == back, "nearest by place"
-        "nearest by place"
-    )
     editor.go(11)
     at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
     assert "from its tick 11 on" in at.app.notice
