@@ -23,9 +23,11 @@ from ninja_game.search.formula.task import SpanResult
 from ninja_game.sim.inputs import Input
 from ninja_game.sim.kinds import EXIT
 from ninja_game.tas.goals import IMPROVE, PRESETS
+from ninja_game.tas_editor import span_results
 from ninja_game.tas_editor.roll.facts import BEFORE, compared, different_keys
+from ninja_game.tas_editor.span_results import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults
 from ninja_game.tas_editor.tabs import search_tab as module
-from ninja_game.tas_editor.tabs.search_tab import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SearchTab, SpanResults
+from ninja_game.tas_editor.tabs.search_tab import SearchTab
 from ninja_game.tas_editor.tabs.tab import SMALL
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.theme import Theme
@@ -273,7 +275,7 @@ def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
     row(at, tab, len(tab.found))
     task = results_of(tab).task
     assert (task.first, task.last, task.goal, task.rest) == (100, 130, goal, False)
-    assert tab.pieces[0].name == module.WITHOUT_REST
+    assert tab.pieces[0].name == span_results.WITHOUT_REST
 
 
 def test_a_taken_result_leaves_the_cursor_in_its_place_and_undo_too(at: TasDriver, tab: SearchTab) -> None:
@@ -474,9 +476,9 @@ def test_a_run_gets_shorter_by_what_the_list_says(at: TasDriver, tab: SearchTab,
 def test_a_search_is_cancelled_by_hand_and_when_the_tas_editor_is_left(
     at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert module.CLOSING_SECONDS <= 0.5, "nobody waits longer for a TAS editor to close"
+    assert span_results.CLOSING_SECONDS <= 0.5, "nobody waits longer for a TAS editor to close"
     # On a slow machine a round of trials takes longer.
-    monkeypatch.setattr(module, "CLOSING_SECONDS", LONGEST)
+    monkeypatch.setattr(span_results, "CLOSING_SECONDS", LONGEST)
     wish(at, "Greatest speed")
     first = results_of(tab)
     at.wait(lambda: first.search.ticks_run, "a search")
