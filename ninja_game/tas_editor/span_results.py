@@ -35,16 +35,14 @@ NOTHING = "The goal was not reached. More time, a longer span or another method 
 class SpanResults:
     """Runs a task in the background, and puts results into the run, while the ticks before them are unchanged.
 
-    ``better``: the results with more than the run's own keys, best first, one per route; before the goal is reached,
-    the nearest. ``every``: as of SpanSearch; None: search the whole run. ``title``: the search in a few words;
-    ``stopped``: it was cancelled. Raises as SpanSearch does.
+    ``every``: as of SpanSearch; None: search the whole run. Raises as SpanSearch does.
     """
 
     def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int | None, title: str) -> None:
         self.editor = editor
         self.task = task
-        self.title = title
-        self._begun = editor.track
+        self.title = title  #: the search in a few words
+        self._searched_track = editor.track
         timeline, jobs = editor.session.timeline, max(1, cores() - 1)
         self._to_exit = task.rest or task.goal == "won"
         timeline.simulate(len(timeline) if self._to_exit else 0)
@@ -52,7 +50,7 @@ class SpanResults:
         self._gold = int(timeline.column("gold")[end if end >= 0 else len(task.inputs) - 1]) if self._to_exit else 0
         self._others = tuple(editor.others) if every is None else ()
         self.search = (
-            self._whole(method, jobs)
+            self._search_of_run(method, jobs)
             if every is None
             else SpanSearch(task, method, jobs, every=every, memory=timeline.asked_memory)
         )
@@ -60,14 +58,15 @@ class SpanResults:
         # and of those that results were put into.
         whole = len(task.inputs) if task.rest else task.last
         self._fitting = [(task.inputs[:whole], (task.rest and task.behind) or task.last)]
+        #: Results with more than the run's own keys, best first, one per route; before the goal is reached, the nearest
         self.better: tuple[SpanResult, ...] = ()
-        self._seen: tuple[SpanResult, ...] = ()
+        self._last_results: tuple[SpanResult, ...] = ()
         self._preview: tuple[SpanResult, OtherRun] | None = None
         self.search.start()
         self._started = monotonic()
-        self.stopped = False
+        self.stopped = False  #: whether it was cancelled
 
-    def _whole(self, method: str, jobs: int) -> RunSearch:
+    def _search_of_run(self, method: str, jobs: int) -> RunSearch:
         gold = self._gold if method == IMPROVE_GOLD else 0
         return RunSearch(self.task, jobs, gold=gold, others=tuple(other.track.inputs for other in self._others))
 
@@ -84,7 +83,7 @@ class SpanResults:
         self.search.finish(CLOSING_SECONDS)
 
     @property
-    def behind(self) -> int | None:
+    def first_behind(self) -> int | None:
         """The first tick behind a result in the present run; None: it has changed, and no result fits.
 
         The ticks that follow are those that the run had after its own moment at the goal.
@@ -95,30 +94,31 @@ class SpanResults:
                 return behind
         return None
 
-    def put(self, result: SpanResult) -> bool:
+    def put_into_run(self, result: SpanResult) -> bool:
         """Put a result into the run, as one edit; whether that was possible. Branches keep the earlier run, and it.
 
         A run that has changed so that the result does not fit becomes the searched run with the result. Cursor and
         selection keep their ticks; behind the span they move with the ticks that follow it.
         """
         editor, end = self.editor, self.task.first + result.ticks
-        behind, track, taken = self.behind, editor.track, self._taken(result)
+        behind, track, contributions = self.first_behind, editor.track, self._contributions(result)
         old = behind is None
         if behind is None:
-            track, behind, taken = self._begun, self._fitting[0][1], self._begun.made + taken
+            track, behind = self._searched_track, self._fitting[0][1]
+            contributions = track.made + contributions
         cursor, anchor = editor.cursor, editor.anchor
-        made = self._made(track, result, behind)
-        if made.inputs == editor.track.inputs:
+        new_track = self._track_with(track, result, behind)
+        if new_track.inputs == editor.track.inputs:
             return True
         editor.session.keep_version(f"before {self.title}")
         editor.places[editor.track] = cursor, anchor
-        edited = self._whose(result) is not None  # a person's keys were taken, no search has found them
-        if not editor.attempt(lambda: editor.session.change(made, taken=taken, whole=old, edited=edited)):
+        edited = self._equal_run(result) is not None  # a person's keys were taken, no search has found them
+        if not editor.attempt(lambda: editor.session.change(new_track, taken=contributions, whole=old, edited=edited)):
             return False
         editor.session.keep_version(self.title)
         if old:
             editor.app.notify("The run as it was searched, with this result. Undo, or Branches, has yours")
-        self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
+        self._fitting.append((new_track.inputs if self.task.rest else new_track.inputs[:end], end))
         if not isinstance(self.search, RunSearch):  # a result for a whole run replaces all ticks
 
             def moved(tick: int) -> int:
@@ -128,7 +128,7 @@ class SpanResults:
             editor.go(moved(cursor), select=anchor is not None)
         return True
 
-    def _whose(self, result: SpanResult) -> OtherRun | None:
+    def _equal_run(self, result: SpanResult) -> OtherRun | None:
         """The other run that equals a result, if any."""
         if result.own_route or not result.inputs:
             return None
@@ -136,7 +136,7 @@ class SpanResults:
         same = (other for other in self._others if with_press_bits(fit_inputs(other.track.inputs, ticks)) == keys)
         return next(same, None)
 
-    def _like(self, result: SpanResult) -> str:
+    def _nearest_run(self, result: SpanResult) -> str:
         """The other run whose route is nearest to that of a result, in words."""
 
         def apart(other: OtherRun) -> float:
@@ -145,16 +145,16 @@ class SpanResults:
 
         return f"like {min(self._others, key=apart).name}"
 
-    def _taken(self, result: SpanResult) -> Contributions:
+    def _contributions(self, result: SpanResult) -> Contributions:
         """The contributions to a result: the search, and the authors whose routes may be in it."""
-        whose = self._whose(result)
-        if whose is not None:
-            return whose.made
+        equal = self._equal_run(result)
+        if equal is not None:
+            return equal.made
         routes = () if result.own_route else self._others
         command = "improve" if isinstance(self.search, RunSearch) else "search"
         return sum((other.made for other in routes), Contributions(commands=(command,)))
 
-    def _made(self, track: InputTrack, result: SpanResult, behind: int) -> InputTrack:
+    def _track_with(self, track: InputTrack, result: SpanResult, behind: int) -> InputTrack:
         """The run with a result in it; with ``rest``, the run that reached the exit in the search."""
         first, keys = self.task.first, result.keys[: result.ticks].tolist()
         if self.task.goal == "won":  # keys behind an exit would take the run's claims away
@@ -163,14 +163,14 @@ class SpanResults:
         if not self.task.rest:
             return track.replaced(first, behind, keys)
         end = int(min(result.score, len(result.inputs)))  # no keys behind the exit, if it is reached
-        made = track.replaced(first, behind, keys)
-        return InputTrack(track.inputs[:first] + result.inputs[first:], made.markers).up_to(end)
+        new_track = track.replaced(first, behind, keys)
+        return InputTrack(track.inputs[:first] + result.inputs[first:], new_track.markers).up_to(end)
 
     def is_in_run(self, result: SpanResult) -> bool:
-        ours, theirs = self.editor.track.inputs, result.inputs
-        return first_difference(ours, theirs) == min(len(ours), len(theirs))
+        ours, searched = self.editor.track.inputs, result.inputs
+        return first_difference(ours, searched) == min(len(ours), len(searched))
 
-    def looked_at(self, result: SpanResult) -> OtherRun:
+    def shown_run(self, result: SpanResult) -> OtherRun:
         if self._preview is None or self._preview[0] is not result:
             self._preview = result, self.editor.other_run("the result", InputTrack(result.inputs))
         return self._preview[1]
@@ -181,9 +181,9 @@ class SpanResults:
         results, miss = self.search.results, self.search.miss
         if not results and miss is not None:
             self.better = (miss,)
-        if [*map(id, results)] == [*map(id, self._seen)]:  # each report of a search is a new tuple
+        if [*map(id, results)] == [*map(id, self._last_results)]:  # each report of a search is a new tuple
             return
-        self._seen, own = results, self.search.own
+        self._last_results, own = results, self.search.own
         if own is not None:
             self._fitting[0] = self._fitting[0][0], self.task.first + own.ticks
         # Results of a whole run are those that no other beats.
@@ -200,12 +200,12 @@ class SpanResults:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
         own, words = self.search.own, score_text(self.task, result)
         if result.missed_by == 0.0:
-            words += f": {self.looked_at(result).ending}"
+            words += f": {self.shown_run(result).ending}"
         if self._to_exit and result.missed_by is None and result.gold != self._gold:  # of the run as it was
             words += f", {abs(self._gold - result.gold)} gold {'fewer' if result.gold < self._gold else 'more'}"
         if self._others:
-            whose = self._whose(result)
-            route = "own route" if result.own_route else f"this is {whose.name}" if whose else self._like(result)
+            equal = self._equal_run(result)
+            route = "own route" if result.own_route else f"this is {equal.name}" if equal else self._nearest_run(result)
             words = f"{words.removeprefix('exit in ')}, {route}"  # long names are truncated, gold is not
         gain = "new" if result.missed_by is None else "a miss"
         if own is not None:
@@ -240,15 +240,15 @@ class SpanResults:
     @property
     def advice(self) -> str:
         """What the nearest miss lacks, and what to try; "" while there is something better."""
-        miss = next((each for each in self.better if each.missed_by is not None), None)
+        miss = next((result for result in self.better if result.missed_by is not None), None)
         if miss is None:
             return ""
-        last, ending = self.task.first + miss.ticks - 1, self.looked_at(miss).ending
+        last, ending = self.task.first + miss.ticks - 1, self.shown_run(miss).ending
         if miss.missed_by == 0.0:
             return f"With what follows the goal, {ending}. Try: {WITHOUT_REST.lower()}; or Same end, sooner."
         lacks = ", ".join(miss.missing) or score_text(self.task, miss).removeprefix("closest: ").partition(" after ")[0]
-        shut = f"; {ending}" * ("untouched" in ending and "won" in self.task.goal)
+        shut = f"; {ending}" if "untouched" in ending and "won" in self.task.goal else ""
         late = miss.ticks > 0.9 * self.task.length
-        part = "; or a part of the goal alone" * bool(miss.missing)
-        where = "a longer span, it is nearest at its end" if late else "an earlier first tick"
-        return f"Missing after tick {last}: {lacks}{shut}. Try: {where}{part}."
+        part = "; or a part of the goal alone" if miss.missing else ""
+        remedy = "a longer span, it is nearest at its end" if late else "an earlier first tick"
+        return f"Missing after tick {last}: {lacks}{shut}. Try: {remedy}{part}."

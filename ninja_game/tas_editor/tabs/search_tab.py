@@ -93,21 +93,21 @@ class SearchTab(Tab):
     def __init__(self, editor: TasEditor) -> None:
         super().__init__(editor)
         self.span: Span = (0, 0)
-        self._behind = 0
-        self._why = ""
-        self._taken: Span = (0, 0)
+        self._first_behind = 0  #: the first tick that follows the goal in the run
+        self._span_reason = ""  #: why the span is not the selection
+        self._last_selection: Span = (0, 0)  #: of which the span was made
         self.order = EARLIEST
-        self.rest = False
+        self.rest = False  #: whether what follows the goal is played, too
         self.method = "auto"
         self.results: SpanResults | None = None
         self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal, str] | None = None
-        self.found: tuple[SpanResult, ...] = ()
+        self.better: tuple[SpanResult, ...] = ()
         self.earlier: list[tuple[SpanResults, SpanResult]] = []
         self._rows: list[tuple[SpanResults, SpanResult] | RunPiece] = []
-        self.pieces: tuple[RunPiece, ...] = ()
-        self._in_pieces: Span | None = None
-        self._cut: InputTrack | None = None
-        self._asked: InputTrack | None = None
+        self.pieces: tuple[RunPiece, ...] = ()  #: proposed parts of the span
+        self._pieced_span: Span | None = None
+        self._cut_track: InputTrack | None = None  #: the run that was cut into these pieces
+        self._asked_track: InputTrack | None = None  #: the run whose splits were last asked for
         self._splits = NewestJob[Cut, Splits](lambda cut: (cut[0], run_splits(cut[1], tuple(GOALS)).splits))
         fields = ("x > 400, taken(12), distance(300, 200) < 6 ...", "speed; vx, y, gold ...")
         self.goal, self.measure = (
@@ -117,7 +117,7 @@ class SearchTab(Tab):
         self._forget = Button(UNPLACED, "", self.earlier.clear, size=8, hint="The results of earlier searches")
         self.list = Rows(
             self._draw_row,
-            self._put,
+            self._use_row,
             keeps=False,
             hint="Under the mouse: its path in the level; a click puts it into the run",
         )
@@ -125,12 +125,12 @@ class SearchTab(Tab):
             Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL),
             Button(UNPLACED, "Presets", self.propose, size=SMALL, hint="Common goals, to begin with"),
             self.goal,
-            Choice(UNPLACED, "", _ORDERS, lambda: self.order, self._put_order,
+            Choice(UNPLACED, "", _ORDERS, lambda: self.order, self._set_order,
                    hint="Best is what reaches the goal first, or has the most or least of the value beside this"),
             self.measure,
-            Choice(UNPLACED, "", _RESTS, lambda: self.rest, self._put_rest,
+            Choice(UNPLACED, "", _RESTS, lambda: self.rest, self._set_rest,
                    hint="What follows the goal in the run is played, too, and must still reach the exit"),
-            Choice(UNPLACED, "", _METHODS, lambda: self.method, self._put_method,
+            Choice(UNPLACED, "", _METHODS, lambda: self.method, self._set_method,
                    hint="Beam: many states at once; small changes: of the keys there; all keys: short spans only"),
             self._button,
             self._forget,
@@ -148,18 +148,18 @@ class SearchTab(Tab):
             widget.area = area
 
     def commands(self) -> Commands:
-        return {"search": self.ask}
+        return {"search": self.focus_goal}
 
     # --- the task ---
 
-    def ask(self) -> None:
+    def focus_goal(self) -> None:
         """Show this tab for the selected ticks, with the focus on the goal; without new ones it stays as it is."""
         self._follow_selection()
         self.editor.tab = self.name
         self.wants = self.goal
 
     def _follow_selection(self) -> None:
-        if self.editor.anchor is not None or self.editor.selection != self._taken:
+        if self.editor.anchor is not None or self.editor.selection != self._last_selection:
             self.use_selection()
 
     def use_selection(self) -> None:
@@ -167,15 +167,15 @@ class SearchTab(Tab):
 
         A goal from the menu is made again for them; one with its own ticks, up to the exit, stays.
         """
-        first, last = self._taken = self.editor.selection
+        first, last = self._last_selection = self.editor.selection
         second = min(first + TICKS_PER_SECOND, max(len(self.editor.track), last))
-        before, self.span = (self.span, self._why), (first, last if last > first + 1 else second)
-        self._behind, self._why = 0, ""
+        before, self.span = (self.span, self._span_reason), (first, last if last > first + 1 else second)
+        self._first_behind, self._span_reason = 0, ""
         self.method = "auto" if self.method in IMPROVES else self.method
         if before == (self.span, ""):
             return
         if self.results is not None and not self.results.running:
-            self._put_away()
+            self._end_search()
         if self._preset is not None and self._is_from_menu:
             make, _, name = self._preset
             self._fill(name, make if self.goal.text != "won" else lambda _: SpanGoal())
@@ -205,8 +205,8 @@ class SearchTab(Tab):
         self.order = EARLIEST if not goal.measure else SMALLEST if goal.least else GREATEST
         self.rest = goal.rest
         self.method = goal.method or ("auto" if self.method in IMPROVES else self.method)
-        first, self._behind = self.span
-        self.span, self._why = (0 if goal.method else first, goal.last or self._behind), goal.why
+        first, self._first_behind = self.span
+        self.span, self._span_reason = (0 if goal.method else first, goal.last or self._first_behind), goal.why
         if start:
             self.start()
 
@@ -215,17 +215,17 @@ class SearchTab(Tab):
         if self.method in IMPROVES:
             self.use_selection()
 
-    def _put_method(self, method: str) -> None:
+    def _set_method(self, method: str) -> None:
         """Set a method; the span that is no longer the whole run becomes the selection."""
-        left, self.method = self.method, method
-        if left in IMPROVES and method not in IMPROVES:
+        old, self.method = self.method, method
+        if old in IMPROVES and method not in IMPROVES:
             self.use_selection()
 
-    def _put_order(self, order: str) -> None:
+    def _set_order(self, order: str) -> None:
         self.order = order
         self.rest = self.rest and order == EARLIEST
 
-    def _put_rest(self, rest: bool) -> None:
+    def _set_rest(self, rest: bool) -> None:
         self.rest = rest
         self.order = EARLIEST if rest else self.order
 
@@ -236,27 +236,26 @@ class SearchTab(Tab):
         measure = "" if self.order == EARLIEST else self.measure.text.strip() or "speed"
         return SpanTask(
             session.origin.level, session.track.inputs, first, last, self.goal.text.strip(), measure,
-            least=self.order == SMALLEST, rest=self.rest, body=session.origin.body, behind=self._behind,
+            least=self.order == SMALLEST, rest=self.rest, body=session.origin.body, behind=self._first_behind,
         )  # fmt: skip
 
-    @property
-    def _whole_task(self) -> SpanTask:
-        """The whole run, to be shortened. Raises ArgumentError for one that is too long, or empty."""
+    def _span_whole_run(self) -> SpanTask:
+        """Make the whole run the span, to be shortened. Raises ArgumentError for one that is too long, or empty."""
         session = self.editor.session
         session.timeline.simulate(len(session.timeline))
         goal = whole_run(SearchedSpan(session, *self.span))
-        self.span, self._why = (0, goal.last), goal.why
+        self.span, self._span_reason = (0, goal.last), goal.why
         return SpanTask(session.origin.level, session.track.inputs, *self.span, "won", body=session.origin.body)
 
     # --- the search ---
 
     def start(self) -> None:
         """Search; a running search ends. Errors are reported."""
-        self._put_away()
+        self._end_search()
         self.list.over = -1
         try:
             whole = self.method in IMPROVES
-            task = self._whole_task if whole else self.task
+            task = self._span_whole_run() if whole else self.task
             if not (task.goal or task.measure or task.rest):
                 raise ArgumentError("Say what for: a goal, or a value that is to be the greatest or smallest")
             every = None if whole else fewest_ticks(task.length) if self.method == "exhaustive" else 1
@@ -283,18 +282,18 @@ class SearchTab(Tab):
         return True
 
     def close(self) -> None:
-        self._put_away()
+        self._end_search()
         self.earlier.clear()
         self._fill_list()
 
-    def _put_away(self) -> None:
+    def _end_search(self) -> None:
         """End the search; its results join those of earlier ones."""
         if self.results is not None:
             self.results.close()
-            found = [each for each in self.results.better if each.missed_by is None]
-            self.earlier[:0] = [(self.results, each) for each in found]
-        self.results, self.found = None, ()
-        self.pieces, self._in_pieces, self._cut = (), None, None
+            reached = [result for result in self.results.better if result.missed_by is None]
+            self.earlier[:0] = [(self.results, result) for result in reached]
+        self.results, self.better = None, ()
+        self.pieces, self._pieced_span, self._cut_track = (), None, None
         self._fill_list()
 
     def update(self, real_ms: int) -> None:
@@ -302,17 +301,17 @@ class SearchTab(Tab):
             self.use_selection()
         results = self.results
         if results is not None:
-            if results.behind is None and results.running:
+            if results.first_behind is None and results.running:
                 results.stop()
             results.refresh()
-            self.found = results.better
+            self.better = results.better
             self._propose_pieces(results)
-        self._forget.enabled, self._forget.text = bool(self.earlier), FORGET * bool(self.earlier)
+        self._forget.enabled, self._forget.text = bool(self.earlier), FORGET if self.earlier else ""
         self._fill_list()
 
     def _fill_list(self) -> None:
         results = self.results
-        self._rows = [*((results, each) for each in self.found if results), *self.pieces, *self.earlier]
+        self._rows = [*((results, result) for result in self.better if results), *self.pieces, *self.earlier]
         self.list.fill(self._rows)
 
     @property
@@ -321,8 +320,8 @@ class SearchTab(Tab):
         row = rows[over] if 0 <= over < len(rows) else None
         if row is None or isinstance(row, RunPiece) or row[0].is_in_run(row[1]):
             return None  # a result in the run is visible as a change
-        results, found = row
-        return results.looked_at(found)
+        results, result = row
+        return results.shown_run(result)
 
     def _propose_pieces(self, results: SpanResults) -> None:
         """When a search for an earlier end has found nothing for a while, propose the pieces of its span.
@@ -331,62 +330,62 @@ class SearchTab(Tab):
         """
         search, task, whole = results.search, results.task, self.method in IMPROVES
         late = search.ticks_run and (search.seconds > PATIENCE or not (results.running or results.stopped))
-        nothing = late and all(run.missed_by is not None for run in self.found)
+        nothing = late and all(run.missed_by is not None for run in self.better)
         sooner = not task.measure and (search.own is not None or task.rest or "won" in task.goal)
-        if self._in_pieces is None and nothing and sooner and not whole and results.behind is not None:
-            self._in_pieces = self.span
-        session, track, known = self.editor.session, self.editor.track, self._splits.result
-        if self._in_pieces is None or self._cut is track:
+        if self._pieced_span is None and nothing and sooner and not whole and results.first_behind is not None:
+            self._pieced_span = self.span
+        session, track, splits = self.editor.session, self.editor.track, self._splits.result
+        if self._pieced_span is None or self._cut_track is track:
             return
         self.pieces = ()
-        if known is not None and known[0] is track:
-            pieces = pieces_of(SearchedSpan(session, *self._in_pieces), known[1])
-            if task.rest and task.goal and self._in_pieces[1] <= len(track):
-                pieces.insert(0, RunPiece(*self._in_pieces, WITHOUT_REST, SpanGoal(task.goal)))
-            self._cut, self.pieces = track, tuple(pieces)
-        elif self._asked is not track:
-            self._asked = track
+        if splits is not None and splits[0] is track:
+            pieces = pieces_of(SearchedSpan(session, *self._pieced_span), splits[1])
+            if task.rest and task.goal and self._pieced_span[1] <= len(track):
+                pieces.insert(0, RunPiece(*self._pieced_span, WITHOUT_REST, SpanGoal(task.goal)))
+            self._cut_track, self.pieces = track, tuple(pieces)
+        elif self._asked_track is not track:
+            self._asked_track = track
             self._splits.ask((track, session.recording()))  # in a thread: runs may be long
 
-    def _put(self, index: int) -> None:
+    def _use_row(self, index: int) -> None:
         """Use a result, or search a piece; the others stay for later."""
         row = self._rows[index]
         if isinstance(row, RunPiece):
-            kept = self._in_pieces, self._cut, self.pieces
+            proposed = self._pieced_span, self._cut_track, self.pieces
             self.span = row.first, row.last
             self._fill(row.name, lambda _: row.wanted, start=True)
-            self._in_pieces, self._cut, self.pieces = kept
+            self._pieced_span, self._cut_track, self.pieces = proposed
         else:
-            results, found = row
-            results.put(found)
+            results, result = row
+            results.put_into_run(result)
 
     # --- picture ---
 
     def render_key(self) -> tuple[object, ...]:
         results, state = self.results, tuple[object, ...]((len(self.earlier), self.editor.track))
         if results:
-            state += (results.status, results.running, results.behind, self.pieces, *map(id, self.found))
+            state += (results.status, results.running, results.first_behind, self.pieces, *map(id, self.better))
         wanted = self.order, self.rest, self.goal.text
-        return self.span, self._why, self.editor.selection, *wanted, self.list.over, state
+        return self.span, self._span_reason, self.editor.selection, *wanted, self.list.over, state
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
         palette, results, (x, y, w, h) = theme.palette, self.results, self.area
         first, last = self.span
         theme.text(surface, f"Ticks {first} to {last - 1}", x + 6, y + 8, size=11, bold=True, width=120)
-        if self._why or (self.span != self.editor.selection and self.editor.anchor is not None):
-            why = self._why or "not the selection"
+        if self._span_reason or (self.span != self.editor.selection and self.editor.anchor is not None):
+            why = self._span_reason or "not the selection"
             theme.text(surface, why, x + 132, y + 9, size=SMALL, colour=palette.faint, width=w - 318)
         theme.text(surface, "Goal", x + 6, y + 29, size=11)
         self._button.text = "Stop" if results is not None and results.running else "Start"
         status, colour = "Enter in the goal starts, too", palette.faint
         if results is not None:
             status, colour = results.status, palette.bad if results.search.problem else palette.text
-            if results.behind is None:
+            if results.first_behind is None:
                 status, colour = "edited since: a click takes it as it was", palette.bad
         theme.text(surface, status, x + 222, y + 72, size=SMALL, colour=colour, width=w - 226)
         note = PIECES if self.pieces else results.note if results else "" if self.earlier else _EXPLAINED
-        if self.found:
+        if self.better:
             for at, head in zip(self._cells(self.list.row_area(0)), _HEADS, strict=True):
                 theme.text(surface, head, at, y + 88, size=8, colour=palette.faint)
         elif self.list.count:
@@ -410,10 +409,10 @@ class SearchTab(Tab):
             self._draw_piece(surface, theme, row, area)
             return
         x, y, w, _h = area
-        results, found = row
+        results, result = row
         widths: tuple[float, ...] = (w - _LEFT - _COLUMNS[0] - 4, *_WIDTHS)
-        palette, fits = theme.palette, results.behind is not None
-        *cells, gain = results.words(found)
+        palette, fits = theme.palette, results.first_behind is not None
+        *cells, gain = results.words(result)
         if results is not self.results:
             cells, widths = [f"earlier: {results.title}: {cells[0]}"], (w - _LEFT - 90,)
         for at, cell, width in zip(self._cells(area), cells, widths, strict=False):
@@ -426,8 +425,8 @@ class SearchTab(Tab):
     def _draw_piece(self, surface: pygame.Surface, theme: Theme, piece: RunPiece, area: Area) -> None:
         x, y, w, _ = area
         ticks = f"ticks {piece.first} to {piece.last - 1}"
-        now = (piece.first, piece.last) == self.span and piece.wanted.rest == self.rest
-        theme.text(surface, piece.name, x + _LEFT, y + 3, size=SMALL, bold=now, width=w - _COLUMNS[0] - _LEFT)
+        searched = (piece.first, piece.last) == self.span and piece.wanted.rest == self.rest
+        theme.text(surface, piece.name, x + _LEFT, y + 3, size=SMALL, bold=searched, width=w - _COLUMNS[0] - _LEFT)
         theme.text(surface, ticks, x + w - _COLUMNS[0], y + 3, size=SMALL, width=104)
-        what = "is searched" if now else "search it"
-        theme.text(surface, what, x + w - 6, y + 3, size=SMALL, align="right", colour=theme.palette.faint)
+        click = "is searched" if searched else "search it"
+        theme.text(surface, click, x + w - 6, y + 3, size=SMALL, align="right", colour=theme.palette.faint)
