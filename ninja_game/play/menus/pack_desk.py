@@ -295,7 +295,7 @@ class PackDesk(ThumbnailScreen):
         super().leave()
         self.held = self.pointer = None
         if not self.packer.busy:
-            self.packer.left()
+            self.packer.drop_notices()
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
         landing, held = self._landing(), self.held.level if self.held else None

@@ -34,10 +34,10 @@ def problems(desk: PackDesk) -> list[Problem] | None:
     pack, status = desk.pack and desk.pack.pack, desk.status
     if pack is None:
         return []
-    if status.now is None:
+    if status.present is None:
         return None
-    rows = [_problem(desk, pack, finding) for finding in status.now.findings]
-    to_do, well = status.to_do(), "Nothing is wrong" * (not status.now.problems)
+    rows = [_problem(desk, pack, finding) for finding in status.present.findings]
+    to_do, well = status.to_do(), "Nothing is wrong" * (not status.present.problems)
     step, go, hint = "Make ready", partial(make_ready, desk), _STOPS if to_do else "It writes the zip and the link."
     if desk.zipped and desk.packer.fresh and not to_do:
         step, go, hint = "Copy the link", partial(copy_the_link, desk), f"Or send the zip: {short_path(desk.zipped)}"

@@ -173,10 +173,10 @@ class PackScreen(PackDesk):
             return ["It goes on when you leave this screen.", "Stop keeps what was found."]
         if packer.fresh and self.zipped:
             return ["Send the zip or the link: a link is pasted, a zip dropped, in Levels > Packs."]
-        if pack.received or not status.now:
+        if pack.received or not status.present:
             return []
-        if status.now.problems:
-            return [f"{counted(len(status.now.problems), 'problem')} to mend: Problems, above, shows the place."]
+        if status.present.problems:
+            return [f"{counted(len(status.present.problems), 'problem')} to mend: Problems, above, shows the place."]
         if status.to_do():
             return ["Next: Make ready, at the top right."]
         return ["Nothing is wrong: Make ready writes the zip and the link."]

@@ -70,7 +70,7 @@ def opened(driver: MenuDriver) -> PackScreen:
 
 def problems_of(driver: MenuDriver, screen: PackScreen) -> Sequence[Problem]:
     """The problems of the shown pack, once they are known."""
-    driver.wait(lambda: pack_sharing.problems(screen) is not None and screen.status.now, "the problems are known")
+    driver.wait(lambda: pack_sharing.problems(screen) is not None and screen.status.present, "the problems are known")
     return pack_sharing.problems(screen) or []
 
 
@@ -435,7 +435,7 @@ def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(drive
     driver.shown(EditorScreen).session.close()
     driver.app.pop()
     assert not [each for each in screen.widgets if getattr(each, "text", "") == "New level..."]
-    driver.wait(lambda: screen.status.now, "the problems are known")
+    driver.wait(lambda: screen.status.present, "the problems are known")
     assert "to mend: Problems, above" in drawn(driver.app)
     screen.choose(screen.shelves.cells[2])
     assert driver.shown(FormPanel).title == "New level: its name"
@@ -493,7 +493,7 @@ def test_a_pack_is_made_ready_in_the_background(
     foot = driver.app.canvas.point(0, 551)[1], driver.app.canvas.stage.bottom
     assert foot[0] <= notice.top < notice.bottom <= foot[1], "the state of the pack is read meanwhile"
     assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
-    driver.wait(lambda: screen.status.now, "the problems are known")
+    driver.wait(lambda: screen.status.present, "the problems are known")
     driver.choose("Problems")
     assert driver.app.notice == "", "what is said there goes with the screen"
     assert [problem.step for problem in problem_page(driver).problems] == ["Make ready"]
@@ -632,7 +632,7 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
     monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
     screen = opened(driver)
     path_of_level = str(path / "00-0-first-steps.txt")
-    driver.wait(lambda: screen.status.now, "the problems are known")
+    driver.wait(lambda: screen.status.present, "the problems are known")
     assert screen.status.checked
     assert path_of_level not in screen.status.checked.places, "nobody has looked for a run yet"
     driver.choose("Make ready")
@@ -702,11 +702,11 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     stale = [cell.level.title for cell in screen.shelves.cells if cell.level and cell.level.pars is None]
     assert stale == ["Mind the Gap"]
     assert screen.status.counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
-    driver.wait(lambda: screen.status.now, "the problems are known")
+    driver.wait(lambda: screen.status.present, "the problems are known")
     assert [screen.status.state(cell.level) for cell in screen.shelves.cells if cell.level][1] == "changed"
     packs.place(path, [packs.new_level(path, "Empty", "me")], 1)
     screen.enter()
-    driver.wait(lambda: screen.status.now, "the problems are known")
+    driver.wait(lambda: screen.status.present, "the problems are known")
     assert screen.status.counts().startswith("9 levels in 2 episodes. Make ready will certify 2 levels")
     [entry] = [each.level for each in screen.shelves.cells if each.level and each.level.title == "Empty"]
     assert screen.status.state(entry) == "no run yet"
@@ -870,7 +870,7 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         assert not screen.mine
         driver.choose("Paste link")
         assert "Laundry is among your packs now" in driver.app.notice
-        driver.wait(lambda: screen.status.now, "the problems are known")
+        driver.wait(lambda: screen.status.present, "the problems are known")
         work = "Make ready will look for all gold in 8 levels"
         assert screen.status.counts() == f"8 levels in 2 episodes. {work}. 0 problems"
         assert screen.status.checked
