@@ -55,11 +55,8 @@ TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]
 class App:
     """The window with its stack of screens.
 
-    ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
-    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``: opens a
-    run in the TAS editor, at a tick, with other runs to compare; None where there is no TAS editor, as in a page.
-    ``mood``: the present mood. ``menu_theme``: the theme of menus over a level. ``size``: px of the window; ``window``:
-    a window that is open already. Raises NinjaGameError where there is no display.
+    ``size``: px of the window; ``window``: a window that is open already. Raises NinjaGameError where there is no
+    display.
     """
 
     def __init__(
@@ -72,11 +69,12 @@ class App:
         tas_editor: TasEditorOpener | None = None,
         window: Window | None = None,
     ) -> None:
-        self.player = player
-        self.controls = controls
+        self.player = player  #: its settings are changed by ``change_settings``
+        self.controls = controls  #: keys to actions
         self.audio_output = audio_output
         self._hand_on(self.settings)
-        self.overclock = 0
+        self.overclock = 0  #: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1)
+        #: Opens a run in the TAS editor, at a tick, with others to compare; None where there is none, as in a page
         self.tas_editor = tas_editor
         self.stack = ScreenStack()
         self.aside: list[Aside] = []

@@ -15,26 +15,19 @@ if TYPE_CHECKING:
 
 
 class Screen:
-    """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does.
+    """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does."""
 
-    ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
-    app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
-    comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written. ``hides_game``:
-    it shows that nobody plays, and no notice. ``foot_high``: px at the foot that notices leave free.
-    ``small_notices``: those of one line are as high as a border.
-    """
-
-    see_through = False
-    wipes = True
-    below_runs = False
-    plays = False
-    hides_game = False
-    small_notices = False
-    foot_high = 1.0
+    see_through = False  #: whether the screen below is drawn first
+    wipes = True  #: whether it comes and goes with a wipe
+    below_runs = False  #: whether the screen below is updated too
+    plays = False  #: whether a level is played in it, over which nothing is to be written
+    hides_game = False  #: whether it shows that nobody plays, and no notice
+    small_notices = False  #: whether notices of one line are as high as a border
+    foot_high = 1.0  #: px at the foot that notices leave free
 
     def __init__(self, app: App) -> None:
         self.app = app
-        self.redraw = True
+        self.redraw = True  #: set by the app when the whole window must be drawn again (resized, uncovered, recoloured)
 
     @property
     def theme(self) -> Theme:

@@ -43,11 +43,11 @@ def hud_view(play: LevelPlay) -> HudView:
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.messages.text
     # The text of the start, and the one for a player who is stuck, stay in place and may cover open space.
     covers = play.messages.is_start or "\n" in text
-    place, came = play.messages.place, play.about
+    place, spot = play.messages.place, play.message_spot
     # A text with a place lies beside it, and never over the ninja that has just come there.
-    things = (*play.things, (*came, MUST)) if place and came else play.things
-    where = context.level.tiles, things, place or came, covers, place is not None
-    message_said = PlacedMessage(named_keys(text, key), *where) if text else None
+    things = (*play.things, (*spot, MUST)) if place and spot else play.things
+    layout = context.level.tiles, things, place or spot, covers, place is not None
+    message = PlacedMessage(named_keys(text, key), *layout) if text else None
     if play.phase is Phase.DEAD:
         cause, help_text = cause_of_death(play)
         end = EndPanel(cause, [*filter(None, [help_text]), _after_death(play, key)], *_covering(play))
@@ -73,7 +73,7 @@ def hud_view(play: LevelPlay) -> HudView:
         pars=_pars_ahead(play),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
-        said=message_said,
+        message=message,
         moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
         letters=[key(name) for name in ("left", "jump", "right")],
         end=end,
@@ -81,10 +81,10 @@ def hud_view(play: LevelPlay) -> HudView:
         medal=play.medal,
         stamp=play.stamp,
         shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
-        seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
+        end_opacity=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
         ninja=play.ninja_place(),
         softly=not settings.reduced_motion,
-        said_seen=1.0 if settings.reduced_motion else play.messages.seen,
+        message_opacity=1.0 if settings.reduced_motion else play.messages.opacity,
     )
 
 
@@ -100,7 +100,7 @@ def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
 
 def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
     """Tiles and things that the panel of an ended run should not cover; it never covers the end or an exit."""
-    x, y = play.about or (0.0, 0.0)
+    x, y = play.message_spot or (0.0, 0.0)
     end = [(x + dx, y + dy, 9 * MUST) for dx in (-_END_ROOM, 0, _END_ROOM) for dy in (-_END_ROOM, 0, _END_ROOM)]
     exits = [(o.x, o.y, 9 * MUST) for o in play.attempt.simulation.world.objects[1:] if o.kind == EXIT]
     return play.context.level.tiles, (*end, *exits, *play.things)
