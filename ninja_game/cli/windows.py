@@ -10,7 +10,8 @@ import click
 from ninja_game.cli import options
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App, Screen
+    from ninja_game.play.app import App
+    from ninja_game.play.screen import Screen
 
 
 @click.command()

@@ -93,25 +93,22 @@ def map_of(tries: Iterable[Try]) -> TestMap:
 
 @dataclass(eq=False)
 class Certification:
-    """The solver's work on a level: ``run``, the best one found, and its ``route``; ``full``: the best with all gold.
-
-    ``progress``: the newest one, None until the solver is ready. ``end``: why it is over, "" before that, and
-    ``failed``: whether by an error; ``obstacles``: why it found no run in all its ``seconds``. ``then``: called at the
-    end, in the solver's thread. ``stopping``: set to end it. Obstacles of a run are the doors that it leaves closed.
-    """
+    """The solver's work on a level."""
 
     level: Level | None = None
-    run: Replay | None = None
-    route: PathPoints = ()
-    progress: Progress | None = None
+    run: Replay | None = None  #: the best one that was found
+    route: PathPoints = ()  #: of that run
+    progress: Progress | None = None  #: the newest one; None until the solver is ready
     began: float = field(default_factory=monotonic)
-    end: str = ""
-    seconds: float = 0.0
-    obstacles: tuple[Finding, ...] = ()
-    full: Replay | None = None
-    then: Callable[[Certification], object] | None = None
-    failed: bool = False
-    stopping: Event = field(default_factory=Event)
+    end: str = ""  #: why it is over; "" before that
+    seconds: float = 0.0  #: for the search
+    obstacles: tuple[
+        Finding, ...
+    ] = ()  #: why it found no run in all its seconds, or the doors that its run leaves closed
+    full: Replay | None = None  #: the best run with all gold
+    then: Callable[[Certification], object] | None = None  #: called at the end, in the solver's thread
+    failed: bool = False  #: whether an error ended it
+    stopping: Event = field(default_factory=Event)  #: set to end it
 
     def take(self, run: Replay) -> None:
         """Keep a run of the level if it is the fastest, or the fastest with all gold."""

@@ -270,7 +270,9 @@ class _Lines:
         """Keep the lines of objects that remain, in order, and insert new objects between them."""
         read = {number: read_object_line(line) for number, line in self.listed}
         tiles = [number for number, entries in read.items() if entries and isinstance(entries[0], OddTile)]
-        end = self._end_of_picture()
+        end = self.rows[-1][0]
+        while end < len(self.lines) and _RULER.fullmatch(self.lines[end]):
+            end += 1
         if writer.tile_lines(self.opened.level) != writer.tile_lines(self.draft.level):
             self.replaced |= {number: [] for number in tiles}
             self.after[end] += writer.tile_lines(self.draft.level)
@@ -310,12 +312,6 @@ class _Lines:
         if mark and lines:
             lines[-1] += f"  ;{comment}"
         return lines
-
-    def _end_of_picture(self) -> int:
-        number = self.rows[-1][0]
-        while number < len(self.lines) and _RULER.fullmatch(self.lines[number]):
-            number += 1
-        return number
 
     def _count_drawn(self, listed: int) -> int:
         """How many of the first objects only the picture makes: as many as before, if possible."""

@@ -44,14 +44,12 @@ Values = Mapping[str, str | int | Sequence[str]]
 
 
 class Step(NamedTuple):
-    """``texts``: by folder and name of each changed file, before and after; None for a missing file.
+    """A change of packs that can be undone."""
 
-    ``moved``: folders, from and to.
-    """
-
-    what: str
+    name: str
+    #: By folder and name of a changed file: its bytes before and after; None for a missing file
     texts: dict[tuple[Path, str], tuple[bytes | None, bytes | None]]
-    moved: list[tuple[Path, Path]]
+    moves: list[tuple[Path, Path]]  #: folders, from and to
 
 
 _step: ContextVar[Step | None] = ContextVar("step", default=None)
@@ -61,18 +59,18 @@ _step: ContextVar[Step | None] = ContextVar("step", default=None)
 class Steps(list[Step]):
     """The last dozen steps, in memory."""
 
-    def do(self, what: str, action: Callable[[], object]) -> bool:
+    def run(self, name: str, action: Callable[[], object]) -> bool:
         """Change packs by the functions here; whether anything changed. Raises as ``action`` does.
 
         Changes before an error are a step too.
         """
-        step = Step(what, {}, [])
+        step = Step(name, {}, [])
         token = _step.set(step)
         try:
             action()
         finally:
             _step.reset(token)
-            changed = bool(step.moved) or any(old != new for old, new in step.texts.values())
+            changed = bool(step.moves) or any(old != new for old, new in step.texts.values())
             if changed:
                 self[:] = [*self, step][-12:]
         return changed
@@ -84,22 +82,22 @@ class Steps(list[Step]):
         """
         if not self:
             raise NinjaGameError("there is nothing to undo")
-        what, texts, moved = self[-1]
-        changed = [name for (folder, name), known in texts.items() if _text(folder / name) not in known]
-        changed += [old_place.name for old_place, _ in moved if old_place.exists()]
+        step_name, texts, moves = self[-1]
+        changed = [name for (folder, name), versions in texts.items() if _text(folder / name) not in versions]
+        changed += [old_place.name for old_place, _ in moves if old_place.exists()]
         if changed:
             self.pop()
-            raise NinjaGameError(f"{what}: not undone, as {changed[0]} was changed since")
-        for old_place, place_now in moved:
-            place_now.rename(old_place)
+            raise NinjaGameError(f"{step_name}: not undone, as {changed[0]} was changed since")
+        for old_place, new_place in moves:
+            new_place.rename(old_place)
         for (folder, name), (old, _) in texts.items():
-            _put(folder, name, old)
-        made = [folder for (folder, name), (old, _) in texts.items() if name == INDEX and old is None]
-        for empty in [place for folder in made for place in (folder / CERTIFICATES, folder)]:
+            _write_file(folder, name, old)
+        new_packs = [folder for (folder, name), (old, _) in texts.items() if name == INDEX and old is None]
+        for empty in [place for folder in new_packs for place in (folder / CERTIFICATES, folder)]:
             with suppress(OSError):
                 empty.rmdir()
         self.pop()
-        return what
+        return step_name
 
 
 def _text(path: Path) -> bytes | None:
@@ -118,7 +116,7 @@ def _noted(folder: Path, name: str) -> Iterator[None]:
         step.texts[folder, name] = first, _text(folder / name)
 
 
-def _put(folder: Path, name: str, text: bytes | str | None) -> None:
+def _write_file(folder: Path, name: str, text: bytes | str | None) -> None:
     """Write a file, or delete it if ``text`` is None."""
     with _noted(folder, name):
         if text is None:
@@ -147,7 +145,7 @@ def _change_index(path: Path, change: Callable[[TOMLDocument], object]) -> None:
 def _write_index(path: Path, document: TOMLDocument) -> None:
     text = document.as_string()
     parse_index(text, file=str(path / INDEX))
-    _put(path, INDEX, text)
+    _write_file(path, INDEX, text)
 
 
 def _add(document: TOMLDocument, key: str, values: Values) -> None:
@@ -162,6 +160,14 @@ def _add(document: TOMLDocument, key: str, values: Values) -> None:
         document[key] = tomlkit.aot()
         tables = document[key]
     tables.append(table)
+
+
+def _remove(document: TOMLDocument, key: str, values: Values) -> None:
+    """Delete the first table [[key]] with these values."""
+    tables: Any = document[key]
+    del tables[next(k for k, table in enumerate(tables) if all(table[name] == values[name] for name in values))]
+    if not tables:
+        del document[key]
 
 
 def new_pack(folder: Path, name: str, author: str) -> Path:
@@ -189,13 +195,13 @@ def copy_pack(pack: Pack, folder: Path, name: str, *, received: bool = False, ov
             raise PackError("a name that no file here can have", found=ascii(file[:40]), hint=problem)
     path = over.files.path if over else free_path(folder, file_stem(name, "pack"), "")
     for file in set(over.files.own_names) - {*names} if over else ():
-        _put(path, file, None)
+        _write_file(path, file, None)
     for file in names:
         text, level = pack.files.text(file), pack.levels.get(level_of(pack, file))
-        _put(path, file, whole_certificate(text, level) if level else text)
+        _write_file(path, file, whole_certificate(text, level) if level else text)
     describe(path, {"name": name})
     if received:
-        _put(path, RECEIVED, "")
+        _write_file(path, RECEIVED, "")
     return path
 
 
@@ -209,7 +215,7 @@ def news(old: Pack, pack: Pack) -> str:
 
 def make_own(path: Path) -> None:
     """Make a received pack the player's own."""
-    _put(path, RECEIVED, None)
+    _write_file(path, RECEIVED, None)
 
 
 def describe(path: Path, values: Mapping[str, str | Sequence[str]]) -> None:
@@ -225,23 +231,16 @@ def accept(path: Path, file: str, code: str, reason: str) -> None:
 
 def take_back(path: Path, file: str, code: str) -> None:
     """Undo the acceptance of a finding."""
-
-    def change(document: TOMLDocument) -> None:
-        tables: Any = document["accept"]
-        del tables[next(k for k, table in enumerate(tables) if (table["file"], table["code"]) == (file, code))]
-        if not tables:
-            del document["accept"]
-
-    _change_index(path, change)
+    _change_index(path, lambda document: _remove(document, "accept", {"file": file, "code": code}))
 
 
 def bin_pack(path: Path, folder: Path) -> Path:
     """Move a pack's folder into another folder, under a free name; its new place."""
     folder.mkdir(parents=True, exist_ok=True)
-    there = path.rename(free_path(folder, path.name, ""))
+    new = path.rename(free_path(folder, path.name, ""))
     if step := _step.get():
-        step.moved.append((path, there))
-    return there
+        step.moves.append((path, new))
+    return new
 
 
 def same_pack(pack: Pack, other: Pack) -> bool:
@@ -288,14 +287,7 @@ def _free_number(numbers: set[int], column: int) -> int:
 
 def remove_episode(path: Path, number: int) -> None:
     """Take an episode out of the index; its levels stay, in no episode."""
-
-    def change(document: TOMLDocument) -> None:
-        tables: Any = document["episode"]
-        del tables[next(place for place, table in enumerate(tables) if table["number"] == number)]
-        if not tables:
-            del document["episode"]
-
-    _change_index(path, change)
+    _change_index(path, lambda document: _remove(document, "episode", {"number": number}))
 
 
 def move_episode(path: Path, number: int, to: int) -> None:
@@ -303,13 +295,13 @@ def move_episode(path: Path, number: int, to: int) -> None:
     pack = Pack(path)
     files = {episode.number: episode.files(pack.files.levels) for episode in pack.index.episodes}
     column = to // EPISODES_PER_COLUMN
-    there = sorted(other for other in files if other // EPISODES_PER_COLUMN == column)
-    order = [other for other in there if other != number]
-    below = there.index(to) if to in there else len(order)
-    places = there if number in there else sorted([*there, _free_number(set(files), column)])
+    in_column = sorted(other for other in files if other // EPISODES_PER_COLUMN == column)
+    order = [other for other in in_column if other != number]
+    below = in_column.index(to) if to in in_column else len(order)
+    places = in_column if number in in_column else sorted([*in_column, _free_number(set(files), column)])
     order.insert(below, number)
-    moved = {old: new for old, new in zip(order, places, strict=True) if old != new}
-    _change_episodes(path, {old: {"number": new, "levels": files[old]} for old, new in moved.items()})
+    numbers = {old: new for old, new in zip(order, places, strict=True) if old != new}
+    _change_episodes(path, {old: {"number": new, "levels": files[old]} for old, new in numbers.items()})
 
 
 # --- levels ---
@@ -334,7 +326,7 @@ def new_level(path: Path, name: str, author: str) -> str:
 
 def _write_level(path: Path, draft: Draft) -> str:
     file = free_path(path, file_stem(draft.name, "level"), SUFFIX).name
-    _put(path, file, ascii_text(draft))
+    _write_file(path, file, ascii_text(draft))
     return file
 
 
@@ -358,15 +350,31 @@ def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:
     if not (level.ascii and old.is_file()):
         return _write_level(path, draft_of(level))
     new = free_path(path, old.stem, old.suffix).name
-    moved = {old.name: new} | {certificate_name(old.name, kind): certificate_name(new, kind) for kind in KINDS}
-    there = [name for name in moved if (old.parent / name).is_file()]
+    names = {old.name: new} | {certificate_name(old.name, kind): certificate_name(new, kind) for kind in KINDS}
+    files = [name for name in names if (old.parent / name).is_file()]
     if not keep and (old.parent / INDEX).is_file():
         place(old.parent, [old.name], None)
-    for name in there:
-        _put(path, moved[name], read_bytes(old.parent / name))
-    for name in [] if keep else there:
-        _put(old.parent, name, None)
+    for name in files:
+        _write_file(path, names[name], read_bytes(old.parent / name))
+    for name in [] if keep else files:
+        _write_file(old.parent, name, None)
     return new
+
+
+def bring(levels: Sequence[NamedLevel], path: Path, folder: Path) -> list[str]:
+    """Move levels into one of the player's folders; their files' names there.
+
+    Those that are not the player's own are copied: from outside ``folder``, or in a received pack. Raises PackError for
+    a received pack as goal.
+    """
+    if (path / RECEIVED).exists():
+        raise PackError("that pack was received, and stays as it is")
+    names = []
+    for level in levels:
+        file = Path(level.file)
+        foreign = folder not in file.parents or (file.parent / RECEIVED).exists()
+        names.append(file.name if file.parent == path else transfer(level, path, keep=foreign))
+    return names
 
 
 Say = Callable[[str, float | None], object]
@@ -387,20 +395,17 @@ MADE_READY = (*_MISSING, "certificate", "no-pars", "old-pars")
 
 @dataclass(frozen=True)
 class ReadyPack:
-    """``findings``: what is odd, accepted or not; ``zipped``: its bytes; ``link``: "" where it is too large.
-
-    ``notes``: what could not be done.
-    """
+    """A pack to share."""
 
     pack: Pack
-    findings: list[PackFinding]
-    zipped: bytes
-    link: str
-    notes: list[str]
+    findings: list[PackFinding]  #: accepted or not
+    zipped: bytes  #: bytes of its zip
+    link: str  #: "" where it is too large for one
+    notes: list[str]  #: what could not be done
 
     @property
     def problems(self) -> list[PackFinding]:
-        """What is odd and not accepted."""
+        """The findings that are not accepted."""
         return [finding for finding in self.findings if not finding.reason]
 
 
@@ -415,31 +420,31 @@ def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Ob
         _certify(pack, path, seconds, jobs, say, obstacles)
     else:
         notes.append(f"Certifying needs Numba: {install_hint('fast')}")
-    pack, made = Pack(path), {}
+    pack, pars = Pack(path), {}
     try:
-        for file, pars in make_pars(pack):
-            made[file] = pars
-            measured = f"Measuring medal times: {len(made)} of {counted(len(pack.levels), 'level')}"
-            say(measured, len(made) / len(pack.levels))
-        Tree(path).write(PARS, write_pars(made))
+        for file, pars_of_level in make_pars(pack):
+            pars[file] = pars_of_level
+            measured = f"Measuring medal times: {len(pars)} of {counted(len(pack.levels), 'level')}"
+            say(measured, len(pars) / len(pack.levels))
+        Tree(path).write(PARS, write_pars(pars))
     except NinjaGameError as error:
         notes.append(f"No par times: {error}")
     say("Looking for problems", 1.0)
     pack, link = Pack(path), ""
-    found = problems_of(pack, obstacles)
+    problems = problems_of(pack, obstacles)
     try:
         link = pack.files.link()
     except LinkError as error:
         notes.append(f"No link: {error}")
-    return ReadyPack(pack, found, pack.files.zipped(), link, notes)
+    return ReadyPack(pack, problems, pack.files.zipped(), link, notes)
 
 
 def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
-    """What is odd about a pack, accepted or not; where a run was searched in vain, why.
+    """The findings about a pack, accepted or not; one about a run that a search did not find says why it did not.
 
-    Where none to the exit was found, none with all gold is missed.
+    A level without a run to the exit has no finding about a missing run with all gold.
     """
-    found, no_exit = list[PackFinding](), set[Level]()
+    problems, no_exit = list[PackFinding](), set[Level]()
     for finding in findings(pack, with_gold=True):
         named_finding, missing = finding, missing_run(pack, finding)
         if missing and (why := obstacles.get(missing)):
@@ -448,8 +453,8 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
                 continue
             no_exit |= {level} if kind == "exit" else set()
             named_finding = finding._replace(values={}, odd=why, sought=_SOUGHT[kind])
-        found += [named_finding] if named_finding not in found else []
-    return found
+        problems += [named_finding] if named_finding not in problems else []
+    return problems
 
 
 def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:
@@ -475,9 +480,9 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
 
     def is_open(file: str, kind: str) -> bool:
         level, says = pack.levels[file].level, pack.levels[file].says
-        known = (level, kind) in obstacles or (file, kind) in accepted
+        settled = (level, kind) in obstacles or (file, kind) in accepted
         vain = kind == "gold" and has_gold_out_of_reach(level, says)
-        return not (known or vain or is_certified(pack, file, kind))
+        return not (settled or vain or is_certified(pack, file, kind))
 
     in_order = [Path(level.named.file).name for level in episode_set(pack, "").levels]
     levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in KINDS)}

@@ -77,16 +77,12 @@ def put(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> Draft:
             if number and spec.kind in (NINJA, EXIT):
                 continue
             if spec.kind == NINJA:
-                objects = _with_ninja(objects, spec)
+                # It replaces the one that plays, the last; the first ninja of a level comes before all objects.
+                last = max((place for place, other in enumerate(objects) if other.kind == NINJA), default=-1)
+                objects = (*objects[: max(last, 0)], spec, *objects[last + 1 :])
             elif spec not in there:
                 new[spec] = None
     return draft.with_tiles(tiles).with_objects(objects + tuple(new))
-
-
-def _with_ninja(objects: tuple[ObjectSpec, ...], spec: ObjectSpec) -> tuple[ObjectSpec, ...]:
-    """Move the ninja that plays, the last one; the first ninja of a level comes before all objects."""
-    last = max((number for number, other in enumerate(objects) if other.kind == NINJA), default=-1)
-    return (*objects[: max(last, 0)], spec, *objects[last + 1 :])
 
 
 def filled(draft: Draft, cell: Cell) -> list[Cell]:

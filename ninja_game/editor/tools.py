@@ -78,27 +78,22 @@ def remade(spec: ObjectSpec, name: str) -> ObjectSpec:
 
 
 class EditorTools:
-    """A draft with its history, the pointer, the present tool, the selection and the copy.
-
-    ``tile`` and ``spec``: what the brush draws, ``objects`` which of them. ``snap``, ``symmetry``: by name. ``tool``:
-    one of TOOLS; ``marquee``: the corners of the frame of a selection. ``takes``: one of TAKES. ``spacing``: of objects
-    along a line or ellipse, px, of SPACINGS. ``slopes``: whether slopes are automatic. ``nearest``: whether doors go to
-    the side of a cell nearest to the pointer, not to their own. ``ghost``: the stamp that the next press pastes.
-    """
+    """A draft with its history, the pointer, the present tool, the selection and the copy."""
 
     def __init__(self, draft: Draft) -> None:
         self.history = History(draft)
         self._take_first()
         self.snap = "cell"
-        self.spacing, self.slopes = CELL, False
+        self.spacing = CELL  #: of objects along a line or ellipse, px, of SPACINGS
+        self.slopes = False  #: whether slopes are automatic
         self._bend = 0.0
         self.pointer = (396.0, 300.0)
         self._pressed_at = self.pointer
         self._switchless: ObjectSpec | None = None
         self.selection = stamps.Selection()
         self.clipboard: stamps.Stamp | None = None
-        self.ghost: stamps.Stamp | None = None
-        self.marquee: tuple[Cell, Cell] | None = None
+        self.ghost: stamps.Stamp | None = None  #: what the next press pastes
+        self.marquee: tuple[Cell, Cell] | None = None  #: the corners of the frame of a selection
         self.takes = TAKES[0]
         self._gesture = Gesture.IDLE
         self._copies = False
@@ -106,8 +101,9 @@ class EditorTools:
         self._previewed: tuple[tuple[object, ...], Tiles] = ((), {})
 
     def _take_first(self) -> None:
-        self.tool, self.symmetry, self.nearest = "brush", "off", True
-        self.objects, self.tile = False, brush.FULL
+        self.tool, self.symmetry = "brush", "off"  #: one of TOOLS; a name
+        self.nearest = True  #: whether doors go to the side of a cell nearest to the pointer, not to their own
+        self.objects, self.tile = False, brush.FULL  #: whether the brush draws the spec, not the tile
         self.spec: ObjectSpec = brush.object_of_type("gold")
 
     @property

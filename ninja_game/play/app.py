@@ -17,7 +17,7 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.boss import BossScreen
-from ninja_game.play.screen import Aside, BaseScreen, ScreenStack
+from ninja_game.play.screen import Aside, Screen, ScreenStack
 from ninja_game.play.window import Window, Wipe, save_picture
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
@@ -28,13 +28,6 @@ from ninja_game.ui.audio.player import AudioOutput, AudioPlayer
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.bindings import Bindings, InputEvent
 from ninja_game.ui.theme import PALETTES, Palette, Theme, palette_named, wrapped
-
-
-class Screen(BaseScreen):
-    """A screen whose app is known by its type."""
-
-    app: App
-
 
 CALM = Mood()
 """The mood of all menus, whatever level was played before."""
@@ -62,11 +55,8 @@ TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]
 class App:
     """The window with its stack of screens.
 
-    ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
-    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``: opens a
-    run in the TAS editor, at a tick, with other runs to compare; None where there is no TAS editor, as in a page.
-    ``mood``: the present mood. ``menu_theme``: the theme of menus over a level. ``size``: px of the window; ``window``:
-    a window that is open already. Raises NinjaGameError where there is no display.
+    ``size``: px of the window; ``window``: a window that is open already. Raises NinjaGameError where there is no
+    display.
     """
 
     def __init__(
@@ -79,11 +69,12 @@ class App:
         tas_editor: TasEditorOpener | None = None,
         window: Window | None = None,
     ) -> None:
-        self.player = player
-        self.controls = controls
+        self.player = player  #: its settings are changed by ``change_settings``
+        self.controls = controls  #: keys to actions
         self.audio_output = audio_output
         self._hand_on(self.settings)
-        self.overclock = 0
+        self.overclock = 0  #: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1)
+        #: Opens a run in the TAS editor, at a tick, with others to compare; None where there is none, as in a page
         self.tas_editor = tas_editor
         self.stack = ScreenStack()
         self.aside: list[Aside] = []
@@ -92,7 +83,7 @@ class App:
         self.mood = Mood()
         self.notice = ""
         self._notice_ms = 0
-        self._notice_on: BaseScreen | None = None
+        self._notice_on: Screen | None = None
         self.window = window or Window(size, self.settings)
         self.wipe = Wipe()
         # In a page, several whole pictures in a row are too slow.
@@ -167,18 +158,18 @@ class App:
     # --- the screens ---
 
     @property
-    def top(self) -> BaseScreen:
+    def top(self) -> Screen:
         return self.stack.top
 
-    def push(self, screen: BaseScreen) -> None:
+    def push(self, screen: Screen) -> None:
         self.wipe_from(screen)
         self.stack.push(screen)
 
-    def replace(self, screen: BaseScreen) -> None:
+    def replace(self, screen: Screen) -> None:
         self.wipe_from(screen)
         self.stack.replace(screen)
 
-    def wipe_from(self, screen: BaseScreen) -> None:
+    def wipe_from(self, screen: Screen) -> None:
         """Begin a wipe from the present picture to another screen or level."""
         wipes = self.wipes and screen.wipes and not screen.see_through and not self.settings.reduced_motion
         if wipes and self.stack:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import pygame
 
@@ -10,39 +10,24 @@ from ninja_game.levels.episodes import Mood
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
 
-
-class Host(Protocol):
-    """What every screen needs of its App, which imports this module."""
-
-    theme: Theme
-    mood: Mood
-
-    def pop(self) -> None: ...
-
-    def quit(self) -> None: ...
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
 
 
-class BaseScreen:
-    """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does.
+class Screen:
+    """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does."""
 
-    ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
-    app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
-    comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written. ``hides_game``:
-    it shows that nobody plays, and no notice. ``foot_high``: px at the foot that notices leave free.
-    ``small_notices``: those of one line are as high as a border.
-    """
+    see_through = False  #: whether the screen below is drawn first
+    wipes = True  #: whether it comes and goes with a wipe
+    below_runs = False  #: whether the screen below is updated too
+    plays = False  #: whether a level is played in it, over which nothing is to be written
+    hides_game = False  #: whether it shows that nobody plays, and no notice
+    small_notices = False  #: whether notices of one line are as high as a border
+    foot_high = 1.0  #: px at the foot that notices leave free
 
-    see_through = False
-    wipes = True
-    below_runs = False
-    plays = False
-    hides_game = False
-    small_notices = False
-    foot_high = 1.0
-
-    def __init__(self, app: Host) -> None:
+    def __init__(self, app: App) -> None:
         self.app = app
-        self.redraw = True
+        self.redraw = True  #: set by the app when the whole window must be drawn again (resized, uncovered, recoloured)
 
     @property
     def theme(self) -> Theme:
@@ -101,25 +86,25 @@ class Aside:
 
 class ScreenStack:
     def __init__(self) -> None:
-        self._screens: list[BaseScreen] = []
+        self._screens: list[Screen] = []
 
     def __len__(self) -> int:
         return len(self._screens)
 
-    def __contains__(self, screen: BaseScreen) -> bool:
+    def __contains__(self, screen: Screen) -> bool:
         return screen in self._screens
 
     @property
-    def top(self) -> BaseScreen:
+    def top(self) -> Screen:
         """The screen that gets the events. Raises IndexError if there is none."""
         return self._screens[-1]
 
     @property
-    def below(self) -> BaseScreen | None:
+    def below(self) -> Screen | None:
         """The screen below the top one, if any."""
         return self._screens[-2] if len(self) > 1 else None
 
-    def push(self, screen: BaseScreen) -> None:
+    def push(self, screen: Screen) -> None:
         if self._screens:
             self.top.leave()
         self._screens.append(screen)
@@ -130,7 +115,7 @@ class ScreenStack:
         self._screens.pop().leave()
         self._uncover()
 
-    def replace(self, screen: BaseScreen) -> None:
+    def replace(self, screen: Screen) -> None:
         self._screens.pop().leave()
         self._screens.append(screen)
         self._uncover()
@@ -164,11 +149,11 @@ class ScreenStack:
             changed = None if whole or rects is None or changed is None else changed + rects
         return changed
 
-    def running(self) -> list[BaseScreen]:
+    def running(self) -> list[Screen]:
         """The screens that are updated, lowest first."""
         return self._from_last("below_runs")
 
-    def _from_last(self, attribute: str) -> list[BaseScreen]:
+    def _from_last(self, attribute: str) -> list[Screen]:
         """The screens from the last one that has not this attribute, or from the first."""
         ends = [index for index, screen in enumerate(self._screens) if not getattr(screen, attribute)]
         return self._screens[max(ends, default=0) :]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import os
 import warnings
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import pygame
@@ -39,7 +39,10 @@ class Window:
         if pygame.display.get_driver() in _INVISIBLE and not os.environ.get("SDL_VIDEODRIVER"):
             pygame.display.quit()
             raise NinjaGameError("there is no display; SDL_VIDEODRIVER=dummy plays without one")
-        _prefer_shared_memory()
+        if pygame.display.get_driver() == "x11":
+            # Through shared memory only changed px are sent; OpenGL sends the whole window in every picture, which
+            # costs 20 ms without a graphics card (measured with benchmarks/frame_cost.py --display).
+            os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
         if not settings.frame_limit:
             # Where SDL draws through a renderer, whole pictures are shown at the display's request.
             os.environ.setdefault("SDL_RENDER_VSYNC", "1")
@@ -104,10 +107,9 @@ def open_at_once(size: tuple[int, int] | None, *, wide: bool = False) -> Window:
     pygame.font.init()
     theme = Theme(palette_named(settings.palette), Canvas(window.surface.get_size()), settings.text_size)
     window.surface.fill(theme.palette.background)
-    theme.text(window.surface, LOGO, WIDTH / 2, HEIGHT / 2 - 60, size=72, align="centre", bold=True)
-    theme.text(
-        window.surface, "loading", WIDTH / 2, HEIGHT / 2 + 30, size=12, colour=theme.palette.faint, align="centre"
-    )
+    write = partial(theme.text, window.surface, x=WIDTH / 2, align="centre")
+    write(text=LOGO, y=HEIGHT / 2 - 60, size=72, bold=True)
+    write(text="loading", y=HEIGHT / 2 + 30, size=12, colour=theme.palette.faint)
     # A new window must process its events before it shows anything.
     pygame.event.pump()
     pygame.display.flip()
@@ -130,16 +132,6 @@ def prepare_sdl() -> None:
     # The window class, by which desktops find its icon and group windows.
     os.environ["SDL_VIDEO_X11_WMCLASS"] = TITLE  # pygame has put the name of the script there
     os.environ.setdefault("SDL_VIDEO_WAYLAND_WMCLASS", TITLE)
-
-
-def _prefer_shared_memory() -> None:
-    """Under X11 show pictures through shared memory instead of OpenGL, unless the environment says otherwise.
-
-    Then only the changed px are sent; OpenGL sends the whole window in every picture, which costs 20 ms without a
-    graphics card (measured with benchmarks/frame_cost.py --display).
-    """
-    if pygame.display.get_driver() == "x11":
-        os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
 
 
 def _has_window_manager() -> bool:

@@ -10,7 +10,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import Skipped, files_below, files_in, stamp_of
@@ -30,7 +29,7 @@ class Catalogue:
         self.folder = folder
         self.more: list[Path] = []
         self.problems: list[str] = []
-        self._read: dict[Path, _ReadFile] = {}
+        self._read: dict[Path, tuple[object, list[Entry], str]] = {}
         self._known: dict[str, EpisodeSet] = {}
         self._packs: dict[Path, tuple[object, Pack | None, str]] = {}
         self._sets: dict[Path, tuple[Pack, EpisodeSet]] = {}
@@ -171,11 +170,16 @@ class Catalogue:
 
     def _entries_of(self, file: Path) -> list[Entry]:
         stamp = stamp_of(file)
-        known = self._read.get(file)
-        if known is None or known.stamp != stamp:
-            known = self._read[file] = _read(file, stamp)
-        self.problems += known.problems
-        return known.entries
+        if file not in self._read or self._read[file][0] != stamp:
+            try:
+                self._read[file] = stamp, [Entry(level, YOURS) for level in load_levels(file)], ""
+            except NinjaGameError as error:
+                self._read[file] = stamp, [], str(error)
+            except OSError as error:
+                self._read[file] = stamp, [], f"{file.name}: {error.strerror}"
+        _, entries, problem = self._read[file]
+        self.problems += [problem] if problem else []
+        return entries
 
 
 def _name_among(packs: Sequence[PackIndex], index: PackIndex, file: str) -> str:
@@ -187,20 +191,3 @@ def _name_among(packs: Sequence[PackIndex], index: PackIndex, file: str) -> str:
     )
     same_title = len(alike) > 1 and [pack.title for pack in packs].count(index.title) > 1
     return f"{distinct.title} ({file})" if same_title else distinct.title
-
-
-class _ReadFile(NamedTuple):
-    """The content of a file, and its last change."""
-
-    stamp: list[int]
-    entries: list[Entry]
-    problems: list[str]
-
-
-def _read(file: Path, stamp: list[int]) -> _ReadFile:
-    try:
-        return _ReadFile(stamp, [Entry(level, YOURS) for level in load_levels(file)], [])
-    except NinjaGameError as error:
-        return _ReadFile(stamp, [], [str(error)])
-    except OSError as error:
-        return _ReadFile(stamp, [], [f"{file.name}: {error.strerror}"])

@@ -9,9 +9,7 @@ from math import ceil
 from typing import ClassVar, NamedTuple
 from weakref import WeakKeyDictionary
 
-import numpy as np
 import pygame
-from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.ascii.places import Point
@@ -42,40 +40,28 @@ class OtherRun:
     made: Contributions = field(default_factory=Contributions)
     ending: str = ""
 
-    @property
-    def positions(self) -> NDArray[np.float64]:
-        """The ninja after each tick: float64 (ticks, 2), px."""
-        return self.trajectory.positions
-
 
 class TasEditor:
-    """The shared state of all parts of the TAS editor.
-
-    ``cursor``: the tick of the present row; the level is shown after that tick. ``anchor``: where a selection began;
-    None: only the tick under the cursor is selected. ``others``: runs opened beside this one; ``chosen``: the number of
-    the one to copy from, if there are any. ``preview``: a search result or a branch that is shown. ``tab``: the name of
-    the tab to show. ``against``: the run that the lead is measured against; None: the chosen other one, else the run as
-    it was opened. ``theme``: the look of all parts, in the TAS editor's own logical px, unlike other screens'.
-    ``places``: cursor and anchor when a run was edited, for undo. ``hint``: of what is under the mouse, for the line
-    below. ``leads``: by how many ticks the run is ahead of the other at every event that both have, by its own tick.
-    """
+    """The shared state of all parts of the TAS editor."""
 
     def __init__(self, app: App, session: Session) -> None:
         self.app = app
         self.session = session
-        self.theme: Theme = app.theme
-        self.cursor = 0
-        self.anchor: int | None = None
+        self.theme: Theme = app.theme  #: in the TAS editor's own logical px, unlike other screens'
+        self.cursor = 0  #: tick of the present row; the level is shown after that tick
+        self.anchor: int | None = None  #: where a selection began; None: only the tick under the cursor is selected
         self._selected: Span | None = None
-        self.others: list[OtherRun] = []
-        self.chosen = 0
+        self.others: list[OtherRun] = []  #: runs opened beside this one
+        self.chosen = 0  #: number of the other run to copy from, if there are any
         self.ghosts = True
-        self.preview: OtherRun | None = None
-        self.tab = "Values"
+        self.preview: OtherRun | None = None  #: a search result or a branch that is shown
+        self.tab = "Values"  #: name of the tab to show
+        #: The run that the lead is measured against; None: the chosen other one, else the run as it was opened
         self.against: InputTrack | None = None
-        self.hint = ""
-        self.leads: dict[int, int] = {}
+        self.hint = ""  #: of what is under the mouse, for the line below
+        self.leads: dict[int, int] = {}  #: ticks by which the run is ahead at each event of both runs, by its own tick
         self._refusal = ""
+        #: Cursor and anchor when a run was edited, for undo
         self.places: WeakKeyDictionary[InputTrack, tuple[int, int | None]] = WeakKeyDictionary()
 
     @property
@@ -298,9 +284,6 @@ class Splitters(TasPart):
             app.notify(f"The layout is as {'large as this window allows' if by > 0 else 'small as can be'}")
         else:
             app.change_settings(text_scale=text_scale)
-
-    def render_key(self) -> tuple[object, ...]:
-        return ()
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
         return []

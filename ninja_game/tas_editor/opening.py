@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING
 
 import pygame
@@ -12,7 +13,8 @@ from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.backend.memories import compiled_available, is_compiled, prefers_plain
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.recording import Recording
-from ninja_game.play.app import App, Screen
+from ninja_game.play.app import App
+from ninja_game.play.screen import Screen
 from ninja_game.runtime import run_in_background
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.input.bindings import InputEvent
@@ -76,12 +78,9 @@ class OpeningScreen(Screen):
         self._make = make
         self._compiles = False
         self._waited_ms = 0
-        self._shown = ""
-        before_compiling.append(self._note_compiling)
+        self._shown = "", ""
+        before_compiling.append(partial(setattr, self, "_compiles", True))
         self._thread = run_in_background(lambda: prepare(run), self._note_problem)
-
-    def _note_compiling(self) -> None:
-        self._compiles = True
 
     def _note_problem(self, why: str) -> None:
         def refuse() -> TasScreen:
@@ -104,7 +103,7 @@ class OpeningScreen(Screen):
 
     def update(self, real_ms: int) -> None:
         self._waited_ms += real_ms
-        if self._thread.is_alive() or not self._shown:
+        if self._thread.is_alive() or not self._shown[0]:
             return
         try:
             screen = self._make()
@@ -117,25 +116,14 @@ class OpeningScreen(Screen):
             self.app.replace(screen)
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        shown = f"Opening {self._name} ...\n{self.explanation}"
-        if shown == self._shown and not self.redraw:
+        shown, colour = f"Opening {self._name} ...", self.theme.palette.on_tile
+        if self._shown == (shown, self.explanation) and not self.redraw:
             return []
-        self._shown = shown
-        palette = self.theme.palette
-        surface.fill(palette.tile)
-        for number, (line, size) in enumerate(zip(shown.split("\n"), (18, 11), strict=True)):
-            y = HEIGHT / 2 - 30 + 34 * number
-            self.theme.text(
-                surface,
-                line,
-                WIDTH / 2,
-                y,
-                size=size,
-                bold=not number,
-                colour=palette.on_tile,
-                align="centre",
-                width=WIDTH - 80,
-            )
+        self._shown = shown, self.explanation
+        surface.fill(self.theme.palette.tile)
+        write = partial(self.theme.text, surface, x=WIDTH / 2, colour=colour, align="centre", width=WIDTH - 80)
+        write(text=shown, y=HEIGHT / 2 - 30, size=18, bold=True)
+        write(text=self.explanation, y=HEIGHT / 2 + 4, size=11)
         return None
 
 

@@ -62,14 +62,12 @@ class TextEntry(Widget):
         if event.type not in (pygame.TEXTINPUT, pygame.KEYDOWN):
             return False
         before = self.text
-        used = self._type(event.text) if event.type == pygame.TEXTINPUT else self._press(event)
+        if event.type == pygame.TEXTINPUT:
+            self.edited.put(event.text)
+        used = event.type == pygame.TEXTINPUT or self._press(event)
         if self.text != before:
             self.put(self.text)
         return used
-
-    def _type(self, text: str) -> bool:
-        self.edited.put(text)
-        return True
 
     def _press(self, event: pygame.Event) -> bool:
         *modifiers, key = chord(event).split("+")

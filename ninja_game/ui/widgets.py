@@ -6,6 +6,7 @@ Positions and sizes are logical px of the 792 x 600 stage. A widget's method giv
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Generic, TypeVar
 
 import pygame
@@ -127,25 +128,12 @@ class Button(Widget):
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         self.draw_base(surface, theme, focused=focused)
         colour = theme.palette.text if self.enabled else theme.palette.faint
-        x, y = self.centre
-        width, height = self.area[2] - 2 * PAD, self.area[3]
+        (x, y), height = self.centre, self.area[3]
+        write = partial(theme.text, surface, x=x, align="centre", width=self.area[2] - 2 * PAD)
         if self.detail:
             y, height = y - 9, height / 2
-            theme.text(
-                surface,
-                self.detail,
-                x,
-                y + 14,
-                size=10.5,
-                colour=theme.palette.faint,
-                align="centre",
-                width=width,
-                height=height,
-            )
-        theme.text(
-            surface, self.text, x, y - self.size / 2, size=self.size, colour=colour, align="centre", bold=focused,
-            width=width, height=height,
-        )  # fmt: skip
+            write(text=self.detail, y=y + 14, size=10.5, colour=theme.palette.faint, height=height)
+        write(text=self.text, y=y - self.size / 2, size=self.size, colour=colour, bold=focused, height=height)
 
 
 class Choice(Widget, Generic[T]):

@@ -77,9 +77,10 @@ def draw_sound_cues(target: DrawTarget, world: World) -> None:
 
 
 class DrawnGhost(Protocol):
-    """The ninja of another run in the same picture."""
+    """The ninja of another run in the same picture. ``shade``: its colour, None: the palette's for ghosts."""
 
     ninja_animation: NinjaAnimation
+    shade: pygame.Color | None
 
     def on_tick(self) -> None:
         """One more tick."""
@@ -89,9 +90,6 @@ class DrawnGhost(Protocol):
 
     def place(self, fraction: float) -> Point:
         """Its place, px."""
-
-    def colour(self, palette: Palette) -> pygame.Color:
-        """Its colour."""
 
 
 class LevelView:
@@ -299,7 +297,7 @@ class LevelView:
         draw_moving(target, self.simulation.world, self.object_animation, fraction)
         if self.context.settings.show_ghost:
             for ghost in self.ghosts:
-                at, colour = ghost.place(fraction), ghost.colour(target.palette)
+                at, colour = ghost.place(fraction), ghost.shade or target.palette.ghost
                 draw_ninja(target, ghost.ninja_animation, at, fraction, colour, ghost=True)
         self._draw_ninja(fraction)
         Particles.draw(self.particles.front, target, now)

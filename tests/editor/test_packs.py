@@ -108,18 +108,35 @@ def test_a_pack_is_made_described_and_copied(pack: Path, tmp_path: Path) -> None
 def test_a_dozen_steps_are_taken_back_and_folders_stay(pack: Path, tmp_path: Path) -> None:
     steps, folder = packs.Steps(), tmp_path / "levels"
     folder.mkdir()
-    steps.do("Copy", lambda: packs.copy_pack(Pack(pack), folder, "copy"))
+    steps.run("Copy", lambda: packs.copy_pack(Pack(pack), folder, "copy"))
     assert (folder / "copy" / RUN).is_file()
     assert steps.undo() == "Copy"
     assert list(folder.iterdir()) == [], "no empty folder is left, but the one of all"
-    steps.do("Nothing", lambda: packs.describe(pack, {"name": Pack(pack).name}))
+    steps.run("Nothing", lambda: packs.describe(pack, {"name": Pack(pack).name}))
     assert not steps
     for number in range(14):
-        steps.do(str(number), lambda text=str(number): packs.describe(pack, {"version": text}))  # type: ignore[misc]
+        steps.run(str(number), lambda text=str(number): packs.describe(pack, {"version": text}))  # type: ignore[misc]
     assert [steps.undo() for _ in range(12)] == [str(number) for number in range(13, 1, -1)]
     assert Pack(pack).index.version == "1"
     with pytest.raises(NinjaGameError, match="nothing to undo"):
         steps.undo()
+
+
+def test_what_is_not_the_players_own_is_copied_and_a_received_pack_stays(pack: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "levels"
+    own, goal = (packs.new_pack(folder, name, "me") for name in ("Own", "Goal"))
+    (file,) = packs.bring([Pack(pack).levels[FIRST]], own, folder)
+    assert FIRST in Pack(pack).levels, "from outside the folder: a copy"
+    level = Pack(own).levels[file]
+    assert packs.bring([level], own, folder) == [file], "it is there already"
+    packs.bring([level], goal, folder)
+    assert (len(Pack(own).levels), len(Pack(goal).levels)) == (0, 1)
+    received = packs.copy_pack(Pack(goal), folder, "Received", received=True)
+    packs.bring([*Pack(received).levels.values()], own, folder)
+    assert (len(Pack(own).levels), len(Pack(received).levels)) == (1, 1), "from a received pack: a copy"
+    with pytest.raises(NinjaGameError, match="was received, and stays"):
+        packs.bring([*Pack(own).levels.values()], received, folder)
+    assert len(Pack(own).levels) == 1
 
 
 def test_levels_go_to_another_pack_with_their_certificates(pack: Path, tmp_path: Path) -> None:
@@ -305,7 +322,7 @@ def test_undo_leaves_alone_what_others_did_meanwhile(pack: Path) -> None:
         packs.place(pack, [FIRST], None)
         found.write_text("found meanwhile", "utf-8")
 
-    steps.do("Take out", action)
+    steps.run("Take out", action)
     assert steps.undo() == "Take out"
     assert (pack / "pack.toml").read_text("utf-8") == before
     assert found.read_text("utf-8") == "found meanwhile"
@@ -316,15 +333,15 @@ def test_a_step_that_the_disk_refuses_to_undo_can_be_undone_later(
 ) -> None:
     steps, other = packs.Steps(), packs.new_pack(tmp_path, "Other", "me")
     files = sorted((pack / "certificates").iterdir())
-    steps.do("Move", lambda: packs.transfer(Pack(pack).levels[FIRST], other, keep=False))
-    put, full = packs._put, [True]
+    steps.run("Move", lambda: packs.transfer(Pack(pack).levels[FIRST], other, keep=False))
+    write, full = packs._write_file, [True]
 
     def on_a_full_disk(folder: Path, name: str, text: bytes | str | None) -> None:
         if name == RUN and folder == pack and full:
             raise OSError(28, "No space left on device")
-        put(folder, name, text)
+        write(folder, name, text)
 
-    monkeypatch.setattr(packs, "_put", on_a_full_disk)
+    monkeypatch.setattr(packs, "_write_file", on_a_full_disk)
     with pytest.raises(OSError, match="No space"):
         steps.undo()
     full.clear()

@@ -124,7 +124,8 @@ def test_link_from_the_editor_opens_in_it(
     source = open_source(Path(link))
     assert source.path is None
     screen = EditorScreen(driver.app, source)
-    screen.session.copy_link()
+    screen.commands.file_menu()
+    driver.choose("Copy a link")
     copied = load_levels(clipboard[0])[0]
     assert (copied.name, copied.says, copied.teaches) == ("mine", says, teaches)
     screen.session.begin(new_source())

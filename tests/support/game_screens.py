@@ -431,10 +431,10 @@ def _packs(driver: MenuDriver) -> Iterator[str]:
     screen = driver.shown(PackScreen)
     screen.enter()
     driver.frames(30)
-    driver.wait(lambda: screen.status.now, "the problems are known")
+    driver.wait(lambda: screen.status.present, "the problems are known")
     driver.frames(2)
     yield "packs"
-    driver.app.push(PackList(driver.app, screen.mine, screen.show))
+    driver.app.push(PackList(driver.app, screen.own_packs, screen.show))
     driver.frames(30)
     yield "packs-list"
     driver.press("escape")

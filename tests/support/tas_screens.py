@@ -149,7 +149,7 @@ class FixedSearch:
 def tas_editor(driver: MenuDriver) -> Iterator[str]:
     """The names of the states, one after the other; in the end the screen below is shown again."""
     run = Path(copy(RUN, driver.player.folder / "locksmith.replay.txt"))
-    with patch("ninja_game.tas_editor.tabs.search_tab.SpanSearch", FixedSearch):
+    with patch("ninja_game.tas_editor.span_results.SpanSearch", FixedSearch):
         at = TasDriver.over(driver, run)
         yield "tas"
         yield from _edits(at)

@@ -22,6 +22,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.levels.episodes import GAME, YOURS, Entry, Mood
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
+from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import UNREACHABLE, EditorSession
@@ -256,11 +257,12 @@ class EditorCommands(DocumentCommands):
         session = self.session
         self.view.take(None)
         session.tools.cancel()
-        rows = [
+        rows: list[MenuRow] = [
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open...", self.open, "Ctrl+O"), ("New", self.new, "Ctrl+N"), ("About the level...", self.about, "F2"),
             ("Messages...", self.messages, "What the level says while it is played: Shift+M"),
-            ("Copy a link", session.copy_link, "Opens the level"), ("Copy as N level code", session.copy_string, ""),
+            ("Copy a link", partial(copy_level_link, self.app, session.draft, session.name), "Opens the level"),
+            ("Copy as N level code", session.copy_string, ""),
             ("Paste a level", session.paste_string, "From the clipboard: text in any format, of N too, or a link"),
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
             ("Save the run that was found", session.keep_certificate, "As a replay among yours"),

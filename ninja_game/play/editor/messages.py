@@ -187,7 +187,7 @@ class MessagesScreen(MenuScreen):
         self._draft = draft
         self._selected = 0
         self._stages: dict[tuple[object, ...], _Stage] = {}
-        self._kept: dict[tuple[bool, bytes], Things] = {}
+        self._things: dict[tuple[bool, bytes], Things] = {}
         self._ground = Ground(draft.level)
         self._look, self._way = mood, way
         self._before = self.source
@@ -391,17 +391,17 @@ class MessagesScreen(MenuScreen):
         palette = self.app.palette_in(self._look)
         key = palette.name, size, opened
         if key not in self._stages:
-            kept = {old: stage for old, stage in self._stages.items() if old[:2] == key[:2]}
-            self._stages = kept | {key: _Stage(draft.level, palette, *size, opened=opened)}
-        stage, message_said, texts = self._stages[key], None, [other.text for other in self.messages]
-        picture, known = stage.picture.copy(), (bool(arrow_targets(texts)), self._way())
-        if stage.world and known not in self._kept:
-            self._kept[known] = things_at_start(draft.level, stage.world, texts, known[1])
+            stages = {old: stage for old, stage in self._stages.items() if old[:2] == key[:2]}
+            self._stages = stages | {key: _Stage(draft.level, palette, *size, opened=opened)}
+        stage, placed, texts = self._stages[key], None, [other.text for other in self.messages]
+        picture, cast = stage.picture.copy(), (bool(arrow_targets(texts)), self._way())
+        if stage.world and cast not in self._things:
+            self._things[cast] = things_at_start(draft.level, stage.world, texts, cast[1])
         if message:
             controls, when = self.app.controls, message.when
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
-            where = draft.level.tiles, self._kept.get(known, ()), self._eye(message), when == "start", when == "at"
-            message_said = PlacedMessage(text, *where) if text else None
+            layout = draft.level.tiles, self._things.get(cast, ()), self._eye(message), when == "start", when == "at"
+            placed = PlacedMessage(text, *layout) if text else None
         for other in self.messages:
             if other.when == "at" and (eye := self._eye(other)):
                 frame, chosen = (eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR), other is message
@@ -409,7 +409,7 @@ class MessagesScreen(MenuScreen):
                 stage.hud.theme.canvas.frame_rect(picture, colour, *frame, 1 + chosen)
         foot = draft.name, f"gold 0 / {draft.level.gold}"
         labels = named_in(stage.world, arrow_targets(texts)) if stage.world else ()
-        stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=message_said, named=labels))
+        stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, message=placed, named=labels))
         surface.blit(picture, place)
         for number, other in enumerate(self.messages, 1):
             if other is not message and (eye := self._eye(other)):

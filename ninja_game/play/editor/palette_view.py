@@ -222,17 +222,18 @@ class PaletteView(Widget):
 
     @property
     def _in_hand(self) -> Entry:
-        tools = self.tools
-        return (
-            brush.OBJECT_TYPES[brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(tools.spec))]
-            if tools.objects
-            else tools.tile
-        )
+        if not self.tools.objects:
+            return self.tools.tile
+        return brush.OBJECT_TYPES[brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(self.tools.spec))]
 
     @property
     def said(self) -> str:
         """The name and the keys of the entry under the mouse, or else of the chosen one."""
-        return _said(self._in_hand if self.hovered is None else self.hovered)
+        what = self._in_hand if self.hovered is None else self.hovered
+        if isinstance(what, brush.ObjectType):
+            return f"{what.name.capitalize()} (key {key_label_of(what.key)})"
+        name = brush.tile_name(what)
+        return f"{name[0].upper()}{name[1:]}: {brush.tile_key(what)}"
 
     def _at(self, x: float, y: float) -> Entry | None:
         return next((what for what, area in self.places() if inside(area, x, y)), None)
@@ -305,13 +306,6 @@ class PaletteView(Widget):
         # The chosen entry with its present properties.
         in_hand = self.tools.objects and brush.object_type_of(self.tools.spec) == what.name
         return object_icon(self.tools.spec if in_hand else what.spec, size, theme.canvas.scale, theme.palette.base.name)
-
-
-def _said(what: Entry) -> str:
-    if isinstance(what, brush.ObjectType):
-        return f"{what.name.capitalize()} (key {key_label_of(what.key)})"
-    name = brush.tile_name(what)
-    return f"{name[0].upper()}{name[1:]}: {brush.tile_key(what)}"
 
 
 @lru_cache(maxsize=200)

@@ -366,14 +366,8 @@ class Findings(EditorPart):
         super().__init__(view)
         self._shown: list[Finding] = []
         self._lines: list[tuple[int, str]] = []
-        self.list = ListView(
-            self.area,
-            19,
-            self._draw_row,
-            lambda row: go_to(self._lines[row][0]),
-            empty="No problems found",
-            hint="A click goes there and selects it",
-        )
+        self.list = ListView(self.area, 19, self._draw_row, lambda row: go_to(self._lines[row][0]))
+        self.list.empty, self.list.hint = "No problems found", "A click goes there and selects it"
         self.widgets = [self.list]
 
     def render_key(self) -> tuple[object, ...]:

@@ -40,7 +40,7 @@ from ninja_game.levels.episodes import GAME, YOURS, Entry
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.lint import level_findings
 from ninja_game.play.app import App
-from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text
+from ninja_game.play.clipboard import copy_text, pasted_text
 from ninja_game.play.window import save_picture
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
@@ -380,10 +380,6 @@ class EditorSession:
             self.app.notify(f"This level cannot be written as N level code: {error}")
             return
         copy_text(self.app, text, title=self.name, suffix=".nlevel")
-
-    def copy_link(self) -> None:
-        """Copy the level as a link into the clipboard, or into a file where there is none."""
-        copy_level_link(self.app, self.draft, self.name)
 
     def paste_string(self) -> None:
         """Replace the level by the one in the clipboard, in any format; this can be undone."""

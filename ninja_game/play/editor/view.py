@@ -199,28 +199,23 @@ LAYOUT = EditorLayout()
 
 
 class EditorView(Pane):
-    """The level under edit with its overlay. ``hovering``: the pointer is shown; ``hint``: for the line below.
-
-    ``by_keys``: keys or a pad have moved it last. ``taker``: gets the cell of the next press in the level, which draws
-    nothing then; called with None if that is cancelled. ``open_message``: gets the cell of a double-clicked message.
-    ``listing``: the list of objects is shown instead of the palette; ``tests``: the map of the tests is shown.
-    ``camera``: the shown part of the level.
-    """
+    """The level under edit with its overlay."""
 
     area = LAYOUT.level
 
     def __init__(self, app: App, session: EditorSession) -> None:
         self.app = app
         self.session = session
-        self.hovering = self.by_keys = False
-        self.hint = ""
+        self.hovering = self.by_keys = False  #: the pointer is shown; keys or a pad have moved it last
+        self.hint = ""  #: for the line below
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
-        self.listing = self.tests = False
+        self.listing = self.tests = False  #: the list of objects is shown, not the palette; the map of tests is shown
+        #: Gets the cell of the next press in the level, which draws nothing then; None if that is cancelled
         self.taker: Callable[[Cell | None], None] | None = None
-        self.open_message: Callable[[Cell], object] = lambda _: None
+        self.open_message: Callable[[Cell], object] = lambda _: None  #: gets the cell of a double-clicked message
         self._pressed: tuple[Cell, int, Draft] | None = None
-        self.camera = Camera(2.0, 4.0)
+        self.camera = Camera(2.0, 4.0)  #: the shown part of the level
         self._mouse = (0, 0)
         self._held = False
         self._marked: tuple[object, ...] = ()

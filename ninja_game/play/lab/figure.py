@@ -24,7 +24,7 @@ from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, UNIT_X, U
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import CELL, HALF, INTERESTING, OFF
 from ninja_game.simulation import Simulation
-from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Colour
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Colour, Lens
 from ninja_game.ui.theme import Area, Palette, Theme
 from ninja_game.ui.widgets import Choice, Slider, Widget
 from ninja_game.view.level_view import LevelView, OffscreenContext
@@ -117,21 +117,15 @@ FIELD = View(CELL, CELL, 0.75)
 """30 x 18 cells."""
 
 
-class _ViewCanvas(Canvas):
-    def __init__(self, canvas: Canvas, view: View) -> None:
-        super().__init__(canvas.window)
-        x, y = canvas.exact(FIGURE[0], FIGURE[1])
-        self.scale = canvas.scale * view.zoom
-        self.origin = round(x - view.left * self.scale), round(y - view.top * self.scale)
-
-
 class Sheet:
     """Draws on a surface in px of the world, clipped to the figure's rectangle."""
 
     def __init__(self, surface: pygame.Surface, theme: Theme, view: View) -> None:
         self.surface = surface
         self.view = view
-        self.canvas = _ViewCanvas(theme.canvas, view)
+        (x, y), scale = theme.canvas.exact(FIGURE[0], FIGURE[1]), theme.canvas.scale * view.zoom
+        corner = round(x - view.left * scale), round(y - view.top * scale)
+        self.canvas = Lens(theme.canvas.window, scale, corner)
         self.theme = theme
         self.area = theme.canvas.rect(*FIGURE)
         surface.set_clip(self.area)
@@ -140,10 +134,6 @@ class Sheet:
     @property
     def palette(self) -> Palette:
         return self.theme.palette
-
-    def close(self) -> None:
-        self.surface.set_clip(None)
-        self.theme.canvas.frame_rect(self.surface, self.palette.panel_edge, *FIGURE, 1)
 
     def text(self, text: str, x: float, y: float, *, size: float = 9, colour: Colour | None = None) -> None:
         """A text centred at a point of the world; ``size`` in logical px of the screen."""
@@ -333,6 +323,12 @@ class Figure:
 
     def draw(self, sheet: Sheet) -> None:
         raise NotImplementedError
+
+    def show(self, surface: pygame.Surface, theme: Theme) -> None:
+        """Draw the figure in its frame."""
+        self.draw(Sheet(surface, theme, self.view))
+        surface.set_clip(None)
+        theme.canvas.frame_rect(surface, theme.palette.panel_edge, *FIGURE, 1)
 
 
 ELSEWHERE = "ninja 700,500px"

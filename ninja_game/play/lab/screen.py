@@ -11,7 +11,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
 from ninja_game.play.lab.cells import CellsTouched, GridOfCells, NineCells, RayCast
 from ninja_game.play.lab.edges import Doors, EdgeStates, WalkingEnemies
-from ninja_game.play.lab.figure import FIGURE, Figure, Sheet
+from ninja_game.play.lab.figure import FIGURE, Figure
 from ninja_game.play.lab.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.one_tick import OneTick
 from ninja_game.play.lab.projection import Bodies, Projection, Response
@@ -160,9 +160,7 @@ class FigureArea(Widget):
         return True
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        sheet = Sheet(surface, theme, self.screen.figure.view)
-        self.screen.figure.draw(sheet)
-        sheet.close()
+        self.screen.figure.show(surface, theme)
         if focused:
             theme.canvas.frame_rect(surface, theme.palette.accent, *FIGURE, 2.5)
 
@@ -184,9 +182,7 @@ class FigurePicture:
         self.area = context.canvas.rect(*FIGURE)
 
     def draw(self) -> None:
-        sheet = Sheet(self.surface, self.theme, self.figure.view)
-        self.figure.draw(sheet)
-        sheet.close()
+        self.figure.show(self.surface, self.theme)
 
     def demonstrate(self, tick: int) -> None:
         self.figure.demonstrate(tick)

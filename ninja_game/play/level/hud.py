@@ -30,10 +30,10 @@ _FOOT_WIDTH = 744.0  # px
 _RIGHT = CELL * (COLUMNS + 1)  # right edge of texts in the borders, px
 _NAME_FROM = 90.0  # free px beside a text in the border that the level's name needs
 
-_SAID_SIZE = 15.0  # letters of a level's message
-_SAID_LINE = 22.0  # height of its lines, px
-_SAID_WIDE = 440.0  # where its lines are broken, px
-_SAID_WIDEST = 680.0  # where a single word ends, px
+_MESSAGE_SIZE = 15.0  # letters of a level's message
+_MESSAGE_LINE = 22.0  # height of its lines, px
+_MESSAGE_WIDE = 440.0  # where its lines are broken, px
+_MESSAGE_WIDEST = 680.0  # where a single word ends, px
 _KEYS_WIDE = 70.0  # room for keys before a line, px
 IN_BORDER = CELL * (ROWS + 1)  # top of a message in the border below, px
 _BESIDE_GOLD = 490.0  # its width there, px
@@ -89,19 +89,14 @@ class Box(NamedTuple):
 
 
 class PlacedMessage(NamedTuple):
-    """A message of a level, and what it should not cover.
-
-    ``tiles``, ``things``: to cover as little of as possible. ``covers``: it may cover open space too; else it may lie
-    in the border below. ``near``: it belongs to the place ``about``: it lies beside it, whatever it covers, and points
-    to it.
-    """
+    """A message of a level, and what it should not cover."""
 
     text: str
-    tiles: tuple[int, ...]
+    tiles: tuple[int, ...]  #: tiles and things to cover as little of as possible
     things: Things
-    about: Point | None
-    covers: bool
-    near: bool = False
+    place: Point | None  #: what it belongs to, px
+    covers: bool  #: whether it may cover open space too; else it may lie in the border below
+    near: bool = False  #: whether it lies beside its place, whatever it covers, and points to it
 
 
 class EndPanel(NamedTuple):
@@ -115,36 +110,27 @@ class EndPanel(NamedTuple):
 
 @dataclass(frozen=True)
 class HudView:
-    """The texts over a level now.
+    """The texts over a level now."""
 
-    ``lifetime``: ticks, for the time bar; ``label``: a word instead of the bar; ``pars``: medals, and the lifetime at
-    which each is lost. ``foot``: texts at the left and the right of the border below, ``name``: the left text when a
-    message lies there. ``keys``: of the present tick, ``frame_ms``: of the last picture; None: not shown. ``moves``:
-    the keys of each line of ``said``, ``letters``: the letters on the keys left, jump and right. ``named``: names of
-    things and their places, px. ``medal``: of the pass, or "", ``stamp``: its size, 0…1, ``shine``: progress of the
-    light over it. ``seen``: opacity of the end panel, 0…1. ``ninja``: its place in play, px: messages over it fade,
-    ``softly`` or at once. ``said_seen``: opacity of ``said`` apart from that.
-    """
-
-    lifetime: float
-    label: str
-    foot: tuple[str, str]
-    name: str = ""
-    pars: Sequence[tuple[str, float]] = ()
-    keys: int | None = None
-    frame_ms: float | None = None
-    said: PlacedMessage | None = None
-    moves: Sequence[int] = ()
-    letters: Sequence[str] = ()
-    named: Sequence[tuple[str, float, float]] = ()
+    lifetime: float  #: ticks, for the time bar
+    label: str  #: a word instead of the bar
+    foot: tuple[str, str]  #: texts at the left and the right of the border below
+    name: str = ""  #: the left text there when a message lies in the border
+    pars: Sequence[tuple[str, float]] = ()  #: medals, and the lifetime at which each is lost, ticks
+    keys: int | None = None  #: of the present tick; None: not shown
+    frame_ms: float | None = None  #: of the last picture; None: not shown
+    message: PlacedMessage | None = None
+    moves: Sequence[int] = ()  #: the keys of each line of the message
+    letters: Sequence[str] = ()  #: on the keys left, jump and right
+    named: Sequence[tuple[str, float, float]] = ()  #: names of things, and their places, px
     end: EndPanel | None = None
-    medal: str = ""
-    stamp: float = 1.0
-    shine: float = 1.0
-    seen: float = 1.0
-    ninja: Point | None = None
-    softly: bool = True
-    said_seen: float = 1.0
+    medal: str = ""  #: of the pass, or ""
+    stamp: float = 1.0  #: size of the medal, 0…1
+    shine: float = 1.0  #: progress of the light over the medal, 0…1
+    end_opacity: float = 1.0  #: of the end panel, 0…1
+    ninja: Point | None = None  #: its place in play, px; a message over it fades
+    softly: bool = True  #: whether that message fades slowly, not at once
+    message_opacity: float = 1.0  #: apart from fading over the ninja, 0…1
 
 
 class Hud:
@@ -156,13 +142,13 @@ class Hud:
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """Draw everything; the covered px rectangles."""
         top = [self.label(surface, view.label)] if view.label else self.time_bar(surface, view.lifetime, view.pars)
-        said = self.box(view.said, keys=_KEYS_WIDE if view.moves else 0) if view.said else None
-        in_border = said is not None and said.y == IN_BORDER
+        box = self.box(view.message, keys=_KEYS_WIDE if view.moves else 0) if view.message else None
+        in_border = box is not None and box.y == IN_BORDER
         written = top + self.foot(surface, "" if in_border else view.foot[0], view.foot[1])
-        if said is not None and in_border:
+        if box is not None and in_border:
             # Beside a message at the right; the rest of the border is for the level's name.
-            left = max(24.0, _RIGHT - self.theme.width(view.foot[1], _FOOT_SIZE) - 14 - said.w)
-            said = said._replace(x=left)
+            left = max(24.0, _RIGHT - self.theme.width(view.foot[1], _FOOT_SIZE) - 14 - box.w)
+            box = box._replace(x=left)
             if left > _NAME_FROM:
                 written += self.foot(surface, self.theme.fit(view.name, left - 36, _FOOT_SIZE), "")
         if view.frame_ms is not None:
@@ -170,15 +156,15 @@ class Hud:
         if view.keys is not None:
             written.append(self.keys(surface, view.keys))
         written += [self.pointer(surface, *named) for named in view.named]
-        if said is not None:
-            seen = view.said_seen * (1.0 if in_border else _clear_of(view.ninja, said, softly=view.softly))
-            place = self.theme.canvas.rect(*said.area)
-            behind = _behind(surface, place, seen)
-            if view.said and view.said.near and view.said.about and view.said_seen == 1:
-                written.append(self._tail(surface, said, view.said.about))
-            written.append(self.said(surface, said, () if in_border else view.moves, view.letters))
-            _fade(surface, place, behind, seen)
-        if view.end and view.seen > 0:
+        if box is not None:
+            opacity = view.message_opacity * (1.0 if in_border else _clear_of(view.ninja, box, softly=view.softly))
+            place = self.theme.canvas.rect(*box.area)
+            behind = _covered_picture(surface, place, opacity)
+            if view.message and view.message.near and view.message.place and view.message_opacity == 1:
+                written.append(self._tail(surface, box, view.message.place))
+            written.append(self.draw_message(surface, box, () if in_border else view.moves, view.letters))
+            _fade(surface, place, behind, opacity)
+        if view.end and view.end_opacity > 0:
             written.append(self.end_panel(surface, view, view.end))
         return written
 
@@ -201,18 +187,9 @@ class Hud:
                 canvas.fill_rect(surface, colour, _BAR_LEFT, top, length, thick, 1.5)
         for medal, ticks in pars:
             draw_medal(surface, self.theme, medal, _BAR_LEFT + bar_length(ticks), _BAR_MIDDLE, _MARK_SIZE)
-        x = _BAR_LEFT + _BAR_LENGTH
-        text = self.theme.text(
-            surface,
-            f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS),
-            _RIGHT,
-            7.4,
-            size=9,
-            colour=palette.on_tile,
-            align="right",
-            bold=True,
-            width=_RIGHT - x - 10,
-        )
+        x, ink = _BAR_LEFT + _BAR_LENGTH, palette.on_tile
+        words, room = f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS), _RIGHT - x - 10
+        text = self.theme.text(surface, words, _RIGHT, 7.4, size=9, colour=ink, align="right", bold=True, width=room)
         return [frame.union(canvas.rect(x, 2, 8, 20)) if pars else frame, text.inflate(canvas.px(8), 4)]
 
     def label(self, surface: pygame.Surface, text: str, size: float = 10.0) -> pygame.Rect:
@@ -262,7 +239,7 @@ class Hud:
         if any(cost > MUST for cost in hidden_by(things, x, y, w, h)):
             x, y, *_ = solid_place(tiles, w, h, things, rows=2)
         place = theme.canvas.rect(x, y, w, h)
-        behind = _behind(surface, place, view.seen)
+        behind = _covered_picture(surface, place, view.end_opacity)
         rect = theme.panel(surface, x, y, w, h, 4)
         middle = x + w / 2
         if medal:
@@ -275,7 +252,7 @@ class Hud:
         theme.text(surface, named, across, y + 43, size=_MEDAL_SIZE, colour=accent, align="centre", bold=True)
         for k, line in enumerate(lines):
             theme.text(surface, line, middle, y + 41 + below + 18 * k, size=_LINE_SIZE, align="centre")
-        _fade(surface, place, behind, view.seen)
+        _fade(surface, place, behind, view.end_opacity)
         return rect
 
     def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:
@@ -303,21 +280,21 @@ class Hud:
             rects.append(canvas.polygon(surface, colour, [*ends, at]))
         return rects[0].union(canvas.circle(surface, palette.accent, at, 3)).inflate(2, 2)
 
-    def box(self, said: PlacedMessage, *, keys: float = 0.0) -> Box:
+    def box(self, message: PlacedMessage, *, keys: float = 0.0) -> Box:
         """The place of a message: in the upper border, else in the lower one, over solid tiles.
 
         If it would hide something there, or open space that it may not cover, it lies where it hides least, but never
         over the ninja or what it must not hide, and else in the border below, beside the gold. A message with a place
         lies at most two cells from it. ``keys``: room before its lines, px.
         """
-        return _box(self._measures, said, keys)
+        return _box(self._measures, message, keys)
 
-    def said(
+    def draw_message(
         self, surface: pygame.Surface, box: Box, moves: Sequence[int] = (), letters: Sequence[str] = ()
     ) -> pygame.Rect:
         """A message in its panel, each line behind the keys that it explains."""
         lines, left, y, w, high, margin, size = box
-        rect, room = self.theme.panel(surface, *box.area, 4), _SAID_WIDEST - (_KEYS_WIDE if moves else 0)
+        rect, room = self.theme.panel(surface, *box.area, 4), _MESSAGE_WIDEST - (_KEYS_WIDE if moves else 0)
         for k, line in enumerate(lines):
             top = y + margin + high * k
             if moves:
@@ -327,7 +304,7 @@ class Hud:
         return rect
 
     def keys(
-        self, surface: pygame.Surface, held: int, x: float = 366, y: float = 580, letters: Sequence[str] = ()
+        self, surface: pygame.Surface, inputs: int, x: float = 366, y: float = 580, letters: Sequence[str] = ()
     ) -> pygame.Rect:
         """The three keys of an input: left, jump, right, with their letters if they have any, else with arrows.
 
@@ -336,7 +313,7 @@ class Hud:
         palette, canvas = self.theme.palette, self.theme.canvas
         rect = pygame.Rect(0, 0, 0, 0)
         for place, (dx, bit, arrow) in enumerate(_KEYS):
-            down = bool(held & bit)
+            down = bool(inputs & bit)
             box = canvas.fill_rect(surface, palette.accent if down else palette.panel, x + dx, y, 18, 16, 3)
             canvas.frame_rect(surface, palette.panel_edge, x + dx, y, 18, 16, 1, 3)
             ink = palette.panel if down else palette.faint
@@ -358,44 +335,44 @@ def _clear_of(ninja: Point | None, box: Box, *, softly: bool) -> float:
     return _FAINT + (1 - _FAINT) * min(1.0, max(0.0, share))
 
 
-def _behind(surface: pygame.Surface, place: pygame.Rect, seen: float) -> pygame.Surface | None:
+def _covered_picture(surface: pygame.Surface, place: pygame.Rect, opacity: float) -> pygame.Surface | None:
     """A copy of the picture under a panel that is not solid."""
-    if seen >= 1:
+    if opacity >= 1:
         return None
     behind = pygame.Surface(place.size, pygame.SRCALPHA)
     behind.blit(surface, (0, 0), place)
     return behind
 
 
-def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | None, seen: float) -> None:
+def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | None, opacity: float) -> None:
     """Blend the copy of the picture into the panel, by the panel's opacity."""
     if behind:
-        behind.fill((round(255 * (1 - seen)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+        behind.fill((round(255 * (1 - opacity)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
         surface.blit(behind, place, special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
 @lru_cache(maxsize=4)
-def _box(theme: Theme, said: PlacedMessage, keys: float) -> Box:
+def _box(theme: Theme, message: PlacedMessage, keys: float) -> Box:
     """As ``Hud.box``. Cached: the search for a place takes longer than all the rest of a picture."""
-    text, tiles, things, about, covers, near = said
-    high, anchor = _SAID_LINE * theme.scales[0], about if near else None
-    if about:
-        things = (*things, (*about, MUST))
+    text, tiles, things, place, covers, near = message
+    high, anchor = _MESSAGE_LINE * theme.scales[0], place if near else None
+    if place:
+        things = (*things, (*place, MUST))
     boxes: list[tuple[int, Box]] = []
     for rows, width in ((0, 1), (0, 0.6), (0, 0.4)) if anchor else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
-        lines = text.split("\n") if keys else wrapped(theme, text, width * _SAID_WIDE, _SAID_SIZE)
-        lines = [theme.fit(line, _SAID_WIDEST - keys, _SAID_SIZE) for line in lines]
-        w = min(max(theme.width(line, _SAID_SIZE) for line in lines), _SAID_WIDEST - keys) + 28 + keys
+        lines = text.split("\n") if keys else wrapped(theme, text, width * _MESSAGE_WIDE, _MESSAGE_SIZE)
+        lines = [theme.fit(line, _MESSAGE_WIDEST - keys, _MESSAGE_SIZE) for line in lines]
+        w = min(max(theme.width(line, _MESSAGE_SIZE) for line in lines), _MESSAGE_WIDEST - keys) + 28 + keys
         left, y, covered, hidden = solid_place(
-            tiles, w, high * len(lines) + 19, things, about, rows=rows, beside=anchor
+            tiles, w, high * len(lines) + 19, things, place, rows=rows, beside=anchor
         )
-        box = Box(lines, left, y, w, high, 10.0, _SAID_SIZE)
+        box = Box(lines, left, y, w, high, 10.0, _MESSAGE_SIZE)
         if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
             return box
         boxes.append((hidden, box))
     if anchor:
         return min(boxes)[1]
     text = text.replace("\n", "    ")
-    size = min(_SAID_SIZE, _SAID_SIZE * _BESIDE_GOLD / theme.width(text, _SAID_SIZE))
+    size = min(_MESSAGE_SIZE, _MESSAGE_SIZE * _BESIDE_GOLD / theme.width(text, _MESSAGE_SIZE))
     w = theme.width(text, size) + 28
     return Box([text], (WIDTH - w) / 2, IN_BORDER, w, 17.0, 3.0, size)

@@ -43,11 +43,11 @@ def hud_view(play: LevelPlay) -> HudView:
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.messages.text
     # The text of the start, and the one for a player who is stuck, stay in place and may cover open space.
     covers = play.messages.is_start or "\n" in text
-    place, came = play.messages.place, play.about
+    place, spot = play.messages.place, play.message_spot
     # A text with a place lies beside it, and never over the ninja that has just come there.
-    things = (*play.things, (*came, MUST)) if place and came else play.things
-    where = context.level.tiles, things, place or came, covers, place is not None
-    message_said = PlacedMessage(named_keys(text, key), *where) if text else None
+    things = (*play.things, (*spot, MUST)) if place and spot else play.things
+    layout = context.level.tiles, things, place or spot, covers, place is not None
+    message = PlacedMessage(named_keys(text, key), *layout) if text else None
     if play.phase is Phase.DEAD:
         cause, help_text = cause_of_death(play)
         end = EndPanel(cause, [*filter(None, [help_text]), _after_death(play, key)], *_covering(play))
@@ -73,7 +73,7 @@ def hud_view(play: LevelPlay) -> HudView:
         pars=_pars_ahead(play),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
-        said=message_said,
+        message=message,
         moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
         letters=[key(name) for name in ("left", "jump", "right")],
         end=end,
@@ -81,10 +81,10 @@ def hud_view(play: LevelPlay) -> HudView:
         medal=play.medal,
         stamp=play.stamp,
         shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
-        seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
+        end_opacity=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
         ninja=play.ninja_place(),
         softly=not settings.reduced_motion,
-        said_seen=1.0 if settings.reduced_motion else play.messages.seen,
+        message_opacity=1.0 if settings.reduced_motion else play.messages.opacity,
     )
 
 
@@ -100,7 +100,7 @@ def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
 
 def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
     """Tiles and things that the panel of an ended run should not cover; it never covers the end or an exit."""
-    x, y = play.about or (0.0, 0.0)
+    x, y = play.message_spot or (0.0, 0.0)
     end = [(x + dx, y + dy, 9 * MUST) for dx in (-_END_ROOM, 0, _END_ROOM) for dy in (-_END_ROOM, 0, _END_ROOM)]
     exits = [(o.x, o.y, 9 * MUST) for o in play.attempt.simulation.world.objects[1:] if o.kind == EXIT]
     return play.context.level.tiles, (*end, *exits, *play.things)
@@ -109,11 +109,9 @@ def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
 def _reached(play: LevelPlay) -> list[str]:
     """Lines after a pass: the medal, the time for the next medal, the gold, unlocked levels."""
     attempt, pars = play.attempt, play.context.pars
-    following = (
-        [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!"]
-        if pars and play.medal
-        else []
-    )
+    following = []
+    if pars and play.medal:
+        following.append(next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!")
     gold = f"{attempt.gold} of {play.all_gold} gold" if attempt.gold < play.all_gold else f"All {play.all_gold} gold"
     medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
     clock = [f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"] * play.context.carries_clock
@@ -138,8 +136,11 @@ def named_in(world: World, names: Sequence[str]) -> list[tuple[str, float, float
 def _hint(play: LevelPlay, key: KeyName) -> str:
     """The key to press now; "" in play and after it."""
     if play.phase is Phase.READY:
-        show_tutorial = play.show_tutorial and not play.messages.text
-        return _ready_hint(key, practice_mode=play.context.practice_mode, show_tutorial=show_tutorial)
+        begin = f"{key('confirm')} or any move to start"
+        if play.show_tutorial and not play.messages.text:
+            return f"{key('left')} and {key('right')} to run    {key('jump')} to jump, hold it to go higher    {begin}"
+        inside = f"    {key('overlay_hitboxes')} to {key('overlay_thinkers')}: look inside"
+        return begin + inside * play.context.practice_mode
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
     named = play.phase is not Phase.PASSED and play.attempt.simulation.tick < _TOOLS_NAMED
@@ -151,15 +152,6 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
 def _after_death(play: LevelPlay, key: KeyName) -> str:
     try_again = f"{key('confirm')} or {key('jump')}: try again"
     return f"{try_again}    {key('replay')}: watch it" + f"    {key('skip')}: get help" * play.is_stuck
-
-
-def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> str:
-    begin = f"{key('confirm')} or any move to start"
-    if show_tutorial:
-        return f"{key('left')} and {key('right')} to run    {key('jump')} to jump, hold it to go higher    {begin}"
-    if practice_mode:
-        return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_thinkers')}: look inside"
-    return begin
 
 
 def cause_of_death(play: LevelPlay) -> tuple[str, str]:

@@ -92,14 +92,7 @@ _PHASE_OF_OUTCOME = {"running": Phase.PLAY, "dead": Phase.DEAD, "exit": Phase.PA
 
 
 class LevelPlay:
-    """One level of a context, played again and again.
-
-    ``view`` shows every tick. ``tries``: inputs of the failed ones. ``after_end``: ticks since the exit contact or
-    death; ``killer``: one of ``deaths.KILLERS``, ``crushed``: whether it crushed the ninja. ``keys``: of the last tick.
-    ``things``: what a message should not cover; ``about``: where the ninja was when the present message came, or the
-    run ended; None for the message of the start. ``notices``: what a pass has won. ``next_par``: in words, while the
-    level waits at its start. ``changed``: more than one tick has passed, so all must be drawn again.
-    """
+    """One level of a context, played again and again; its view shows every tick."""
 
     def __init__(self, app: App, context: LevelContext) -> None:
         self.app = app
@@ -112,6 +105,7 @@ class LevelPlay:
         messages = context.messages()
         level, inputs = context.beginning() if messages else (context.level, b"")
         world = self.attempt.simulation.world if level == context.level else Simulation(level).world
+        #: What a message should not cover
         self.things = things_at_start(level, world, [message.text for message in messages], inputs)
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
@@ -120,7 +114,7 @@ class LevelPlay:
         self.messages = MessageQueue(messages, helps=context.shows_hints)
         self.shown_lifetime = float(self.attempt.lifetime)
         self.ghosts: list[Ghost] = []
-        self.tries: deque[bytes] = deque(maxlen=MAX_TRIES)
+        self.tries: deque[bytes] = deque(maxlen=MAX_TRIES)  #: inputs of the failed ones
         self._frozen_ms = 0
         self._phase_before = Phase.READY
         self._wait_at_start()
@@ -129,13 +123,14 @@ class LevelPlay:
         self._go_to(Phase.READY)
         self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
-        self.keys = self._ignored = self._tapped = 0
-        self.about: tuple[float, float] | None = None
-        self.after_end = self._frozen_ms = 0
-        self.killer, self.crushed = "", False
+        self.keys = self._ignored = self._tapped = 0  #: of the last tick
+        #: The ninja's place when the present message came, or the run ended; None for the message of the start
+        self.message_spot: tuple[float, float] | None = None
+        self.after_end = self._frozen_ms = 0  #: ticks since the exit contact or death
+        self.killer, self.crushed = "", False  #: one of ``deaths.KILLERS``, and whether it crushed the ninja
         self.messages.at_start()
-        self.notices: list[str] = []
-        self.next_par = self.context.next_par()
+        self.notices: list[str] = []  #: what a pass has won
+        self.next_par = self.context.next_par()  #: in words, while the level waits at its start
         runs = self.context.ghosts()
         if runs != [(ghost.inputs, ghost.pace) for ghost in self.ghosts]:
             self.ghosts = [Ghost(run, self.context.level, self.context.body, pace=pace) for run, pace in runs]
@@ -278,7 +273,7 @@ class LevelPlay:
             self.view.on_tick()
             self.tools.on_tick()
             if self.phase is Phase.PLAY and self.messages.on_tick(self.attempt.simulation.world):
-                self.changed, self.about = True, None if self.messages.is_start else self.ninja_place()
+                self.changed, self.message_spot = True, None if self.messages.is_start else self.ninja_place()
             self._note_end()
         if due and self.phase is Phase.PLAY:
             self.attempt.check_time()
@@ -289,7 +284,7 @@ class LevelPlay:
     def _note_end(self) -> None:
         """Change the phase at the first exit contact or death."""
         if self.phase is Phase.PLAY and self.attempt.outcome != "running":
-            self.after_end, self.about = 0, self.ninja_place()
+            self.after_end, self.message_spot = 0, self.ninja_place()
             self.phase = _PHASE_OF_OUTCOME[self.attempt.outcome]
             self.changed = True
             if self.phase is Phase.PASSED:

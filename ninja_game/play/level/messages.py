@@ -69,7 +69,7 @@ class MessageQueue:
         self.named = arrow_targets(message.text for message in messages)
         self.helps = helps
         self._again = helps
-        self._said: set[LevelMessage] = set()
+        self._shown: set[LevelMessage] = set()
         self._deaths = self._slips = 0
         self._climb, self._foot = "", 0.0
         self._began = 0.0, 0.0
@@ -78,7 +78,8 @@ class MessageQueue:
     def at_start(self) -> None:
         """Called when the level waits at its start."""
         due = [message for message in self._messages if message.when == "death" and message.number == self._deaths]
-        self._say(*_in_turn([*due, *self._starts()]))
+        starts = [message for message in self._messages if message.when == "start" and message not in self._shown]
+        self._say(*_in_turn([*due, *starts]))
         self._still = self._quiet = 0
         self._jumped_at = self._wall = 0.0
 
@@ -91,13 +92,10 @@ class MessageQueue:
 
         Once the exit is open, none of the start without a time of its own.
         """
-        over = {message.text for message in self._said if message.when == "start" and not message.seconds}
+        over = {message.text for message in self._shown if message.when == "start" and not message.seconds}
         over.update(text for text, *_ in texts)
         now = [(self.text, self._left, self.place)] if self.is_start or self._unread > 0 else []
         self._say(*texts, *(line for line in (*now, *self._next) if line[0] and line[0] not in over))
-
-    def _starts(self) -> list[LevelMessage]:
-        return [message for message in self._messages if message.when == "start" and message not in self._said]
 
     @property
     def is_start(self) -> bool:
@@ -105,13 +103,13 @@ class MessageQueue:
         return self.text in [message.text for message in self._messages if message.when == "start"]
 
     @property
-    def seen(self) -> float:
+    def opacity(self) -> float:
         """Opacity of the present text, 0…1."""
         return min(1.0, max(0.0, self._left / FADE_TICKS)) if self.place else 1.0
 
     def say_again(self) -> None:
         """Forget what was shown, after another run was watched: the player has not passed those events yet."""
-        self._said.clear()
+        self._shown.clear()
         self.at_start()
 
     def on_death(self) -> None:
@@ -130,15 +128,15 @@ class MessageQueue:
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
         if "switch" in happened:
             # The player has understood the goal: do not repeat the text of the start.
-            self._said.update(message for message in self._messages if message.when == "start")
+            self._shown.update(message for message in self._messages if message.when == "start")
         new = [
             message
             for message in self._messages
-            if message not in self._said
+            if message not in self._shown
             and (message.when in happened or _is_near(world, message.place) or _is_due(world, message))
         ]
         if new:
-            self._said.update(new)
+            self._shown.update(new)
             self._say_first(*_in_turn(new))
         if self._again and self._is_stuck(world):
             self._again = False

@@ -61,14 +61,14 @@ def solid_place(
     w: float,
     h: float,
     things: Things = (),
-    about: Point | None = None,
+    near: Point | None = None,
     *,
     rows: int = 0,
     beside: Point | None = None,
 ) -> tuple[float, float, int, int]:
     """Upper left corner of a panel of that size, px, then the whole cost, and the part of it for hidden things.
 
-    Solid cells cost nothing, open cells beside solid ones most. Of equal places the one nearest to ``about`` is taken,
+    Solid cells cost nothing, open cells beside solid ones most. Of equal places the one nearest to ``near`` is taken,
     or to the middle of the upper border. ``rows``: only at the left, in the middle and at the right of that many
     heights, from the upper border to the lower one; ``beside``: only around that place, _BESIDE px from it.
     """
@@ -81,7 +81,7 @@ def solid_place(
         covered = sum((cells & area).bit_count() for cells in open_cells[columns])
         covered += (_ALONG - 1) * sum((cells & area).bit_count() for cells in ways[columns])
         hidden = sum(hidden_by(things, x, y, w, h))
-        far = hypot(x + w / 2 - about[0], y + h / 2 - about[1]) if about else 0.0
+        far = hypot(x + w / 2 - near[0], y + h / 2 - near[1]) if near else 0.0
         # Rounded: otherwise the last bit of a width would choose between left and right.
         return covered + hidden, round(far or abs(x + w / 2 - WIDTH / 2) + y, 3), hidden
 

@@ -58,7 +58,6 @@ class Browser(ThumbnailScreen):
         super().__init__(app)
         self._packs = packs
         self._edit = edit
-        self.search = ""
         self.sort: object = "listed"
         self.message = ""
         self.problems: list[Problem] = []
@@ -67,16 +66,8 @@ class Browser(ThumbnailScreen):
         self.bests: dict[str, SavedReplay] = {}
         self.marks: dict[str, Mark] = {}
         self._count = ""
-        self.list = ListView(
-            (44, 112, 376, 8 * ROW),
-            ROW,
-            self._draw_row,
-            self.play,
-            empty="No level matches",
-            hint="Enter to play, Right for more, Up to search",
-            selected=self._select,
-            opens=True,
-        )
+        self.list = ListView((44, 112, 376, 8 * ROW), ROW, self._draw_row, self.play, selected=self._select, opens=True)
+        self.list.empty, self.list.hint = "No level matches", "Enter to play, Right for more, Up to search"
         self.play_it = Button((SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
         self.practice = Button(
             (SIDE + 166, 470, 154, 32), "Practice", lambda: self.play(self.list.index, practice=True)
@@ -85,7 +76,8 @@ class Browser(ThumbnailScreen):
         self.watch_author = Button((SIDE + 104, 510, 98, 32), "Author's run", self._watch_author)
         self.change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change)
         self.link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link)
-        self.entry_field = TextEntry((44, 66, 194, 32), "Search name or author", "", self._search)
+        self.entry_field = TextEntry((44, 66, 194, 32), "Search name or author", "", lambda _: self._arrange())
+        self.search = self.entry_field
 
     def enter(self) -> None:
         catalogue = self.player.catalogue
@@ -113,12 +105,6 @@ class Browser(ThumbnailScreen):
         if self._packs:
             more.append(Button((368, 66, 52, 32), "Packs", self._packs, hint="Bundle your levels into packs"))
         return [*self.choosers(), self.play_it, self.practice, *watch, *more, self.link]
-
-    def capture(self, event: InputEvent) -> bool:
-        """Typed letters go to the search, wherever the focus is."""
-        if event.raw.type == pygame.TEXTINPUT and event.raw.text.strip():
-            self.focus_on(self.entry_field)
-        return super().capture(event)
 
     def handle(self, event: InputEvent) -> None:
         """A dropped file is copied into the player's folder, a pack goes to the screen of packs.
@@ -151,16 +137,12 @@ class Browser(ThumbnailScreen):
             self.message = reason(error)
         self.redraw = True
 
-    def _search(self, text: str) -> None:
-        self.search = text
-        self._arrange()
-
     def _sort(self, value: object) -> None:
         self.sort = value
         self._arrange()
 
     def _arrange(self) -> None:
-        words = self.search.casefold().split()
+        words = self.entry_field.text.casefold().split()
         matching = [e for e in self.entries if all(word in _words(e) for word in words)]
         keys: dict[object, Callable[[Entry], object]] = {
             "name": lambda e: e.title.casefold(),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import date, timedelta
+from functools import partial
 from pathlib import Path
 from random import Random
 from threading import Event
@@ -39,11 +40,7 @@ class _Maker:
         self.progress = "getting started"
         self.problem = ""
         self.stop = Event()
-        self._thread = run_in_background(lambda: self._run(levels, day), self._fail)
-
-    @property
-    def working(self) -> bool:
-        return self._thread.is_alive()
+        self.thread = run_in_background(lambda: self._run(levels, day), self._fail)
 
     def _run(self, levels: Path, day: date) -> None:
         if daily.take_packed(levels, day):
@@ -51,14 +48,11 @@ class _Maker:
         require_desktop()
         choose_memory("compiled")
         self.progress = "this takes a minute or two the first time"
-        if not daily.make_daily(levels, day, report=self._report, stop=self.stop):
+        if not daily.make_daily(levels, day, report=partial(setattr, self, "progress"), stop=self.stop):
             self.problem = "No level could be made for today."
 
     def _fail(self, why: str) -> None:
         self.problem = f"No level could be made for today: {why}"
-
-    def _report(self, text: str) -> None:
-        self.progress = text
 
 
 class DailyScreen(ThumbnailScreen):
@@ -131,12 +125,12 @@ class DailyScreen(ThumbnailScreen):
             return
         if not self.app.settings.reduced_motion:
             self._dig(real_ms)
-        if not maker.working:
+        if not maker.thread.is_alive():
             self._maker = None
             self._find()
             self.message = self.message or maker.problem
             super().enter()
-        if maker.progress != self._shown or not maker.working:
+        if maker.progress != self._shown or self._maker is None:
             self._shown = maker.progress
             self.redraw = True
 

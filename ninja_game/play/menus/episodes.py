@@ -15,7 +15,7 @@ from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow
 from ninja_game.play.menus.problems import of_files, problems_button
-from ninja_game.play.menus.settings import PRACTICE_HINT
+from ninja_game.play.menus.settings import PRACTICE_HINT, setting_choice
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import EpisodeSession, unfinished_run
@@ -177,12 +177,9 @@ class EpisodeGrid(ThumbnailScreen):
             return "There are no episodes"
         if lock := self.player.lock_of_episode(self.episode):
             return lock
-        cheated = self._state(self.number) == CHEATED
-        return (
-            "Enter: play, without records (so far seen in practice only)"
-            if cheated
-            else f"Enter: play this episode    {self.app.controls.name('link')}: copy a link to the pack"
-        )
+        if self._state(self.number) == CHEATED:
+            return "Enter: play, without records (so far seen in practice only)"
+        return f"Enter: play this episode    {self.app.controls.name('link')}: copy a link to the pack"
 
     @property
     def _below(self) -> float:
@@ -197,34 +194,19 @@ class EpisodeGrid(ThumbnailScreen):
         self.marks = self.player.marks.all()
         self.passed = self.marks.keys() | self.player.marks.all(WITH_HELP).keys()
         self._selected(self.grid.index)
-        self.practice = Choice(
-            (LEFT, self._below, WIDE, 30),
-            "Practice mode",
-            [("off", False), ("on", True)],
-            lambda: self.player.settings.practice,
-            self._set_practice,
-            hint=PRACTICE_HINT,
-        )
+        area = LEFT, self._below, WIDE, 30
+        self.practice = setting_choice(self.app, area, "Practice mode", "practice", hint=PRACTICE_HINT)
         problems = problems_button(self.app, (LEFT, 546, WIDE, 18), lambda: self.problems)
         if len(self.packs) < 2:
             return [self.grid, self.play, *[self.practice] * (not self.previews), self.rows, *problems]
         names = [("This game's levels" if not pack.key else pack.name, pack.key) for pack in self.packs]
-        choice = Choice(
-            (LEFT, 62, WIDE, 26),
-            "",
-            names,
-            lambda: self.pack.key,
-            self._set_pack,
-            hint="Level pack. Levels > Packs > Paste link takes in more, as does the folder in Settings > Play",
-        )
+        choice = Choice((LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack)
+        choice.hint = "Level pack. Levels > Packs > Paste link takes in more, as does the folder in Settings > Play"
         return [self.grid, self.play, choice, self.practice, self.rows, *problems]
 
     def look_again(self) -> None:
         self.enter()
         self.redraw = True
-
-    def _set_practice(self, value: object) -> None:
-        self.app.change_settings(practice=value)
 
     def _set_pack(self, key: object) -> None:
         self._look_for_packs(str(key))
@@ -290,14 +272,8 @@ class EpisodeGrid(ThumbnailScreen):
         clock = f"Your best: {seconds_text(best.score)} s left on the clock" if best else ""
         count = len(episode.levels)
         text = clock or _how_far(sum(level.digest in self.passed for level in episode.levels), count)
-        theme.text(
-            surface,
-            self._hint() if self._state(episode.number) == LOCKED else text,
-            SIDE,
-            96,
-            size=11,
-            colour=palette.good if best else palette.faint,
-        )
+        text = self._hint() if self._state(episode.number) == LOCKED else text
+        theme.text(surface, text, SIDE, 96, size=11, colour=palette.good if best else palette.faint)
 
     def _draw_preview(self, surface: pygame.Surface, theme: Theme) -> None:
         """The pack as its maker presents it: name, author, comment, picture."""

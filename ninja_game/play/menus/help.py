@@ -87,15 +87,8 @@ class HelpPage(MenuScreen):
             column, row = divmod(number, rows)
             x, y = 40 + 362 * column, top + min(19.0, (530 - top) / rows) * row
             theme.text(surface, key_text(command), x, y, size=10, bold=True, width=keys)
-            theme.text(
-                surface,
-                pad_label(command.pad) if command.pad else "",
-                x + keys + 2,
-                y,
-                size=9,
-                width=pads,
-                colour=theme.palette.faint,
-            )
+            pad = pad_label(command.pad) if command.pad else ""
+            theme.text(surface, pad, x + keys + 2, y, size=9, width=pads, colour=theme.palette.faint)
             theme.text(surface, command.label, x + keys + pads + 4, y, size=10, width=356 - keys - pads)
 
 
@@ -126,12 +119,8 @@ class HelpScreen(MenuScreen):
         x, y, w, _ = WINDOW
         self.list = ListView((44, 66, 190, 18 * 26), 26, self._draw_topic, lambda _: None, selected=self._show)
         self.list.hint = "Up and down: choose a topic"
-        self.works = Button(
-            (x + w - 150, 516, 150, 30),
-            "How it works",
-            self._open_lab,
-            hint="For the curious: how ninja and walls really meet, in figures you can move",
-        )
+        self.works = Button((x + w - 150, 516, 150, 30), "How it works", self._open_lab)
+        self.works.hint = "For the curious: how ninja and walls really meet, in figures you can move"
         self.keys = ListView(
             (x, y + 54, w, 17 * KEY_ROW), KEY_ROW, self._draw_action, lambda _: None, selected=self._say_action
         )

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import pygame
 
 from ninja_game.files.shown_text import shown_text
 from ninja_game.levels.episodes import Mood
-from ninja_game.play.app import CALM, App, Screen
+from ninja_game.play.app import CALM, App
+from ninja_game.play.screen import Screen
 from ninja_game.player.player_data import PlayerData
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.input.bindings import InputEvent
@@ -36,7 +38,8 @@ class MenuScreen(Screen):
 
     ``foot``: the line at the bottom if the focused widget has no hint. ``offers_back``: the frame has a place where the
     mouse goes back; keys and pads have their own, so it takes no focus. ``wraps``: up from the first widget leads to
-    the last. ``says_full``: a notice says that no more letters fit into a field.
+    the last. ``says_full``: a notice says that no more letters fit into a field. ``search``: the field that typed
+    letters go to, wherever the focus is.
     """
 
     title = ""
@@ -50,6 +53,7 @@ class MenuScreen(Screen):
         self.player: PlayerData = app.player
         self.widgets: list[Widget] = []
         self.focus: Widget | None = None
+        self.search: TextEntry | None = None
         self._direction: HeldKey[str] = HeldKey()
         self._typed: HeldKey[pygame.Event] = HeldKey()
         self._dragged: Widget | None = None
@@ -95,6 +99,8 @@ class MenuScreen(Screen):
         if event.raw.type == pygame.KEYDOWN and event.source == ("keys", "tab"):
             self._next(-1 if event.raw.mod & pygame.KMOD_SHIFT else 1)
             return True
+        if event.raw.type == pygame.TEXTINPUT and event.raw.text.strip():
+            self.focus_on(self.search)
         taken = self.focus is not None and self.focus.text_event(event.raw)
         self._typed.follow(event.raw)
         if event.raw.type == pygame.KEYDOWN:
@@ -368,7 +374,9 @@ class Menu(Panel):
         super().__init__(app, title)
         self._deaf_ms = 500 if unasked else 0
         self._then, self._begins = then, at
-        self._rows: list[MenuRow] = [(text, action and self._closing(action), hint) for text, action, hint in rows]
+        self._rows: list[MenuRow] = [
+            (text, action and partial(self._close_and_do, action), hint) for text, action, hint in rows
+        ]
 
     def enter(self) -> None:
         first = self.focus is None
@@ -388,12 +396,9 @@ class Menu(Panel):
         super().back()
         self._then()
 
-    def _closing(self, action: Callable[[], object]) -> Callable[[], object]:
-        def close_and_do() -> None:
-            self.app.pop()
-            action()
-
-        return close_and_do
+    def _close_and_do(self, action: Action) -> None:
+        self.app.pop()
+        action()
 
     def rows(self) -> list[MenuRow]:
         return self._rows
@@ -447,11 +452,10 @@ class FormPanel(Menu):
 
     def build(self) -> Sequence[Widget]:
         x, y, w, _ = self._box
-        places = [(x + 30, y + 48 + ROW * k, w - 60, 30) for k in range(len(self._fields))]
-        entries = [
-            TextEntry(places[k], prompt, now, self._taker(k), longest=longest, proposed=k == 0 and now == text)
-            for k, ((prompt, text, longest), now) in enumerate(zip(self._fields, self.texts, strict=True))
-        ]
+        entries = []
+        for k, ((prompt, text, longest), now) in enumerate(zip(self._fields, self.texts, strict=True)):
+            area, put = (x + 30, y + 48 + ROW * k, w - 60, 30), partial(self.texts.__setitem__, k)
+            entries.append(TextEntry(area, prompt, now, put, longest=longest, proposed=k == 0 and now == text))
         return [*entries, *list(super().build())[len(entries) :]]
 
     def act(self, action: str, *, held: bool = False) -> None:
@@ -465,12 +469,6 @@ class FormPanel(Menu):
             ask_to_keep(self.app, f"{self.title}: changed", self.widgets[len(self._fields)].confirm)
         else:
             super().close()
-
-    def _taker(self, place: int) -> Callable[[str], None]:
-        def take(text: str) -> None:
-            self.texts[place] = text
-
-        return take
 
 
 def ask_text(

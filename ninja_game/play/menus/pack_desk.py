@@ -13,8 +13,8 @@ from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
-from ninja_game.formats.pack.pack import INDEX, RECEIVED, Pack
-from ninja_game.levels.episodes import GAME, Entry, EpisodeSet
+from ninja_game.formats.pack.pack import INDEX, Pack
+from ninja_game.levels.episodes import Entry, EpisodeSet
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import ask_received, ask_text
@@ -28,27 +28,22 @@ Edit = Callable[[Entry, Finding | None], object]
 
 
 class PackDesk(ThumbnailScreen):
-    """``pack``: the shown one. ``held``: what is dragged; ``pointer``: the mouse's place during a drag, else None.
-
-    ``mine``: the player's packs; ``sets``: all; ``made``: a new one, to be shown. ``beside``: what is at the right:
-    "none" (levels in no episode), "yours", or the key of a pack. ``chosen``: the pack's name; ``opener``: the button
-    that plays it. ``edit``: opens a level in the editor, at a finding.
-    """
+    """Shows a pack, and changes it by steps that can be undone."""
 
     title = "Packs"
 
     def __init__(self, app: App, edit: Edit) -> None:
         super().__init__(app)
-        self.edit = edit
-        self.pack: EpisodeSet | None = None
-        self.mine: list[EpisodeSet] = []
-        self.sets: list[EpisodeSet] = []
-        self.beside = "none"
-        self.held: PackCell | None = None
-        self.made: Path | None = None
-        self.chosen: Widget | None = None
-        self.opener: Widget | None = None
-        self.pointer: tuple[float, float] | None = None
+        self.edit = edit  #: opens a level in the editor, at a finding
+        self.pack: EpisodeSet | None = None  #: the shown one
+        self.own_packs: list[EpisodeSet] = []
+        self.sets: list[EpisodeSet] = []  #: all packs, and the game's own levels
+        self.tray_key = "none"  #: what is at the right: "none" (levels in no episode), "yours", or the key of a pack
+        self.moving: PackCell | None = None  #: the cell that gets a new place
+        self.new_path: Path | None = None  #: a new pack, to be shown
+        self.pack_choice: Widget | None = None
+        self.play_button: Widget | None = None
+        self.pointer: tuple[float, float] | None = None  #: the mouse's place during a drag, else None
         self.marked = Marks()
         self.packer = packer_of(app)
         self.packer.desk = self
@@ -70,21 +65,21 @@ class PackDesk(ThumbnailScreen):
         """The zip that was just made of this pack."""
         return self.packer.saved if self.packer.path == self.path else None
 
-    def read(self, shown: Path | None = None, *, news: bool = False) -> None:
+    def read_packs(self, shown: Path | None = None, *, news: bool = False) -> None:
         """Read all packs from the disk; show this one, or the one before. ``news``: only if that has changed."""
-        before, catalogue, self.made = shown or self.made or self.path, self.player.catalogue, None
+        before, catalogue, self.new_path = shown or self.new_path or self.path, self.player.catalogue, None
         catalogue.problems.clear()
         self.sets = catalogue.packs()
-        self.mine = [pack for pack in self.sets if pack.changeable]
-        now = next((pack for pack in self.mine if pack.path == before), None)
-        if not (news and now is self.pack):
-            self.show(now)
+        self.own_packs = [pack for pack in self.sets if pack.changeable]
+        pack = next((pack for pack in self.own_packs if pack.path == before), None)
+        if not (news and pack is self.pack):
+            self.show(pack)
 
     def show(self, pack: EpisodeSet | None) -> None:
-        self.pack = pack = pack or next(iter(self.mine), None)
+        self.pack = pack = pack or next(iter(self.own_packs), None)
         self.status.show(pack)
         if not self.packer.busy:
-            self.packer.follow(next((shelf.pack for shelf in self.mine if shelf.path == self.packer.path), None))
+            self.packer.follow(next((shelf.pack for shelf in self.own_packs if shelf.path == self.packer.path), None))
         cells: list[PackCell] = []
         if pack and pack.pack:
             for episode in pack.pack.index.episodes:
@@ -93,12 +88,12 @@ class PackDesk(ThumbnailScreen):
                 cells += [PackCell(episode)] * (LEVELS_PER_EPISODE - len(levels))
             cells += [PackCell(None, head=True), *[PackCell(None)] * LEVELS_PER_EPISODE]
         entries: Sequence[Entry] = pack.singles if pack else ()
-        if self.beside == "yours":
+        if self.tray_key == "yours":
             entries = self.player.catalogue.own()
-        elif self.beside != "none":
-            entries = [entry for shelf in self.sets if shelf.key == self.beside for entry in shelf.levels]
+        elif self.tray_key != "none":
+            entries = [entry for shelf in self.sets if shelf.key == self.tray_key for entry in shelf.levels]
         goals = {"none": "take it out of its episode", "yours": "put it into your folder"}
-        self.tray.empty = f"Drag a level here to {goals.get(self.beside, 'put it into this pack')}"
+        self.tray.empty = f"Drag a level here to {goals.get(self.tray_key, 'put it into this pack')}"
         self.shelves.area = (36, 96, 6 * WIDE + BAR + 4, HIGH * min(4, len(cells) // 6))
         self.shelves.show(cells)
         self.tray.show([PackCell(None, entry) for entry in entries])
@@ -106,7 +101,7 @@ class PackDesk(ThumbnailScreen):
         self.redraw = True
 
     def enter(self) -> None:
-        self.read()
+        self.read_packs()
         super().enter()
 
     def pack_now(self) -> Pack | None:
@@ -115,50 +110,51 @@ class PackDesk(ThumbnailScreen):
         self.enter()
         return self.pack.pack if self.pack and self.pack.path == path else None
 
-    def do(self, action: Callable[[], object], what: str = "") -> None:
-        """Change something on the disk, and show the result. ``what``: its name for undo; "" is no step."""
+    def run_step(self, action: Callable[[], object], name: str = "") -> None:
+        """Change something on the disk, and show the result. ``name``: for undo; "": it cannot be undone."""
         try:
-            if what and not self.packer.steps.do(what, action):
+            if name and not self.packer.steps.run(name, action):
                 return
-            if not what:
+            if not name:
                 action()
         except (NinjaGameError, OSError) as error:
             self.app.notify(reason(error))
         self.app.top.enter()
 
-    def change(self, action: Callable[[], object], what: str) -> None:
+    def change_pack(self, action: Callable[[], object], step: str) -> None:
         """Change the shown pack; for a received one ask first whether to change a copy."""
         if not (self.pack and self.pack.pack and self.pack.received):
-            self.do(action, what)
+            self.run_step(action, step)
             return
         pack = self.pack.pack
 
-        def own() -> None:
+        def change_original() -> None:
             packs.make_own(pack.files.path)
             action()
 
-        ask_received(self.app, pack.index.title, partial(self.copy, pack), lambda: self.do(own, what))
+        copy = partial(self.copy_pack, pack)
+        ask_received(self.app, pack.index.title, copy, lambda: self.run_step(change_original, step))
 
-    def copy(self, pack: Pack) -> None:
+    def copy_pack(self, pack: Pack) -> None:
         def copy() -> None:
-            self.made = packs.copy_pack(pack, self.folder, f"{pack.name} copy")
+            self.new_path = packs.copy_pack(pack, self.folder, f"{pack.name} copy")
             self.app.notify("This copy is yours to change")
 
-        self.do(copy, "Copy")
+        self.run_step(copy, "Copy")
 
     def undo(self) -> None:
-        self.do(lambda: self.app.notify(f"Undone: {self.packer.steps.undo()}"))
+        self.run_step(lambda: self.app.notify(f"Undone: {self.packer.steps.undo()}"))
 
     def choose(self, cell: PackCell | None) -> None:
         """Show what can be done with a cell, or with the pack."""
         raise NotImplementedError
 
-    def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
-        what = shown_text(title.partition(":")[0])
-        ask_text(self.app, title, "", text, "OK", lambda typed: self.change(lambda: action(typed), what), 60)
+    def ask_text_for(self, title: str, text: str, action: Callable[[str], object]) -> None:
+        step = shown_text(title.partition(":")[0])
+        ask_text(self.app, title, "", text, "OK", lambda typed: self.change_pack(lambda: action(typed), step), 60)
 
     def choose_tray(self, key: str) -> None:
-        self.beside = key
+        self.tray_key = key
         self.show(self.pack)
 
     def entry_of(self, file: str) -> Entry | None:
@@ -175,17 +171,17 @@ class PackDesk(ThumbnailScreen):
         numbers = [cell.episode.number for cell in self.shelves.cells if cell.episode]
         return max(numbers, default=0) // EPISODES_PER_COLUMN
 
-    def set_aside(self, action: Callable[[], object], what: str) -> None:
+    def set_aside(self, action: Callable[[], object], title: str) -> None:
         """Take levels out of their episode, and show them in their new place."""
-        self.beside = "none"
-        self.change(action, f"Take out {shown_text(what)}")
+        self.tray_key = "none"
+        self.change_pack(action, f"Take out {shown_text(title)}")
 
     def levels(self, rack: Widget | None = None) -> list[Entry]:
         """The visible levels, in order, of one row or of both."""
-        racks = [each for each in (self.shelves, self.tray) if rack in (None, each)]
-        return [cell.level for each in racks for cell in each.cells if cell.level]
+        racks = (self.shelves, self.tray)
+        return [cell.level for visible in racks if rack in (None, visible) for cell in visible.cells if cell.level]
 
-    def taken(self, level: Entry) -> list[Entry]:
+    def levels_with(self, level: Entry) -> list[Entry]:
         """The levels that an action on this one is for."""
         return self.marked.together(level, self.levels())
 
@@ -200,33 +196,33 @@ class PackDesk(ThumbnailScreen):
 
     def _pull(self, cell: PackCell, pointer: tuple[float, float]) -> None:
         """Begin or continue to drag a cell."""
-        if self.held is None and (cell.level or (cell.head and cell.episode)):
-            self.held = cell
-        self.pointer = pointer if self.held else None
+        if self.moving is None and (cell.level or (cell.head and cell.episode)):
+            self.moving = cell
+        self.pointer = pointer if self.moving else None
         if (over := self.shelves.at(*pointer)) is not None:
             self.focus, self.shelves.index = self.shelves, over
 
-    def hold(self, cell: PackCell) -> None:
-        self.held = cell
+    def start_moving(self, cell: PackCell) -> None:
+        self.moving = cell
         self.app.notify("Choose its new place; Enter or a click puts it there, Esc leaves it where it is")
 
     def back(self) -> None:
-        if self.held:
-            self.held = self.pointer = None
+        if self.moving:
+            self.moving = self.pointer = None
         elif self.marked:
             self.marked.clear()
         else:
             super().back()
 
     def drop(self, goal: PackCell | None, *, after: bool = False) -> None:
-        held, self.held, self.pointer = self.held, None, None
-        levels = self.taken(held.level) if held and held.level else []
+        moving, self.moving, self.pointer = self.moving, None, None
+        levels = self.levels_with(moving.level) if moving and moving.level else []
         if levels and not (goal and goal.level in levels and len(levels) == 1):
-            do = self.do if goal is None and self.beside != "none" else self.change
-            do(partial(self._put_levels, levels, goal, after=after), f"Move {called(levels)}")
-        elif held and held.episode and goal and goal.episode:
-            numbers = held.episode.number, goal.episode.number
-            self.change(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
+            change = self.run_step if goal is None and self.tray_key != "none" else self.change_pack
+            change(partial(self._move_levels, levels, goal, after=after), f"Move {called(levels)}")
+        elif moving and moving.episode and goal and goal.episode:
+            numbers = moving.episode.number, goal.episode.number
+            self.change_pack(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
 
     def _is_after(self, index: int) -> bool:
         """Whether the mouse is over the right half of a cell: a dropped level lands behind that cell."""
@@ -236,7 +232,7 @@ class PackDesk(ThumbnailScreen):
     def _landing(self) -> tuple[int, bool] | None:
         """The cell beside which the dragged level would land, and whether behind it."""
         over = self.shelves.at(*self.pointer) if self.pointer else self.shelves.index
-        if over is None or not (self.held and self.held.level):
+        if over is None or not (self.moving and self.moving.level):
             return None
         cells, index, after = self.shelves.cells, over, self._is_after(over)
         if not cells[over].level:
@@ -244,19 +240,13 @@ class PackDesk(ThumbnailScreen):
             index, after = next((k for k in row if not (cells[k].head or cells[k].level)), row[-1]), False
         return index, after
 
-    def _put_levels(self, levels: Sequence[Entry], goal: PackCell | None, *, after: bool) -> None:
+    def _move_levels(self, levels: Sequence[Entry], goal: PackCell | None, *, after: bool) -> None:
         target = self.path
-        if goal is None and self.beside != "none":
-            target = next((pack.path for pack in self.sets if pack.key == self.beside and pack.path), self.folder)
-        if target != self.folder and target not in [pack.path for pack in self.mine]:
+        if goal is None and self.tray_key != "none":
+            target = next((pack.path for pack in self.sets if pack.key == self.tray_key and pack.path), self.folder)
+        if target != self.folder and target not in [pack.path for pack in self.own_packs]:
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
-        if target != self.path and (target / RECEIVED).exists():
-            raise NinjaGameError("that pack was received, and stays as it is")
-        names: list[str] = []
-        for level in levels:
-            file = Path(level.named.file)
-            others = level.source == GAME or self.folder not in file.parents or (file.parent / RECEIVED).exists()
-            names.append(file.name if file.parent == target else packs.transfer(level.named, target, keep=others))
+        names = packs.bring([level.named for level in levels], target, self.folder)
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:
@@ -267,14 +257,14 @@ class PackDesk(ThumbnailScreen):
             packs.place(target, names, number, next(before, ""))
 
     def _handle_mouse(self, event: pygame.Event) -> None:
-        if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_RIGHT and not self.held:
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_RIGHT and not self.moving:
             place = self.theme.canvas.logical(event.pos)
             widget = self._at(*place)
-            if widget and (widget is self.chosen or (isinstance(widget, Rack) and widget.click(*place))):
+            if widget and (widget is self.pack_choice or (isinstance(widget, Rack) and widget.click(*place))):
                 self.focus_on(widget)
                 self.choose(widget.chosen if isinstance(widget, Rack) else None)
                 return
-        left = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT and not self.held
+        left = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT and not self.moving
         if left and self._mark(*self.theme.canvas.logical(event.pos)):
             return
         dragged = self._dragged
@@ -288,25 +278,25 @@ class PackDesk(ThumbnailScreen):
                 self.drop(self.shelves.cells[index], after=self._is_after(index))
             elif self.tray.contains(x, y):
                 self.drop(None)
-            self.held, self.pointer = (self.held if self.pointer is None else None), None
+            self.moving, self.pointer = (self.moving if self.pointer is None else None), None
             self.redraw = True
 
     def leave(self) -> None:
         super().leave()
-        self.held = self.pointer = None
+        self.moving = self.pointer = None
         if not self.packer.busy:
-            self.packer.left()
+            self.packer.drop_notices()
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
-        landing, held = self._landing(), self.held.level if self.held else None
-        lifted = self.taken(held) if held and self.pointer else []
-        self.shelves.lifted = self.tray.lifted = {each.named.file for each in lifted}
+        landing, level = self._landing(), self.moving.level if self.moving else None
+        lifted = self.levels_with(level) if level and self.pointer else []
+        self.shelves.lifted = self.tray.lifted = {level.named.file for level in lifted}
         self.shelves.gap = landing[0] + landing[1] if landing and self.pointer else 0
         super().draw_widgets(surface)
-        if self.held and self.pointer:
+        if self.moving and self.pointer:
             x, y = self.pointer
-            if held:
-                self.thumbnails.draw(surface, held, x + 6, y + 6, 60)
+            if level:
+                self.thumbnails.draw(surface, level, x + 6, y + 6, 60)
                 if len(lifted) > 1:
                     self.theme.text(surface, called(lifted), x + 36, y + 54, size=11, bold=True, align="centre")
             else:

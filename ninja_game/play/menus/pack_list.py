@@ -11,7 +11,6 @@ from ninja_game.levels.episodes import EpisodeSet
 from ninja_game.play.app import App
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.records import has_words
-from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
@@ -30,31 +29,27 @@ class PackList(ThumbnailScreen):
         super().__init__(app)
         self._packs, self._choose = packs, choose
         self.shown = packs
-        self.list = ListView((44, 106, 704, 5 * ROW), ROW, self._draw_row, self._take, empty="No pack is called so")
-        self.field = TextEntry((44, 64, 300, 32), "Search name or author", "", self._search)
+        self.list = ListView(
+            (44, 106, 704, 5 * ROW), ROW, self._draw_row, self._choose_row, empty="No pack is called so"
+        )
+        self.field = self.search = TextEntry((44, 64, 300, 32), "Search name or author", "", self._find)
 
     def build(self) -> Sequence[Widget]:
         self.list.fill(self.shown)
         return [self.list, self.field]
 
-    def capture(self, event: InputEvent) -> bool:
-        """Typed letters go to the search, wherever the focus is."""
-        if event.raw.type == pygame.TEXTINPUT and event.raw.text.strip():
-            self.focus_on(self.field)
-        return super().capture(event)
-
     def act(self, action: str, *, held: bool = False) -> None:
         if action == "confirm" and self.focus is self.field:
-            self._take(self.list.index)
+            self._choose_row(self.list.index)
         else:
             super().act(action, held=held)
 
-    def _search(self, text: str) -> None:
-        self.shown = [pack for pack in self._packs if has_words(text.casefold().split(), _about(pack))]
+    def _find(self, text: str) -> None:
+        self.shown = [pack for pack in self._packs if has_words(text.casefold().split(), _description(pack))]
         self.list.index = self.list.first = 0
         self.list.fill(self.shown)
 
-    def _take(self, index: int) -> None:
+    def _choose_row(self, index: int) -> None:
         if index < len(self.shown):
             self.app.pop()
             self._choose(self.shown[index])
@@ -66,12 +61,12 @@ class PackList(ThumbnailScreen):
         self.thumbnails.draw_pack(surface, pack.levels, x + 6, y + 4, PICTURE)
         left, room = x + PICTURE + 20, w - PICTURE - 30
         theme.text(surface, shown_text(pack.name), left, y + 16, size=13, bold=chosen, width=room)
-        theme.text(surface, _about(pack), left, y + 38, size=10, colour=faint, width=room)
+        theme.text(surface, _description(pack), left, y + 38, size=10, colour=faint, width=room)
         number = counted(len(pack.levels), "level"), counted(len(pack.episodes), "episode")
-        text = f"{' in '.join(number)}{', received' * pack.received}"
+        text = f"{' in '.join(number)}{', received' if pack.received else ''}"
         theme.text(surface, text, left, y + 58, size=10, colour=faint, width=room)
 
 
-def _about(pack: EpisodeSet) -> str:
+def _description(pack: EpisodeSet) -> str:
     index = pack.pack.index if pack.pack else None
     return shown_text(". ".join(filter(None, (index.title, index.comment))), 200) if index else ""

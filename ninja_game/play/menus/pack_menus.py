@@ -35,17 +35,19 @@ def pack_menu(desk: PackDesk) -> None:
     pack = desk.pack_now()
     if not (desk.pack and pack):
         return
-    key, name, own = desk.pack.key, desk.pack.name, not desk.pack.received
+    key, name = desk.pack.key, desk.pack.name
     empty = not pack.episodes
     busy = desk.packer.busy and desk.packer.path == desk.path
-    gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
+    deleting = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
     without = "No episode has levels" if empty else ""
-    rows: list[MenuRow] = [
-        ("Play it", None if empty else lambda: desk.app.push(EpisodeGrid(desk.app, key)), without),
-        *[("Show it as received", None if empty else lambda: view(desk), without or PREVIEW)] * own,
+    play = None if empty else lambda: desk.app.push(EpisodeGrid(desk.app, key))
+    rows: list[MenuRow] = [("Play it", play, without)]
+    if not desk.pack.received:
+        rows.append(("Show it as received", None if empty else lambda: view(desk), without or PREVIEW))
+    rows += [
         ("Name, author, version...", lambda: pack_form(desk, pack), ""),
-        ("Copy of the pack", lambda: desk.copy(pack), ""),
-        ("Delete the pack...", None if busy else lambda: _delete(desk, pack, name), gone),
+        ("Copy of the pack", lambda: desk.copy_pack(pack), ""),
+        ("Delete the pack...", None if busy else lambda: _delete(desk, pack, name), deleting),
         CANCEL,
     ]
     desk.app.push(Menu(desk.app, pack.name, rows))
@@ -59,7 +61,7 @@ def pack_form(desk: PackDesk, pack: Pack, first: int = 0) -> None:
 
     def describe(texts: list[str]) -> None:
         desk.app.know_author(index.author, texts[1])
-        desk.change(lambda: packs.describe(path, dict(zip(keys, texts, strict=True))), "About the pack")
+        desk.change_pack(lambda: packs.describe(path, dict(zip(keys, texts, strict=True))), "About the pack")
 
     form = FormPanel(desk.app, "About the pack", fields, "OK", describe)
     desk.app.push(form)
@@ -68,12 +70,12 @@ def pack_form(desk: PackDesk, pack: Pack, first: int = 0) -> None:
 
 def _delete(desk: PackDesk, pack: Pack, name: str) -> None:
     def delete() -> None:
-        there = packs.bin_pack(pack.files.path, desk.player.folder / DELETED)
-        desk.app.notify(f"{shown_text(name)} is in the folder {there.relative_to(desk.player.folder)} now")
+        place = packs.bin_pack(pack.files.path, desk.player.folder / DELETED)
+        desk.app.notify(f"{shown_text(name)} is in the folder {place.relative_to(desk.player.folder)} now")
 
     title = f"Delete {shown_text(name)} with its {counted(len(pack.files.levels), 'level')}?"
     hint = f"All goes to the folder {DELETED}; Undo brings it back"
-    step = partial(desk.do, delete, f"Delete {shown_text(name)}")
+    step = partial(desk.run_step, delete, f"Delete {shown_text(name)}")
     desk.app.push(Question(desk.app, title, "Delete it", step, hint))
 
 
@@ -81,12 +83,12 @@ def level_menu(desk: PackDesk, cell: PackCell) -> None:
     level, episode = cell.level, cell.episode
     if level is None:
         return
-    file, levels = Path(level.named.file), desk.taken(level)
+    file, levels = Path(level.named.file), desk.levels_with(level)
     rename, edit = partial(packs.rename_level, file), partial(desk.edit, level, None)
     run, title = desk.player.catalogue.author_run(level), called(levels)
 
     def copy() -> None:
-        names = [packs.duplicate(desk.path, each.named) for each in levels]
+        names = [packs.duplicate(desk.path, level.named) for level in levels]
         packs.place(desk.path, names, episode.number if episode else None)
 
     def play() -> None:
@@ -96,38 +98,38 @@ def level_menu(desk: PackDesk, cell: PackCell) -> None:
     rows: list[MenuRow] = []
     if len(levels) == 1:
         rows = [
-            ("Edit", partial(desk.change, edit, "Edit") if file.parent == desk.path else edit, ""),
+            ("Edit", partial(desk.change_pack, edit, "Edit") if file.parent == desk.path else edit, ""),
             ("Play", play, ""),
             ("Watch the run", partial(watch, desk.app, [run]) if run else None, "" if run else "None is known yet"),
         ]
         if file.parent == desk.path:
-            rows.append(("Rename...", lambda: desk.ask(f"Rename {level.named.name}", level.named.name, rename), ""))
-    rows.append(("Move...", lambda: desk.hold(cell), ""))
-    if all(Path(each.named.file).parent == desk.path for each in levels):
-        rows.append(("Copy", lambda: desk.change(copy, f"Copy {title}"), "Another level like it"))
-    if take_away := away(desk, cell):
-        rows.append(
-            ("Take out", take_away, "Into no episode") if episode else ("Delete", take_away, "Undo brings it back")
-        )
+            rows.append(
+                ("Rename...", lambda: desk.ask_text_for(f"Rename {level.named.name}", level.named.name, rename), "")
+            )
+    rows.append(("Move...", lambda: desk.start_moving(cell), ""))
+    if all(Path(level.named.file).parent == desk.path for level in levels):
+        rows.append(("Copy", lambda: desk.change_pack(copy, f"Copy {title}"), "Another level like it"))
+    if removal := removal_of(desk, cell):
+        rows.append(("Take out", removal, "Into no episode") if episode else ("Delete", removal, "Undo brings it back"))
     desk.app.push(Menu(desk.app, title, [*rows, CANCEL]))
 
 
-def away(desk: PackDesk, cell: PackCell) -> Callable[[], object] | None:
+def removal_of(desk: PackDesk, cell: PackCell) -> Callable[[], object] | None:
     """Takes a level out of its episode, or deletes one of the player's in none; None for any other level."""
-    levels = desk.taken(cell.level) if cell.level else []
+    levels = desk.levels_with(cell.level) if cell.level else []
     title = called(levels)
-    if levels and all(Path(each.named.file).parent == desk.path and each.episode for each in levels):
-        names = [Path(each.named.file).name for each in levels]
+    if levels and all(Path(level.named.file).parent == desk.path and level.episode for level in levels):
+        names = [Path(level.named.file).name for level in levels]
         return lambda: desk.set_aside(partial(packs.place, desk.path, names, None), title)
-    if not levels or desk.beside not in ("none", "yours") or not all(each.named.ascii for each in levels):
+    if not levels or desk.tray_key not in ("none", "yours") or not all(level.named.ascii for level in levels):
         return None
 
     def delete() -> None:
-        for each in levels:
-            packs.transfer(each.named, desk.player.folder / DELETED, keep=False)
+        for level in levels:
+            packs.transfer(level.named, desk.player.folder / DELETED, keep=False)
         desk.app.notify(f"{title}: in the folder {DELETED} now; Ctrl+Z brings back")
 
-    return lambda: (desk.do if desk.beside == "yours" else desk.change)(delete, f"Delete {title}")
+    return lambda: (desk.run_step if desk.tray_key == "yours" else desk.change_pack)(delete, f"Delete {title}")
 
 
 def new_level(desk: PackDesk, number: int) -> None:
@@ -137,11 +139,11 @@ def new_level(desk: PackDesk, number: int) -> None:
     def make(name: str) -> None:
         file = packs.new_level(path, name, desk.player.settings.name)
         packs.place(path, [file], number)
-        desk.read()
+        desk.read_packs()
         if entry := desk.entry_of(file):
             desk.edit(entry, None)
 
-    desk.ask("New level: its name", "New level", make)
+    desk.ask_text_for("New level: its name", "New level", make)
 
 
 def episode_menu(desk: PackDesk, episode: EpisodeIndex) -> None:
@@ -152,9 +154,9 @@ def episode_menu(desk: PackDesk, episode: EpisodeIndex) -> None:
 
     def sort() -> None:
         levels = [cell.level for cell in desk.shelves.cells if cell.level and cell.episode is episode]
-        levels.sort(key=lambda each: (each.pars and each.pars.difficulty) or inf)
-        names = [Path(each.named.file).name for each in levels]
-        desk.change(partial(packs.place, path, names, number), f"Sort {title}")
+        levels.sort(key=lambda level: (level.pars and level.pars.difficulty) or inf)
+        names = [Path(level.named.file).name for level in levels]
+        desk.change_pack(partial(packs.place, path, names, number), f"Sort {title}")
 
     def name_column(name: str) -> None:
         packs.describe(path, {"columns": [*columns[:column], name, *columns[column + 1 :]]})
@@ -163,11 +165,15 @@ def episode_menu(desk: PackDesk, episode: EpisodeIndex) -> None:
     begin = partial(packs.new_episode, path, column=desk.column + 1)
     rows: list[MenuRow] = [
         ("New level...", lambda: new_level(desk, number), MADE),
-        ("Rename...", lambda: desk.ask(f"Rename {episode.name}", episode.name, rename), ""),
-        ("Move...", lambda: desk.hold(PackCell(episode, head=True)), ""),
+        ("Rename...", lambda: desk.ask_text_for(f"Rename {episode.name}", episode.name, rename), ""),
+        ("Move...", lambda: desk.start_moving(PackCell(episode, head=True)), ""),
         ("Sort by difficulty", sort, "Easiest first, those not measured last"),
-        ("Name of the column...", lambda: desk.ask("Name of the column", columns[column], name_column), ""),
-        ("Begin a column...", lambda: desk.ask("Column: first episode", desk.next_name, begin), "Beside these"),
+        ("Name of the column...", lambda: desk.ask_text_for("Name of the column", columns[column], name_column), ""),
+        (
+            "Begin a column...",
+            lambda: desk.ask_text_for("Column: first episode", desk.next_name, begin),
+            "Beside these",
+        ),
         ("Remove the episode", lambda: desk.set_aside(remove, title), "Its levels stay, beside the others"),
         CANCEL,
     ]

@@ -29,19 +29,19 @@ _STOPS = "It can be stopped at any time: what was found is kept."
 
 
 def problems(desk: PackDesk) -> list[Problem] | None:
-    """What is odd about the shown pack as it is on the disk, then what comes next; None until that is known."""
-    desk.read(news=True)
+    """The findings about the shown pack as it is on the disk, then the next step; None until they are known."""
+    desk.read_packs(news=True)
     pack, status = desk.pack and desk.pack.pack, desk.status
     if pack is None:
         return []
-    if status.now is None:
+    if status.present is None:
         return None
-    rows = [_problem(desk, pack, finding) for finding in status.now.findings]
-    to_do, well = status.to_do(), "Nothing is wrong" * (not status.now.problems)
+    rows = [_problem(desk, pack, finding) for finding in status.present.findings]
+    to_do, verdict = status.to_do(), "" if status.present.problems else "Nothing is wrong"
     step, go, hint = "Make ready", partial(make_ready, desk), _STOPS if to_do else "It writes the zip and the link."
     if desk.zipped and desk.packer.fresh and not to_do:
         step, go, hint = "Copy the link", partial(copy_the_link, desk), f"Or send the zip: {short_path(desk.zipped)}"
-    if text := ". ".join(filter(None, (well, to_do))):
+    if text := ". ".join(filter(None, (verdict, to_do))):
         rows.append(Problem(text, hint, None if desk.packer.busy else go, step=step))
     return rows
 
@@ -56,17 +56,17 @@ def _problem(desk: PackDesk, pack: Pack, finding: PackFinding) -> Problem:
     if code == "no-author":
         go = partial(pack_form, desk, pack, 1)
     elif entry:
-        go = partial(desk.change, partial(desk.edit, entry, finding.odd), "Edit")
+        go = partial(desk.change_pack, partial(desk.edit, entry, finding.odd), "Edit")
     if finding.reason:
         take_back = partial(packs.take_back, desk.path, file, code)
         text = f"{text}. Accepted: {finding.reason}"
-        return Problem(text, "", go, lambda: desk.change(take_back, "Take it back"), accepted=True)
+        return Problem(text, "", go, lambda: desk.change_pack(take_back, "Take it back"), accepted=True)
 
     def accept(why: str) -> None:
         packs.accept(desk.path, file, code, why)
 
     may = bool(file) and code not in NEVER_ACCEPTED
-    accept_it = partial(desk.ask, "Accept this warning: why?", "", accept) if may else None
+    accept_it = partial(desk.ask_text_for, "Accept this warning: why?", "", accept) if may else None
     missing = missing_run(pack, finding) if finding.sought and not desk.packer.busy else None
     longer = partial(desk.packer.search_longer, desk.path, missing) if missing else None
     return Problem(text, finding.hint, go, accept_it, search=longer)
@@ -115,7 +115,7 @@ def make_ready(desk: PackDesk) -> None:
     def sign(author: str) -> None:
         if author.strip():
             desk.app.know_author("", author)
-            desk.do(lambda: packs.describe(path, {"author": author.strip()}), "Author of the pack")
+            desk.run_step(lambda: packs.describe(path, {"author": author.strip()}), "Author of the pack")
         desk.packer.start(path)
 
     if desk.pack and desk.pack.pack and desk.pack.pack.index.is_signed:
@@ -127,13 +127,13 @@ def make_ready(desk: PackDesk) -> None:
 def new_pack(desk: PackDesk) -> None:
     def make(name: str, author: str = desk.player.settings.name) -> None:
         desk.app.know_author("", author)
-        desk.beside = "yours" if desk.player.catalogue.own() else "none"
-        desk.made = packs.new_pack(desk.folder, name, author.strip())
+        desk.tray_key = "yours" if desk.player.catalogue.own() else "none"
+        desk.new_path = packs.new_pack(desk.folder, name, author.strip())
 
     fields, step = [("Name", "My pack", 60)], "New pack"
     if not desk.player.settings.name:
         fields.append(("Author", "", 40))
-    desk.app.push(FormPanel(desk.app, step, fields, "OK", lambda texts: desk.do(lambda: make(*texts), step)))
+    desk.app.push(FormPanel(desk.app, step, fields, "OK", lambda texts: desk.run_step(lambda: make(*texts), step)))
 
 
 def paste(desk: PackDesk) -> None:
@@ -159,25 +159,25 @@ def take_in(desk: PackDesk, read: Callable[[], Pack]) -> None:
     def receive(over: Pack | None = None) -> None:
         def copy() -> None:
             news = f": {packs.news(over, pack)}" if over else " is among your packs now: Enter plays it"
-            desk.made = packs.copy_pack(pack, desk.folder, pack.name, received=True, over=over)
+            desk.new_path = packs.copy_pack(pack, desk.folder, pack.name, received=True, over=over)
             desk.app.notify(f"{shown_text(pack.name)}{news}")
 
-        desk.do(copy, f"Update {pack.name}" if over else "Paste link")
-        desk.focus_on(desk.opener)
+        desk.run_step(copy, f"Update {pack.name}" if over else "Paste link")
+        desk.focus_on(desk.play_button)
 
     name, author = shown_text(pack.name), pack.index.author
-    older = [each.pack for each in desk.mine if each.pack and each.received and each.pack.name == pack.name]
-    if there := next((each for each in desk.mine if each.pack and packs.same_pack(pack, each.pack)), None):
-        desk.show(there)
+    older = [own.pack for own in desk.own_packs if own.pack and own.received and own.pack.name == pack.name]
+    if same := next((own for own in desk.own_packs if own.pack and packs.same_pack(pack, own.pack)), None):
+        desk.show(same)
         rows: list[MenuRow] = [
             ("Play it", partial(view, desk), "")
-            if there.received
+            if same.received
             else ("Show it as received", partial(view, desk), PREVIEW),
             ("Receive it once more", receive, "Beside this one"),
             CANCEL,
         ]
-        desk.app.push(Menu(desk.app, f"{shown_text(there.name)} is among your packs already", rows))
-    elif over := next((each for each in older if each.index.author == author), None):
+        desk.app.push(Menu(desk.app, f"{shown_text(same.name)} is among your packs already", rows))
+    elif over := next((old for old in older if old.index.author == author), None):
         rows = [("Update it", partial(receive, over), packs.news(over, pack)), ("Keep both", receive, ""), CANCEL]
         desk.app.push(Menu(desk.app, f"You have {name} {over.index.version or 'in another version'}", rows))
     else:

@@ -27,10 +27,8 @@ PULL = 6
 
 
 class PackCell(NamedTuple):
-    """A cell. ``episode``: None in the row for a new one; ``level``: None if free."""
-
-    episode: EpisodeIndex | None
-    level: Entry | None = None
+    episode: EpisodeIndex | None  #: None in the row for a new one
+    level: Entry | None = None  #: None if free
     head: bool = False
 
 
@@ -160,7 +158,7 @@ class Marks(set[str]):
 
     def together(self, level: Entry, levels: Sequence[Entry]) -> list[Entry]:
         """The levels that an action on one of ``levels`` is for: all that are marked, if it is one of them."""
-        return [each for each in levels if each.named.file in self] if level.named.file in self else [level]
+        return [other for other in levels if other.named.file in self] if level.named.file in self else [level]
 
     def click(self, rack: Rack, index: int) -> bool:
         """Mark levels where Ctrl or Shift is down; whether it was. A click on another than those marked ends that."""
@@ -171,7 +169,7 @@ class Marks(set[str]):
             return False
         if mods & pygame.KMOD_SHIFT:
             first, last = sorted((rack.index, index))
-            self.update(each.level.named.file for each in rack.cells[first : last + 1] if each.level)
+            self.update(cell.level.named.file for cell in rack.cells[first : last + 1] if cell.level)
             return True
         if chosen and not self:
             self.add(chosen.named.file)

@@ -18,9 +18,9 @@ from ninja_game.formats.pack.pack import Pack, certificate_name
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry, EpisodeSet
 from ninja_game.levels.findings import PackFinding
-from ninja_game.play.app import App, Screen
+from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.screen import Aside
+from ninja_game.play.screen import Aside, Screen
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.runtime import NewestJob, cores
 from ninja_game.sim.level import Level
@@ -36,34 +36,30 @@ NOT_CERTIFIED = ("changed", "no run yet", "stopped")
 
 
 class Packer(Aside):
-    """``path``: the pack that is or was made ready; ``text``: its progress or result.
-
-    ``share``: of its step, None where nobody knows. ``saved``: the zip that came of it. ``desk``: the screen of packs;
-    ``shown``: the pack that it shows. ``steps``: what was done at the desk.
-    ``open_problems``: a pack that is ready but for problems, about which the desk asks.
-    """
+    """Makes a pack ready to share in the background, and keeps the steps done at the desk of packs."""
 
     def __init__(self, app: App) -> None:
         self.app = app
-        self.path = Path()
-        self.saved: Path | None = None
+        self.path = Path()  #: the pack that is or was made ready
+        self.saved: Path | None = None  #: the zip that was written of it
         self._seconds = SECONDS
-        self.desk: Screen | None = None
-        self.shown: Path | None = None
+        self.desk: Screen | None = None  #: the screen of packs
+        self.shown: Path | None = None  #: the pack that the desk shows
         self.obstacles: Obstacles = {}
-        self.steps = Steps()
+        self.steps = Steps()  #: what was done at the desk
         self.busy = self._stopped = False
-        self.text, self._made = "", ""
-        self.share: float | None = None
+        self.text = ""  #: progress, or result
+        self._result_text = ""
+        self.share: float | None = None  #: finished share of the present step; None: unknown
         self._zipped = b""
-        self._seen: Pack | None = None
-        self.open_problems: ReadyPack | None = None
-        self._step: tuple[str, float | None, float] = "", None, 0.0
+        self._compared: Pack | None = None  #: the pack that was last compared with the zip
+        self.open_problems: ReadyPack | None = None  #: a pack that is ready but for problems, about which the desk asks
+        self._step: tuple[str, float | None, float] = "", None, 0.0  #: text, share and start, s
         self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
 
     @property
     def waited_for(self) -> bool:
-        """Whether the pack is what is looked at."""
+        """Whether the player looks at the pack that is made ready."""
         return self.app.top is self.desk and self.shown == self.path
 
     @property
@@ -103,8 +99,8 @@ class Packer(Aside):
     def update(self) -> None:
         if not self.busy:
             return
-        text, share, began = self._step
-        seconds = monotonic() - began
+        text, share, start = self._step
+        seconds = monotonic() - start
         self.text = "Stopping" if self._stopped else text if share is not None else f"{text}: {seconds:.0f} s"
         self.share = share
         if self._job.idle:
@@ -121,10 +117,10 @@ class Packer(Aside):
                 self.publish(ready)
 
     def publish(self, ready: ReadyPack) -> None:
-        """Write the zip, put the link into the clipboard of who waits for it, and say so."""
+        """Write the zip; copy the link if the player looks at the pack, and notify them."""
         app, name, waited_for = self.app, ready.pack.name, self.waited_for
         self.saved = app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
-        self._zipped, self._seen = ready.zipped, None
+        self._zipped, self._compared = ready.zipped, None
         notices = [app.notice]
         if ready.link and waited_for:
             copy_link(app, lambda: ready.link, title=name)
@@ -132,29 +128,29 @@ class Packer(Aside):
         app.notify("; ".join(notices) if waited_for else f"{shown_text(name)} is ready to share", here=waited_for)
         if codes := dict.fromkeys(finding.code.replace("-", " ") for finding in ready.problems):
             notices[0] += f", with {counted(len(ready.problems), 'open problem')} ({', '.join(codes)})"
-        self.text = self._made = "; ".join([*notices, *ready.notes])
+        self.text = self._result_text = "; ".join([*notices, *ready.notes])
 
     def follow(self, pack: Pack | None) -> None:
         """Update the text about the zip. ``pack``: with its present files, None if it is gone."""
         if pack is None:
             self.text, self.saved = "", None
-        elif self.saved and pack is not self._seen:
-            self._seen = pack
-            self.text = self._made if pack.files.zipped() == self._zipped else f"Changed since {self.saved.name}"
+        elif self.saved and pack is not self._compared:
+            self._compared = pack
+            self.text = self._result_text if pack.files.zipped() == self._zipped else f"Changed since {self.saved.name}"
 
-    def left(self) -> None:
-        """The screen was left: texts about that moment, as about the clipboard, are not shown again."""
-        self._made = f"Saved: {short_path(self.saved)}" if self.saved else ""
-        self.text, self._seen = self._made, None
+    def drop_notices(self) -> None:
+        """Drop what was true only while the desk was open, as that the clipboard has the link."""
+        self._result_text = f"Saved: {short_path(self.saved)}" if self.saved else ""
+        self.text, self._compared = self._result_text, None
 
 
 @dataclass(frozen=True)
 class Checked:
-    """What was odd about a pack. ``to_do``: what Make ready does; ``findings``: the others, accepted or not."""
+    """The findings about a pack."""
 
     pack: Pack
-    findings: list[PackFinding]
-    to_do: list[PackFinding]
+    findings: list[PackFinding]  #: accepted or not, without those below
+    to_do: list[PackFinding]  #: those that Make ready removes
 
     @cached_property
     def problems(self) -> list[PackFinding]:
@@ -162,29 +158,29 @@ class Checked:
 
     @cached_property
     def places(self) -> set[str]:
-        """The files with problems."""
+        """Files with problems."""
         return {self.pack.files.place(finding.file) for finding in self.problems}
 
 
 class PackStatus:
-    """``pack``: the shown one; ``checked``: its findings, or those of its state before."""
+    """The state of the pack that the desk shows, and of its levels."""
 
     def __init__(self, packer: Packer, catalogue: Catalogue) -> None:
         self.packer, self.catalogue = packer, catalogue
         self.pack: EpisodeSet | None = None
-        self.checked: Checked | None = None
+        self.checked: Checked | None = None  #: findings about it, or about the pack as it was before a change
         self._states: dict[int, str] = {}
-        self._asked: tuple[Pack | None, int] = None, 0
+        self._asked_for: tuple[Pack | None, int] = None, 0  #: the pack of the last check, and the number of obstacles
         self._checks: NewestJob[Pack, Checked] = NewestJob(self.check)
 
     def show(self, pack: EpisodeSet | None) -> None:
-        """A pack as it is now. What was searched in vain changes nothing on the disk, but what is odd."""
+        """Show a pack as it is now. A failed search changes no file, but the findings: it is checked again."""
         self.pack, self.packer.shown = pack, pack and pack.path
         self._states.clear()
         question = pack and pack.pack, len(self.packer.obstacles)
-        if question[0] and question != self._asked:
-            self.checked = self.checked if question[1] == self._asked[1] else None
-            self._asked = question
+        if question[0] and question != self._asked_for:
+            self.checked = self.checked if question[1] == self._asked_for[1] else None
+            self._asked_for = question
             self._checks.ask(question[0])
 
     def update(self) -> bool:
@@ -194,13 +190,13 @@ class PackStatus:
         return news
 
     def check(self, pack: Pack) -> Checked:
-        every = problems_of(pack, self.packer.obstacles)
-        to_do = [each for each in every if each.code in MADE_READY and not (each.reason or each.sought)]
-        return Checked(pack, [finding for finding in every if finding not in to_do], to_do)
+        findings = problems_of(pack, self.packer.obstacles)
+        to_do = [odd for odd in findings if odd.code in MADE_READY and not (odd.reason or odd.sought)]
+        return Checked(pack, [finding for finding in findings if finding not in to_do], to_do)
 
     @property
-    def now(self) -> Checked | None:
-        """What is odd about the pack as it is now; None until that is known."""
+    def present(self) -> Checked | None:
+        """The findings about the pack as it is now; None until they are known."""
         checked = self.checked
         return checked if checked and self.pack and checked.pack is self.pack.pack else None
 
@@ -208,32 +204,32 @@ class PackStatus:
         """What Make ready will do; "" for nothing."""
         levels = self.pack.levels if self.pack else []
         states = [self.state(level) for level in levels]
-        known = self.now.to_do if self.now else []
-        certify, gold = sum(map(states.count, NOT_CERTIFIED)), [finding.code for finding in known].count("no-gold-run")
+        to_do = self.present.to_do if self.present else []
+        certify, gold = sum(map(states.count, NOT_CERTIFIED)), [finding.code for finding in to_do].count("no-gold-run")
         work = {"certify": (certify, "level"), "measure": (certify + states.count("certified"), "medal time")}
         work["look for all gold in"] = gold, "level"
-        parts = [f"{what} {counted(*count)}" for what, count in work.items() if count[0]]
-        parts = parts or ["renew the medal times"] * bool(known)
-        begun = self.packer.busy and self.pack is not None and self.packer.path == self.pack.path
-        will = "Make ready is at work, and will" if begun else "Make ready will"
+        parts = [f"{verb} {counted(*count)}" for verb, count in work.items() if count[0]]
+        parts = parts or (["renew the medal times"] if to_do else [])
+        running = self.packer.busy and self.pack is not None and self.packer.path == self.pack.path
+        will = "Make ready is at work, and will" if running else "Make ready will"
         return f"{will} {', '.join(parts[:-1])}{' and ' * (len(parts) > 1)}{parts[-1]}" if parts else ""
 
     def state(self, level: Entry) -> str:
         """The state of a level in a word: its time if it is measured."""
-        known = self._states.get(id(level))
-        if known is None:
+        state = self._states.get(id(level))
+        if state is None:
             file = Path(level.named.file)
             has_certificate = (file.parent / certificate_name(file.name, "exit")).is_file()
             if level.pars and (has_certificate or file.parent != (self.pack and self.pack.path)):
-                known = f"{seconds_text(level.pars.exit)} s"
+                state = f"{seconds_text(level.pars.exit)} s"
             else:
                 run = self.catalogue.author_run(level)
                 vain = (level.named.level, "exit") in self.packer.obstacles
                 stopped = level.named.level in SOLVER.stopped and not self.packer.busy
                 untried = "stopped" if stopped else "changed" if has_certificate else "no run yet"
-                known = "certified" if run else NOT_FOUND if vain else untried
-            self._states[id(level)] = known
-        return known
+                state = "certified" if run else NOT_FOUND if vain else untried
+            self._states[id(level)] = state
+        return state
 
     def counts(self) -> str:
         """The pack in a line."""
@@ -243,11 +239,10 @@ class PackStatus:
         vain = [self.state(level) for level in levels].count(NOT_FOUND)
         to_do = self.to_do() or (f"{vain} without a run" if vain else "All certified and measured")
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
-        where = f"{counted(len(levels), 'level')} in {counted(len(index.episodes), 'episode')}{alone}"
-        open_ones = (
-            counted(len(self.now.problems), "problem") if self.now else self._checks.problem or "Looking for problems"
-        )
-        return f"{where}. {to_do}. {open_ones}" if levels else where
+        size = f"{counted(len(levels), 'level')} in {counted(len(index.episodes), 'episode')}{alone}"
+        present, unknown = self.present, self._checks.problem or "Looking for problems"
+        problems = counted(len(present.problems), "problem") if present else unknown
+        return f"{size}. {to_do}. {problems}" if levels else size
 
 
 def packer_of(app: App) -> Packer:

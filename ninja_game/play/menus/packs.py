@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 import pygame
 
@@ -35,40 +36,51 @@ _DRAG = "Drag a level or an episode; Enter or a second click: what can be done. 
 _MOVES = "Let go where it is to be. The colours of a level go by its place in the pack"
 
 
+class _Shown(NamedTuple):
+    """What the screen shows that changes by itself."""
+
+    busy: bool = False
+    obstacles: int = 0
+    text: str = ""
+    notice: str = ""
+
+
 class PackScreen(PackDesk):
-    _told: tuple[bool, int, str, str] = False, 0, "", ""
+    _shown = _Shown()
 
     def build(self) -> Sequence[Widget]:
         app = self.app
-        names = [(pack.pack.index.title if pack.pack and pack.received else pack.name, pack.key) for pack in self.mine]
-        have = self.pack and self.pack.pack
+        names = [
+            (pack.pack.index.title if pack.pack and pack.received else pack.name, pack.key) for pack in self.own_packs
+        ]
+        pack = self.pack and self.pack.pack
         key = self.pack.key if self.pack else ""
-        chosen = self.chosen = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
-        chosen.more = lambda: app.push(PackList(app, self.mine, lambda pack: self._choose_pack(pack.key)))
+        choice = self.pack_choice = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
+        choice.more = lambda: app.push(PackList(app, self.own_packs, lambda pack: self._choose_pack(pack.key)))
         received = bool(self.pack and self.pack.received)
-        whose = f"{have.index.title}{', received' if received else ''}, in the folder {self.path.name}" if have else ""
-        chosen.hint = f"{whose}. Enter, or a click on the name: all your packs"
+        place = f"{pack.index.title}{', received' if received else ''}, in the folder {self.path.name}" if pack else ""
+        choice.hint = f"{place}. Enter, or a click on the name: all your packs"
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(pack.name if pack.key else "The game's own", pack.key) for pack in self.sets if pack is not self.pack]
-        tray_choice = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self.choose_tray)
+        tray_choice = Choice((622, 96, 134, 26), "", tray, lambda: self.tray_key, self.choose_tray)
         steps, busy = self.packer.steps, self.packer.busy
 
         def button(x: float, wide: float, text: str, act: Callable[[PackDesk], object], hint: str = "") -> Button:
             return Button((x, 60, wide, 28), text, partial(act, self), hint=hint, size=10)
 
-        undo = button(206, 44, "Undo", PackDesk.undo, f"Ctrl+Z: {steps[-1].what}" if steps else "")
+        undo = button(206, 44, "Undo", PackDesk.undo, f"Ctrl+Z: {steps[-1].name}" if steps else "")
         undo.enabled = bool(steps)
         new = button(256, 76, "New pack...", pack_sharing.new_pack)
         hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
         paste = button(338, 68, "Paste link", pack_sharing.paste, hint)
-        if not have:
+        if not pack:
             new.area, paste.area = (276, 220, 240, 44), (276, 276, 240, 44)
             new.size = paste.size = 14
             return [new, paste, undo] if steps else [new, paste]
         about = button(412, 68, "More...", pack_menus.pack_menu, "Preview, name, copy or delete the pack")
         hint = f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
-        hint = shown_text(f"{have.index.title}. {have.index.comment}", 200) if received else hint
-        opener = self.opener = button(486, 60, "Play" if received else "Preview", pack_menus.view, hint)
+        hint = shown_text(f"{pack.index.title}. {pack.index.comment}", 200) if received else hint
+        opener = self.play_button = button(486, 60, "Play" if received else "Preview", pack_menus.view, hint)
         opener.enabled = bool(self.pack and self.pack.episodes)
         wrong = button(552, 66, "Problems", pack_sharing.show_problems)
         begin = ("Stop", self.packer.end) if busy else ("Make ready", partial(pack_sharing.make_ready, self))
@@ -79,7 +91,7 @@ class PackScreen(PackDesk):
         folder = Button((562, 525, 94, 24), "Open the folder", partial(pack_sharing.open_folder, self), size=10)
         folder.hint = "Where the zip is"
         share = [] if busy else [folder, link] if self.zipped else [link]
-        first = [self.shelves, chosen, undo, new, paste, about, opener, wrong, make, tray_choice, self.tray, *share]
+        first = [self.shelves, choice, undo, new, paste, about, opener, wrong, make, tray_choice, self.tray, *share]
         episode = self.shelves.cells[0].episode
         if episode and self._begins:
             make_one = partial(pack_menus.new_level, self, episode.number)
@@ -93,11 +105,11 @@ class PackScreen(PackDesk):
 
     @property
     def _below(self) -> float:
-        """The upper edge of what is said below the shelves, px."""
+        """The upper edge of the texts below the shelves, px."""
         return 96 + HIGH * self.shelves.lines + 24 if self.pack else 340
 
     def _choose_pack(self, key: str) -> None:
-        self.show(next(pack for pack in self.mine if pack.key == key))
+        self.show(next(pack for pack in self.own_packs if pack.key == key))
         super().enter()
 
     def handle(self, event: InputEvent) -> None:
@@ -111,20 +123,23 @@ class PackScreen(PackDesk):
             self.marked |= {level.named.file for level in self.levels(self.focus)}
             self.redraw = True
         elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "delete":
-            if isinstance(self.focus, Rack) and self.focus.cells and (act := pack_menus.away(self, self.focus.chosen)):
-                act()
+            rack = self.focus
+            if removal := pack_menus.removal_of(self, rack.chosen) if isinstance(rack, Rack) else None:
+                removal()
         else:
             super().handle(event)
 
     def choose(self, cell: PackCell | None) -> None:
         if cell is None:
             pack_menus.pack_menu(self)
-        elif self.held:
+        elif self.moving:
             self.drop(cell if self.focus is self.shelves else None)
         elif cell.level:
             pack_menus.level_menu(self, cell)
         elif cell.episode is None:
-            self.ask("New episode: name", self.next_name, partial(packs.new_episode, self.path, column=self.column))
+            self.ask_text_for(
+                "New episode: name", self.next_name, partial(packs.new_episode, self.path, column=self.column)
+            )
         elif cell.head:
             pack_menus.episode_menu(self, cell.episode)
         else:
@@ -132,19 +147,19 @@ class PackScreen(PackDesk):
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
-        packer, before = self.packer, self._told
-        self._told = now = packer.busy, len(packer.obstacles), packer.text, self.app.notice
-        if now[:2] != before[:2]:
+        packer, before = self.packer, self._shown
+        self._shown = shown = _Shown(packer.busy, len(packer.obstacles), packer.text, self.app.notice)
+        if (shown.busy, shown.obstacles) != (before.busy, before.obstacles):
             self.enter()
-        elif now != before:
-            # A notice may be about a certificate that a search of the editor has found.
-            self.read(news=now[3] in ("", before[3]))
+        elif shown != before:
+            # A new notice may be about a certificate that a search of the editor has found.
+            self.read_packs(news=shown.notice in ("", before.notice))
         if packer.open_problems and packer.waited_for:
             pack_sharing.ask_about(self, packer.open_problems)
-        self.redraw = self.status.update() or now != before or self.redraw
+        self.redraw = self.status.update() or shown != before or self.redraw
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        self.shelves.hint = self.tray.hint = _MOVES if self.held else _DRAG
+        self.shelves.hint = self.tray.hint = _MOVES if self.moving else _DRAG
         super().draw_frame(surface)
         theme, faint = self.theme, self.theme.palette.faint
         packer, step = self.packer, self._next_step()
@@ -173,10 +188,10 @@ class PackScreen(PackDesk):
             return ["It goes on when you leave this screen.", "Stop keeps what was found."]
         if packer.fresh and self.zipped:
             return ["Send the zip or the link: a link is pasted, a zip dropped, in Levels > Packs."]
-        if pack.received or not status.now:
+        if pack.received or not status.present:
             return []
-        if status.now.problems:
-            return [f"{counted(len(status.now.problems), 'problem')} to mend: Problems, above, shows the place."]
+        if status.present.problems:
+            return [f"{counted(len(status.present.problems), 'problem')} to mend: Problems, above, shows the place."]
         if status.to_do():
             return ["Next: Make ready, at the top right."]
         return ["Nothing is wrong: Make ready writes the zip and the link."]

@@ -50,15 +50,8 @@ class ProblemsScreen(MenuScreen):
         super().__init__(app)
         self._find, self._news, self._looks = find, news, 0
         self.problems: Sequence[Problem] = ()
-        self.list = ListView(
-            (44, 66, 704, 10 * ROW),
-            ROW,
-            self._draw_row,
-            lambda _: self._go(),
-            empty="There are no problems",
-            selected=lambda _: self._offer(),
-            opens=True,
-        )
+        self.list = ListView((44, 66, 704, 10 * ROW), ROW, self._draw_row, lambda _: self._go(), opens=True)
+        self.list.selected = lambda _: self._offer()
         self.buttons = {
             "search": Button((316, 530, 136, 28), SEARCH, self._search, size=10),
             "go": Button((464, 530, 136, 28), "Go there", self._go),

@@ -30,6 +30,17 @@ LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 
 
+def setting_choice(
+    app: App, area: Area, text: str, name: str, options: Sequence[tuple[str, object]] = SWITCH, hint: str = ""
+) -> Choice[object]:
+    """A choice of the values of a setting."""
+
+    def put(value: object) -> None:
+        app.change_settings(**{name: value})
+
+    return Choice(area, text, options, lambda: getattr(app.settings, name), put, hint=hint)
+
+
 class SettingsScreen(ThumbnailScreen):
     title = "Settings"
     music = ""
@@ -69,9 +80,6 @@ class SettingsScreen(ThumbnailScreen):
         else:
             self.focus_on(self.tabs)
 
-    def change(self, **values: object) -> None:
-        self.app.change_settings(**values)
-
     def _area(self) -> Area:
         """The area of the next row of the page."""
         return LEFT, TOP + STEP * next(self._rows), WIDTH_OF_ROW, HEIGHT_OF_ROW
@@ -79,21 +87,14 @@ class SettingsScreen(ThumbnailScreen):
     def _choice(
         self, text: str, name: str, options: Sequence[tuple[str, object]] = SWITCH, hint: str = ""
     ) -> Choice[object]:
-        return Choice(
-            self._area(),
-            text,
-            options,
-            lambda: getattr(self.player.settings, name),
-            lambda value: self.change(**{name: value}),
-            hint=hint,
-        )
+        return setting_choice(self.app, self._area(), text, name, options, hint)
 
     def _slider(self, text: str, name: str, hint: str = "") -> Slider:
         """A slider for a number; volumes, stored as 0 to 99, are heard at once."""
         volume = name.endswith("volume")
 
         def put(value: float) -> None:
-            self.change(**{name: round(value)})
+            self.app.change_settings(**{name: round(value)})
             if volume:
                 self.chime("gold-1" if name == "volume" else "menu-move")
 
@@ -161,7 +162,7 @@ class SettingsScreen(ThumbnailScreen):
 
     def _name_row(self) -> list[Widget]:
         x, y, w, h = self._area()
-        name, put = self.player.settings.name, lambda text: self.change(name=text)
+        name, put = self.player.settings.name, lambda text: self.app.change_settings(name=text)
         entry = TextEntry((x + 220, y, w - 220, h), "unnamed", name, put)
         return [Label((x, y + 10, 212, 14), "Your name in replays"), entry]
 
@@ -183,7 +184,7 @@ class SettingsScreen(ThumbnailScreen):
     def _bindings(self, device: str) -> list[Widget]:
         # The same table after a press, so that the selection stays.
         table = self.tables.setdefault(device, BindingTable(self.app, device))
-        reset = Button((216, 478, 260, 30), "Reset to defaults", lambda: self.change(**{device: {}}))
+        reset = Button((216, 478, 260, 30), "Reset to defaults", lambda: self.app.change_settings(**{device: {}}))
         if device == "keys":
             return [table, reset]
         pads = self.app.controls.pads.count
@@ -192,7 +193,7 @@ class SettingsScreen(ThumbnailScreen):
             "Dead zone of sticks",
             SPECS["dead_zone"].span,
             lambda: self.player.settings.dead_zone,
-            lambda value: self.change(dead_zone=round(value, 2)),
+            lambda value: self.app.change_settings(dead_zone=round(value, 2)),
             show="{:.0%}".format,
             hint=f"{pads or 'No'} gamepads are plugged in" if pads != 1 else "One gamepad is plugged in",
         )

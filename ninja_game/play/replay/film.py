@@ -51,30 +51,25 @@ class _StoppedError(Exception):
 
 @dataclass(frozen=True)
 class Film:
-    """What a film shows: a run from ``first`` ticks to ``last`` (None: to its end and a second more).
-
-    ``size``: px of a run's picture. ``speed``: 1 is that of the game. ``ghosts``: runs on the same level in the same
-    picture, ``colours``: their numbers (``run_colour``), if not in order; ``beside``: up to three more runs, each in a
-    picture of its own. ``keys``, ``splits``: show the keys that are down; show time and splits, with ``gold`` those of
-    gold too, and by how many ticks other runs are later. ``known_moments``: its moments, if they are known.
+    """What a film shows: a run, and others.
 
     Raises ArgumentError for a section that is empty or begins after the end, and for one without ``last`` in which the
     runs have more than MAX_PICTURES together.
     """
 
     run: Recording
-    size: tuple[int, int] = (528, 400)
-    speed: float = 1.0
+    size: tuple[int, int] = (528, 400)  #: of a run's picture, px
+    speed: float = 1.0  #: 1: that of the game
     settings: Settings | None = None
-    ghosts: tuple[Recording, ...] = ()
-    colours: tuple[int, ...] = ()
-    keys: bool = False
-    first: int = 0
-    last: int | None = None
-    beside: tuple[Recording, ...] = ()
-    splits: bool = False
-    gold: bool = False
-    known_moments: range | None = None
+    ghosts: tuple[Recording, ...] = ()  #: runs on the same level in the same picture
+    colours: tuple[int, ...] = ()  #: numbers of the ghosts (``run_colour``), if not in order
+    keys: bool = False  #: show the keys that are down
+    first: int = 0  #: tick
+    last: int | None = None  #: tick; None: a second after its end
+    beside: tuple[Recording, ...] = ()  #: up to three more runs, each in a picture of its own
+    splits: bool = False  #: show time and splits, and by how many ticks other runs are later
+    gold: bool = False  #: splits of gold too
+    known_moments: range | None = None  #: its moments, if they are known
 
     @property
     def whole_size(self) -> tuple[int, int]:

@@ -17,7 +17,7 @@ from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import SaveState, Simulation
-from ninja_game.ui.theme import Palette, Theme, run_colour
+from ninja_game.ui.theme import Theme, run_colour
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.view.sprites.drawing import is_near
 
@@ -173,9 +173,6 @@ class Ghost:
     def place(self, fraction: float) -> Point:
         (bx, by), (x, y) = self._before, self._now
         return bx + (x - bx) * fraction, by + (y - by) * fraction
-
-    def colour(self, palette: Palette) -> pygame.Color:
-        return self.shade or palette.ghost
 
 
 MAX_NAME = 28  # most letters of a run's name among others

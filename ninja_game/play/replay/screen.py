@@ -14,10 +14,11 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Mood
-from ninja_game.play.app import App, Screen
+from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.playback import Playback, RunClock, draw_names, ghosts_of
+from ninja_game.play.screen import Screen
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
@@ -226,7 +227,8 @@ class ReplayScreen(Screen):
             "frame_back": lambda: self.step(-1), "frame_forward": lambda: self.step(1),
             "faster": lambda: self._change_speed(1), "slower": lambda: self._change_speed(-1),
             "retry": lambda: self.show(self.index), "jump": lambda: self.show(self.index + 1),
-            "export": self.start_export, "link": self.copy_link, "ghost": self._toggle_ghosts, "edit": self.edit,
+            "export": self.start_export, "link": self.copy_link, "edit": self.edit,
+            "ghost": lambda: self.app.change_settings(show_ghost=not self.app.settings.show_ghost),
             "back": self.app.pop, "quit": self.app.pop,
         }.get(action)  # fmt: skip
         if deed is not None:
@@ -251,9 +253,6 @@ class ReplayScreen(Screen):
         self.speed = min(len(SPEEDS) - 1, max(0, self.speed + by))
         self.clock.reset()
         self.redraw = True
-
-    def _toggle_ghosts(self) -> None:
-        self.app.change_settings(show_ghost=not self.app.settings.show_ghost)
 
     def start_export(self) -> None:
         if self.export is None:

@@ -117,7 +117,7 @@ class OtherRuns:
         if not tick:
             return 0
         ours = self.editor.session.timeline.trajectory()
-        far = np.hypot(*(other.positions - ours.positions[tick - 1]).T)
+        far = np.hypot(*(other.trajectory.positions - ours.positions[tick - 1]).T)
         faster = np.hypot(*(other.trajectory.velocities - ours.velocities[tick - 1]).T)
         return int(np.argmin(far + AHEAD * faster)) + 1
 

@@ -176,7 +176,7 @@ class LevelPart(TasPart):
         over = self._paths
         over.draw_beside(inner, others)
         over.draw_flags(inner, positions, editor.track.markers)
-        names = [(ghost.label, ghost.place(fraction), ghost.colour(theme.palette)) for ghost in self.ghosts]
+        names = [(run.label, run.place(fraction), run.shade or theme.palette.ghost) for run in self.ghosts]
         over.draw_names(inner, names, picture.place(fraction))
         if len(positions):
             over.draw_present(inner, positions, editor.cursor, editor.selection, paths.shown_span(editor.cursor))

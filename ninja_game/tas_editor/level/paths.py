@@ -52,35 +52,16 @@ class OtherRunPath(NamedTuple):
     alpha: int = CLEAR
 
 
-class PathLayer:
-    """A surface with the path of one run, which is extended as ticks become known. ``covered``: its px."""
-
-    def __init__(self, canvas: Canvas, colour: pygame.Color, width: float) -> None:
-        self.surface = pygame.Surface(canvas.window, pygame.SRCALPHA)
-        self._canvas = canvas
-        self._colour = colour
-        self._width = width
-        self._drawn: Positions = np.zeros((0, 2))
-        self.covered = pygame.Rect(0, 0, 0, 0)
-
-    def show(self, positions: Positions) -> None:
-        """Show this path; the part in common with the last one is kept."""
-        known = len(self._drawn)
-        if known > len(positions) or not np.array_equal(self._drawn, positions[:known]):
-            self.surface.fill((0, 0, 0, 0), self.covered)
-            self.covered, known = pygame.Rect(0, 0, 0, 0), 0
-        added = draw_path(self.surface, self._canvas, positions[max(0, known - 1) :], self._colour, self._width)
-        self.covered = union_of([self.covered, added])
-        self._drawn = positions
-
-
 class LevelPaths:
     """Draws paths of runs over a picture of the level. ``canvas``: of that picture; ``theme``: the TAS editor's."""
 
     def __init__(self, theme: Theme, canvas: Canvas) -> None:
         self.theme = theme
         self.canvas = canvas
-        self._present = PathLayer(canvas, shaded(theme.palette.accent, FAINT), self._px(_THIN))
+        # The run's own path, which is extended as ticks become known.
+        self._present = pygame.Surface(canvas.window, pygame.SRCALPHA)
+        self._present_covered = pygame.Rect(0, 0, 0, 0)
+        self._drawn: Positions = np.zeros((0, 2))
         self._under = pygame.Surface(canvas.window, pygame.SRCALPHA)
         self._covered = pygame.Rect(0, 0, 0, 0)
         self._beside: tuple[OtherRunPath, ...] = ()
@@ -100,16 +81,10 @@ class LevelPaths:
         if tuple(paths) != self._beside:
             self._beside = tuple(paths)
             self._under.fill((0, 0, 0, 0), self._covered)
-            drawn = [
-                draw_path(
-                    self._under,
-                    self.canvas,
-                    path.trajectory.positions[path.first : path.last],
-                    shaded(path.colour, path.alpha),
-                    self._px(_THIN),
-                )
-                for path in paths
-            ]
+            drawn = []
+            for path in paths:
+                shown, colour = path.trajectory.positions[path.first : path.last], shaded(path.colour, path.alpha)
+                drawn.append(draw_path(self._under, self.canvas, shown, colour, self._px(_THIN)))
             self._covered = union_of(drawn)
         self._put(surface, self._under, self._covered)
 
@@ -118,8 +93,8 @@ class LevelPaths:
     ) -> None:
         """The run itself: faint, bright and dotted near the cursor; the selected ticks thick."""
         canvas, palette = self.canvas, self.theme.palette
-        self._present.show(positions[slice(*shown)])
-        self._put(surface, self._present.surface, self._present.covered)
+        self._extend(positions[slice(*shown)])
+        self._put(surface, self._present, self._present_covered)
         first, last = selected
         if last - first > 1:
             draw_path(surface, canvas, positions[max(0, first - 1) : last], palette.good, self._px(_THICK))
@@ -129,6 +104,17 @@ class LevelPaths:
         for tick in range(low + -low % every, min(len(positions), cursor + BRIGHT_TICKS + 1), every):
             radius = 1.0 if tick % _DOT_EVERY else 1.6
             canvas.circle(surface, palette.accent, _point(positions, tick), self._px(radius))
+
+    def _extend(self, positions: Positions) -> None:
+        """Show this path of the run; the part in common with the last one is kept."""
+        known = len(self._drawn)
+        if known > len(positions) or not np.array_equal(self._drawn, positions[:known]):
+            self._present.fill((0, 0, 0, 0), self._present_covered)
+            self._present_covered, known = pygame.Rect(0, 0, 0, 0), 0
+        colour, added = shaded(self.theme.palette.accent, FAINT), positions[max(0, known - 1) :]
+        rect = draw_path(self._present, self.canvas, added, colour, self._px(_THIN))
+        self._present_covered = union_of([self._present_covered, rect])
+        self._drawn = positions
 
     def draw_flags(self, surface: pygame.Surface, positions: Positions, markers: Sequence[Marker]) -> None:
         canvas, palette, px = self.canvas, self.theme.palette, self._px

@@ -13,7 +13,6 @@ from ninja_game.simulation import SaveState, Simulation
 from ninja_game.tas.timeline import Trajectory
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.ui.canvas import Camera, Canvas
-from ninja_game.ui.theme import Palette
 from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.view.ninja.ragdoll import Ragdoll
@@ -58,9 +57,6 @@ class RunGhost:
         (bx, by), (x, y) = (before["x"], before["y"]), (now["x"], now["y"])
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 
-    def colour(self, palette: Palette) -> pygame.Color:
-        return self.shade or palette.ghost
-
 
 _WARM = 4
 """Ticks run with animations before a sought one, so that it looks as if played."""
@@ -100,11 +96,12 @@ class LevelPicture:
         self.editor = editor
         self.run = self._new_run()
         self.overlays = Overlays()
-        self._context = OffscreenContext((1, 1), editor.app.settings)
-        self._view: LevelView | None = None
-        self.surface = pygame.Surface((1, 1))
         self.camera = Camera()
+        self.surface: pygame.Surface
+        self._context: OffscreenContext
+        self._view: LevelView
         self._seen: tuple[object, ...] = ()
+        self.fit((1, 1))
 
     def _new_run(self) -> CachedWorldSimulation:
         session = self.editor.session
@@ -121,30 +118,27 @@ class LevelPicture:
 
     def fit(self, size: tuple[int, int]) -> bool:
         """Apply a size, px, the player's settings and the camera's part; whether to draw all again."""
-        app, seen = self.editor.app, (size, *self.camera.render_key)
+        app, before = self.editor.app, self._seen
         settings = app.settings.changed(show_ghost=True)
-        if self._view is not None and self._context.settings.palette == settings.palette and size == self._seen[0]:
+        self._seen = size, settings.palette, *self.camera.render_key
+        if before[:2] == self._seen[:2]:
             self._context.settings = settings
-            if seen == self._seen:
-                return False
-        else:
-            self._context = OffscreenContext(size, settings)
-            self._context.audio_output = app.audio_output
-            self.surface = pygame.Surface(size)
-            self._view = None
-        self._seen = seen
-        self._context.canvas = self.camera.canvas(size)
-        if self._view is None:
-            self._view = LevelView(self._context, self.run, audible=False)
-            self._view.overlays = self.overlays
-            self._view.on_seek()
+            if before != self._seen:
+                self._context.canvas = self.camera.canvas(size)
+            return before != self._seen
+        self._context = OffscreenContext(size, settings)
+        self._context.audio_output, self._context.canvas = app.audio_output, self.camera.canvas(size)
+        self.surface = pygame.Surface(size)
+        self._view = LevelView(self._context, self.run, audible=False)
+        self._view.overlays = self.overlays
+        self._view.on_seek()
         return True
 
     def place(self, fraction: float) -> Point:
-        return self._view.object_animation.ninja_place(fraction) if self._view is not None else (0.0, 0.0)
+        return self._view.object_animation.ninja_place(fraction)
 
     def follow(self, ghosts: list[RunGhost]) -> None:
-        if self._view is not None and self._view.ghosts != ghosts:
+        if self._view.ghosts != ghosts:
             self._view.ghosts = ghosts
             for ghost in ghosts:
                 ghost.on_seek(self.run.tick)
@@ -158,13 +152,11 @@ class LevelPicture:
         run, inputs = self.run, fit_inputs(timeline.inputs[:moment], moment)
         if run.inputs == inputs:
             return
-        if self._view is not None:
-            self._view.audible = audible
+        self._view.audible = audible
         if not (moment - _NEAR <= run.tick < moment and inputs.startswith(run.inputs)):
             self._seek(moment, inputs)
         self._play(inputs)
-        if self._view is not None:
-            self._view.audible = False
+        self._view.audible = False
 
     def _seek(self, moment: int, inputs: bytes) -> None:
         """Seek to some ticks before a tick."""
@@ -172,7 +164,7 @@ class LevelPicture:
         end, outcome = self.editor.session.timeline.end
         corpse = self._corpse(end, inputs, min(start - end, _FALL)) if outcome == "dead" and start > end else None
         self._go(start, inputs)
-        if self._view is not None and corpse is not None:
+        if corpse is not None:
             self._view.ragdoll = corpse
 
     def _go(self, moment: int, inputs: bytes) -> None:
@@ -182,13 +174,10 @@ class LevelPicture:
         self.run.restore(self.editor.session.timeline.save_state(moment))
         while self.run.tick < moment:
             self.run.step_keys(inputs[self.run.tick])
-        if self._view is not None:
-            self._view.on_seek()
+        self._view.on_seek()
 
     def _corpse(self, end: int, inputs: bytes, ticks: int) -> Ragdoll | None:
         """The corpse a number of ticks after the death: it falls again, in the world of those ticks."""
-        if self._view is None:
-            return None
         self._go(end, inputs)
         self._play(inputs[: end + 1])
         corpse, world = self._view.ragdoll, self.run.world
@@ -200,14 +189,11 @@ class LevelPicture:
     def _play(self, inputs: bytes) -> None:
         for keys in inputs[self.run.tick :]:
             self.run.step_keys(keys)
-            if self._view is not None:
-                self._view.on_tick()
+            self._view.on_tick()
 
     def draw(self, fraction: float, *, whole: bool) -> None:
-        if self._view is not None:
-            self._view.draw(self.surface, fraction, whole=whole)
+        self._view.draw(self.surface, fraction, whole=whole)
 
     def draw_ninja_over(self, surface: pygame.Surface, fraction: float) -> None:
         """Draw the ninja once more, over a copy of the picture with something drawn on it."""
-        if self._view is not None:
-            self._view.draw_ninja_over(surface, fraction)
+        self._view.draw_ninja_over(surface, fraction)

@@ -34,7 +34,8 @@ class RollCommands:
             **{name: partial(self._move, to) for name, to in moves.items()},
             **{f"select_{name}": partial(self._move, to, select=True) for name, to in moves.items()},
             "select_last": lambda: editor.go(max(len(editor.track) - 1, editor.session.timeline.end[0]), select=True),
-            "select_all": lambda: editor.select(0, len(editor.track)), "go_to": self.ask_where,
+            "select_all": lambda: editor.select(0, len(editor.track)),
+            "go_to": lambda: ask_text(editor.app, "Go to", "Tick or name", "", "Go", self.go_to),
             "next_marker": lambda: self._to_marker(1), "previous_marker": lambda: self._to_marker(-1),
             "next_difference": lambda: self._to_difference(1),
             "previous_difference": lambda: self._to_difference(-1),
@@ -65,9 +66,6 @@ class RollCommands:
         """The tick of exit or death; from there or behind it the last one."""
         end = self._editor.session.timeline.end[0]
         return end if self._editor.cursor < end else self._editor.last_tick
-
-    def ask_where(self) -> None:
-        ask_text(self._editor.app, "Go to", "Tick or name", "", "Go", self.go_to)
 
     def go_to(self, text: str) -> None:
         """Go to a tick by its number or its marker's name; a notice for an unknown one."""

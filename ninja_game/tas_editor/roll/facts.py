@@ -99,26 +99,20 @@ class Values(NamedTuple):
 
 
 class RowFacts(NamedTuple):
-    """The data of a row.
-
-    ``keys``, ``before``: inputs of the tick and of the one before it; ``differs``: the keys that are down either here
-    or in the compared run. ``values``: None if the tick is not simulated. ``death``: the killer of this tick; ``lead``:
-    over the other run, None without a common event. ``beyond``: behind the last input; ``over``: behind exit or death.
-    ``changed``: its keys differ from the saved ones.
-    """
+    """The data of a row."""
 
     tick: int
-    keys: int
-    before: int
-    differs: int
-    values: Values | None
+    keys: int  #: inputs of the tick
+    before: int  #: inputs of the tick before it
+    differs: int  #: the keys that are down either here or in the compared run
+    values: Values | None  #: None if the tick is not simulated
     events: str
-    death: str
-    lead: int | None
+    death: str  #: the killer of this tick
+    lead: int | None  #: over the other run, ticks; None without a common event
     name: str
-    beyond: bool
-    over: bool
-    changed: bool
+    beyond: bool  #: whether it is behind the last input
+    over: bool  #: whether it is behind exit or death
+    changed: bool  #: whether its keys differ from the saved ones
     selected: bool
     cursor: bool
 

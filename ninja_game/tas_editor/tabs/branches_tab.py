@@ -26,13 +26,9 @@ class BranchesTab(Tab):
         super().__init__(editor)
         self.tree: list[tuple[int, int]] = []
         self._looked_at: OtherRun | None = None
-        self.list = Rows(
-            self._draw_row,
-            lambda _: self.checkout(),
-            empty="B keeps the run as a branch",
-            opens=True,
-            hint="Under the mouse, or clicked: shown in level and roll; a second click goes to it",
-        )
+        hint = "Under the mouse, or clicked: shown in level and roll; a second click goes to it"
+        self.list = Rows(self._draw_row, lambda _: self.checkout(), hint=hint, opens=True)
+        self.list.empty = "B keeps the run as a branch"
         actions = [
             ("Keep", self.keep, "B: keep the run as it is now, as a child of the marked branch"),
             ("Go to it", self.checkout, "The run becomes the chosen branch; undo brings back what was there"),

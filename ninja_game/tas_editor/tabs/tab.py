@@ -109,10 +109,8 @@ class TabStrip(TasPart):
         return False
 
     def commands(self) -> Commands:
-        return {"next_tab": self.show_next}
-
-    def show_next(self) -> None:
-        self.editor.tab = following([tab.name for tab in self.tabs], self.editor.tab)
+        names = [tab.name for tab in self.tabs]
+        return {"next_tab": lambda: setattr(self.editor, "tab", following(names, self.editor.tab))}
 
     @property
     def shown(self) -> Tab:

@@ -230,12 +230,8 @@ class ValuesTab(Tab):
         self.window = TickRange()
         self._plot: Area = UNPLACED
         self.events: list[tuple[int, str]] = []
-        self.list = Rows(
-            self._draw_row,
-            self._toggle,
-            empty="V watches a value",
-            hint="Values at the cursor; a click shows or hides the plot",
-        )
+        hint = "Values at the cursor; a click shows or hides the plot"
+        self.list = Rows(self._draw_row, self._toggle, empty="V watches a value", hint=hint)
         actions = [
             ("Watch", self.ask, "V: watch another value, such as object_x(12) or x > 400"),
             ("Objects", self.show_objects, "The objects of the level with their ids"),

@@ -91,14 +91,8 @@ class Effects:
         kind = "blood" if self.gore else "dust"
         for _ in range(count):
             share = self.rng.uniform(3, 6)
-            self.add(
-                kind,
-                x,
-                y,
-                dx * share + self.rng.uniform(-22, 22),
-                dy * share + self.rng.uniform(-26, 16),
-                life=self.rng.uniform(22, 36),
-            )
+            way = dx * share + self.rng.uniform(-22, 22), dy * share + self.rng.uniform(-26, 16)
+            self.add(kind, x, y, *way, life=self.rng.uniform(22, 36))
 
     # --- while a state lasts ---
 

@@ -129,13 +129,7 @@ class NinjaAnimation:
             return placed
         # The feet follow a slope; the body above them stays nearly upright.
         upright = pose.placed(self.facing, turn - _BALANCE * floor)
-        return placed._replace(
-            head=upright.head,
-            shoulder=upright.shoulder,
-            pelvis=upright.pelvis,
-            near_hand=upright.near_hand,
-            far_hand=upright.far_hand,
-        )
+        return upright._replace(near_foot=placed.near_foot, far_foot=placed.far_foot)
 
 
 def draw_ninja(

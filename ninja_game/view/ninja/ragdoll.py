@@ -48,24 +48,13 @@ STICKS = (
 TRUNK = 2
 
 
-class Box:
-    """A box with a centre, px, which pushes move."""
+class VerletParticle:
+    """A joint of the corpse: a box with a centre, px, its earlier place (the difference is the velocity) and a drag."""
 
-    __slots__ = ("half", "x", "y")
-
-    def __init__(self, x: float, y: float, half: float) -> None:
-        self.x = x
-        self.y = y
-        self.half = half
-
-
-class VerletParticle(Box):
-    """A joint of the corpse: a box with its earlier place (the difference is the velocity) and a drag."""
-
-    __slots__ = ("drag", "ox", "oy", "sx", "sy")
+    __slots__ = ("drag", "half", "ox", "oy", "sx", "sy", "x", "y")
 
     def __init__(self, x: float, y: float, vx: float, vy: float, half: float, drag: float) -> None:
-        super().__init__(x, y, half)
+        self.x, self.y, self.half = x, y, half
         self.ox, self.oy = x - vx, y - vy
         self.sx, self.sy = x, y
         self.drag = drag
@@ -200,7 +189,7 @@ class Ragdoll:
         return sx + dx / length * 3.4, sy + dy / length * 3.4
 
 
-def object_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]:
+def object_pushes(world: World, box: VerletParticle) -> Iterator[tuple[float, float, float]]:
     """Normals of the objects that a box touches, and the speed (px/tick) of their kick; each pushes it out at once."""
     for slot in range(1, world.id_count + 1):
         o = world.objects[slot]
@@ -213,7 +202,7 @@ def object_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]
                 yield from _square(o, box)
 
 
-def _square(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
+def _square(o: Object, box: VerletParticle) -> Iterator[tuple[float, float, float]]:
     half = kinds.KIND_OF[o.kind].box or kinds.KIND_OF[o.kind].disc or 0.0
     dx, dy = box.x - o.x, box.y - o.y
     ox, oy = half + box.half - abs(dx), half + box.half - abs(dy)
@@ -229,14 +218,14 @@ def _square(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
     yield nx, ny, KICKS[o.kind] if o.kind != kinds.THWUMP or (nx, ny) == (o.face_x, o.face_y) else 0.0
 
 
-def _pad(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
+def _pad(o: Object, box: VerletParticle) -> Iterator[tuple[float, float, float]]:
     dx, dy = o.x - box.x, o.y - box.y
     if dx * dx + dy * dy < (PAD_RADIUS + box.half) ** 2:
         length = (o.face_x * o.face_x + o.face_y * o.face_y) ** 0.5 or 1.0
         yield o.face_x / length, o.face_y / length, KICKS[o.kind]
 
 
-def _one_way(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
+def _one_way(o: Object, box: VerletParticle) -> Iterator[tuple[float, float, float]]:
     """Only from its face, and only near it."""
     dx, dy = box.x - o.x, box.y - o.y
     across = abs(dy) if o.face_x else abs(dx)
@@ -258,7 +247,7 @@ _BEHIND = {RIGHT: 1, DOWN: STRIDE, LEFT: -1, UP: -STRIDE}
 _WAYS = tuple((cos(k * pi / 8), sin(k * pi / 8)) for k in range(16))
 
 
-def tile_push(level: TileMap, world: World, box: Box) -> list[tuple[float, float, float]]:
+def tile_push(level: TileMap, world: World, box: VerletParticle) -> list[tuple[float, float, float]]:
     """As ``object_pushes``, for tiles and closed doors, which a box touches as a disc."""
     x, y, half = box.x, box.y, box.half
     cell = cell_at(x, y)

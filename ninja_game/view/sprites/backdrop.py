@@ -52,25 +52,22 @@ class Backdrop:
         # Walls first, then the objects before them.
         front = {GOLD, MINE}
         order = sorted(animation.static_slots, key=lambda slot: world.objects[slot].kind in front)
-        if order != self._order or not self._drawn:
+        fresh, changed = order != self._order or not self._drawn, []
+        if fresh:
             self._order, self._drawn = order, True
             self._blits.clear()
             self._rects.clear()
             self._lights.clear()
-            for slot in order:
-                self._place(slot, static_sprites_of(world, slot, animation, 1.0))
-                self._light(world, slot)
+        for slot in order:
+            before = self._blits.get(slot)
+            rect = self._place(slot, static_sprites_of(world, slot, animation, 1.0))
+            if self._blits[slot] != before:
+                changed.append(rect)
+            changed += self._light(world, slot)
+        if fresh:
             self._mines = [slot for slot in order if world.objects[slot].kind == MINE]
             self._mine_places = [self._rects.get(slot, pygame.Rect(0, 0, 0, 0)) for slot in self._mines]
             changed = [self.picture.get_rect()]
-        else:
-            changed = []
-            for slot in order:
-                before = self._blits[slot]
-                rect = self._place(slot, static_sprites_of(world, slot, animation, 1.0))
-                if self._blits[slot] != before:
-                    changed.append(rect)
-                changed += self._light(world, slot)
         for rect in changed:
             self._mend(rect)
         return changed

@@ -198,7 +198,7 @@ def lightning(s: Sketch, p: Palette, variant: int) -> None:
 
 PlacedSprite = tuple[SpriteKey, float, float]  # a drawing and the place of its point, px
 
-_EXIT_FRAMES, _PAD_FRAMES, _LOCK_FRAMES, _TRAP_FRAMES = 30, 18, 18, 18
+_EXIT_FRAMES, _PAD_FRAMES, _LOCK_FRAMES = 30, 18, 18
 _DOOR_OPENING, _DOOR_CLOSING, _AIM_FRAMES, _PREPARE_FRAMES = 15, 16, 15, 30
 MAX_FRAMES = 30
 SETTLED_TICKS = MAX_FRAMES / 3  # ticks without change after which a static sprite stays the same
@@ -258,7 +258,8 @@ def door_place(o: Object) -> tuple[float, float, int] | None:
 def _door_sprites(o: Object, slot: int, animation: ObjectAnimation, fraction: float) -> list[PlacedSprite]:
     sprites: list[PlacedSprite] = []
     place = door_place(o)
-    step = animation.step(slot, fraction, _door_frames(o))
+    automatic = _DOOR_OPENING if o.switched else _DOOR_CLOSING
+    step = animation.step(slot, fraction, automatic if o.mechanism == AUTOMATIC else _LOCK_FRAMES)
     closed = o.switched == (o.mechanism == TRAP)
     # A trap door is invisible until it is sprung.
     if place and not (o.mechanism == TRAP and not o.switched):
@@ -267,9 +268,3 @@ def _door_sprites(o: Object, slot: int, animation: ObjectAnimation, fraction: fl
     if o.mechanism != AUTOMATIC:
         sprites.append((door_switch(o.mechanism, o.switched), o.x, o.y))
     return sprites
-
-
-def _door_frames(o: Object) -> int:
-    if o.mechanism == AUTOMATIC:
-        return _DOOR_OPENING if o.switched else _DOOR_CLOSING
-    return _TRAP_FRAMES if o.mechanism == TRAP else _LOCK_FRAMES

@@ -86,7 +86,7 @@ class TileSheet:
         if SHAPE[key[0]] == FULL:
             surface.fill(colour, rect)
         else:
-            surface.blit(self.picture(key, colour), rect)
+            surface.blit(tile_picture(key[0], key[1:3], tuple(colour), self.canvas.scale, key[3:]), rect)
 
     def key(self, column: int, row: int, tile: int) -> TileKey:
         """The identity of the picture of a tile in a cell."""
@@ -94,9 +94,6 @@ class TileSheet:
         # Offset of the cell's true corner from its px: in eighths, so that few pictures are drawn.
         left, top = self._shift[0] + 24 * column * scale, self._shift[1] + 24 * row * scale
         return tile, *rect.size, round(8 * (left - rect.left)) / 8, round(8 * (top - rect.top)) / 8
-
-    def picture(self, key: TileKey, colour: pygame.Color) -> pygame.Surface:
-        return tile_picture(key[0], key[1:3], tuple(colour), self.canvas.scale, key[3:])
 
     def on_tiles(self, areas: Iterable[pygame.Rect]) -> list[pygame.Rect]:
         """The areas with at least one px of a tile."""

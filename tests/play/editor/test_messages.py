@@ -317,7 +317,7 @@ def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Mak
     session.certifier.search = search_of(room.draft.level, run)
     screen = opened(room)
     drawn(room.app)
-    (shown,) = screen._kept.values()
+    (shown,) = screen._things.values()
     assert len(shown) > 3, "the run's way too"
     room.choose("Test")
     trying = room.shown(TryScreen)
@@ -430,7 +430,7 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
         shown.append((" / ".join(box.lines), box.x, box.y))
         return pygame.Rect(0, 0, 1, 1)
 
-    monkeypatch.setattr(Hud, "said", said)
+    monkeypatch.setattr(Hud, "draw_message", said)
     room.editor.session.tools.history.change(replace(room.draft, says=f"start: {LONG} | at 20,12: Here"))
     screen = opened(room)
     room.frames()

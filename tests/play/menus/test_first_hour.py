@@ -50,7 +50,7 @@ from tests.support.players import deadly_level, entry, short_level
 
 def said(level: LevelScreen) -> str:
     """What the level says on the screen now."""
-    shown = hud_view(level.play).said
+    shown = hud_view(level.play).message
     return shown[0] if shown else ""
 
 
@@ -126,13 +126,13 @@ def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: Me
     app, hidden, bands, texts = driver.app, [], 0, 0
     for each in app.player.catalogue.ours.levels:
         play = LevelScreen(app, LevelSession(app.player, each)).play
-        shown = hud_view(play).said
+        shown = hud_view(play).message
         run = app.player.catalogue.author_run(each)
         if shown is None or run is None:
             continue
         hud = Hud(app.theme)
         box = hud.box(shown)
-        card = hud.said(app.surface, box)
+        card = hud.draw_message(app.surface, box)
         bands += abs(box.y - 28) < 1 or abs(box.y + box.high * len(box.lines) + 19 - 573) < 1
         texts += 1
         way, places = Simulation(each.named.level), [(o.x, o.y) for o in play.attempt.simulation.world.objects[1:]]
@@ -247,11 +247,11 @@ def test_text_at_a_place_does_not_lie_over_the_ninja_that_has_come_there(driver:
     level.begin()
     play, place = level.play, (396.0, 300.0)
     play.messages.text, play.messages.place, play.things = "Jump up here", place, ()
-    x, y, w, h = hud.box(hud_view(play).said or PlacedMessage("", (), (), None, covers=False)).area
-    for play.about in ((x + 4, y + 4), (x + w - 4, y + h - 4), (x + w / 2, y + h / 2)):
-        said = hud_view(play).said
+    x, y, w, h = hud.box(hud_view(play).message or PlacedMessage("", (), (), None, covers=False)).area
+    for play.message_spot in ((x + 4, y + 4), (x + w - 4, y + h - 4), (x + w / 2, y + h / 2)):
+        said = hud_view(play).message
         assert said
-        assert away_from(play.about, *hud.box(said).area) > 10
+        assert away_from(play.message_spot, *hud.box(said).area) > 10
 
 
 def test_text_at_a_place_is_said_there_once() -> None:
@@ -277,7 +277,7 @@ def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, 
     ninja.x += away
     solid = []
     while told.text:
-        solid.append(told.seen)
+        solid.append(told.opacity)
         told.on_tick(world)
     assert len(solid) == pytest.approx(ticks, abs=2)
     assert solid[:-FADE_TICKS] == [1.0] * (len(solid) - FADE_TICKS)
@@ -325,9 +325,9 @@ def test_a_text_under_which_the_ninja_comes_fades_while_it_is_there(driver: Menu
     driver.app.change_settings(reduced_motion=reduced)
     level = driver.open_level()
     view = hud_view(level.play)
-    assert view.said
+    assert view.message
     hud, surface = Hud(driver.app.theme), driver.app.surface
-    _, x, y, w, *_ = hud.box(view.said)
+    _, x, y, w, *_ = hud.box(view.message)
     corner = driver.app.canvas.point(x + 8, y + 6)
 
     def shown(away: float) -> int:
@@ -344,8 +344,8 @@ def test_a_text_under_which_the_ninja_comes_fades_while_it_is_there(driver: Menu
 
 def test_texts_of_a_level_come_back_after_its_author_was_watched(driver: MenuDriver) -> None:
     level = stuck_level(driver)
-    first = level.play.messages._starts()[0].text
-    level.play.messages._said.update(level.context.messages())
+    first = next(message.text for message in level.context.messages() if message.when == "start")
+    level.play.messages._shown.update(level.context.messages())
     driver.press("n")
     driver.choose("Watch how")
     driver.shown(ReplayScreen)
@@ -553,11 +553,11 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     level = driver.open_level()
     level.begin()
     hud = Hud(driver.app.theme)
-    (text, tiles, things, _, covers, _), far = hud_view(level.play).said or ("", (), (), None, True, False), []
+    (text, tiles, things, _, covers, _), far = hud_view(level.play).message or ("", (), (), None, True, False), []
     assert covers, "the text of the start stays where it was"
-    level.play.about = (40, 500)
+    level.play.message_spot = (40, 500)
     level.play.messages.text = "Another one"
-    assert hud_view(level.play).said == PlacedMessage("Another one", tiles, things, (40, 500), covers=False)
+    assert hud_view(level.play).message == PlacedMessage("Another one", tiles, things, (40, 500), covers=False)
     for about in ((40.0, 440.0), (750.0, 440.0)):
         lines, left, y, w, high, *_ = hud.box(PlacedMessage(text, tiles, things, about, covers=False))
         assert y < IN_BORDER
@@ -566,7 +566,7 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
         far.append(left)
     assert far[0] < far[1]
     high_up = PlacedMessage("One" + 9 * " word", (0,) * 713, (), (396.0, 60.0), covers=False)
-    shown = hud.said(driver.app.surface, hud.box(high_up))
+    shown = hud.draw_message(driver.app.surface, hud.box(high_up))
     assert shown.top < driver.app.canvas.px(120), "near the upper border, in the open too"
     assert not shown.collidepoint(driver.app.canvas.point(396, 60)), "but never over the ninja"
     everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
@@ -580,22 +580,22 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
 ) -> None:
     level, text = LevelScreen(driver.app, LevelSession(driver.player, entry(short_level()))), " ".join(["word"] * words)
     level.play.messages._say((text, 99, place))
-    level.play.about = (10.0, 10.0)
+    level.play.message_spot = (10.0, 10.0)
     view = hud_view(level.play)
-    assert view.said
-    assert view.said[3:] == (place, False, True)
+    assert view.message
+    assert view.message[3:] == (place, False, True)
     hud, surface = Hud(driver.app.theme), driver.app.surface
     everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
     for tiles, things in (((0,) * 713, ()), ((1,) * 713, ()), ((0,) * 713, everywhere)):
-        lines, x, y, w, high, margin, _ = hud.box(PlacedMessage(text, tiles, things, *view.said[3:]))
+        lines, x, y, w, high, margin, _ = hud.box(PlacedMessage(text, tiles, things, *view.message[3:]))
         h = high * len(lines) + 2 * margin - 1
         away = hypot(max(x - place[0], 0, place[0] - x - w), max(y - place[1], 0, place[1] - y - h))
         assert CLEAR <= away <= 2.2 * CELL, "beside it, and solid while the ninja is there"
         assert 24 <= x < x + w <= 768
         assert 24 <= y < y + h <= 576
         surface.fill("black")
-        said = PlacedMessage(text, tiles, things, *view.said[3:])
-        covered = hud.draw(surface, replace(view, said=said, named=(), ninja=place))
+        said = PlacedMessage(text, tiles, things, *view.message[3:])
+        covered = hud.draw(surface, replace(view, message=said, named=(), ninja=place))
         there = driver.app.canvas.point(*place)
         assert surface.get_at(there)[:3] == driver.app.theme.palette.accent[:3]
         assert any(rect.collidepoint(there) for rect in covered), "so it is taken away again"
@@ -674,7 +674,7 @@ def test_keys_of_the_help_bear_the_letters_that_its_words_name(driver: MenuDrive
 def test_text_of_the_start_covers_no_name_of_a_thing(driver: MenuDriver) -> None:
     level = driver.open_level()
     play, hud = level.play, Hud(driver.app.theme)
-    text, tiles, *_ = hud_view(play).said or ("", ())
+    text, tiles, *_ = hud_view(play).message or ("", ())
     named = [o for o in play.attempt.simulation.world.objects[1:] if o.kind in {SWITCH, EXIT}]
     assert text
     assert len(named) == 2
@@ -725,4 +725,4 @@ def test_a_word_without_end_stays_in_the_window_in_the_largest_letters(*, near: 
     assert left >= 24
     assert left + w <= 768
     assert top + h <= 600
-    assert surface.get_rect().contains(hud.said(surface, box))
+    assert surface.get_rect().contains(hud.draw_message(surface, box))

@@ -70,7 +70,7 @@ def opened(driver: MenuDriver) -> PackScreen:
 
 def problems_of(driver: MenuDriver, screen: PackScreen) -> Sequence[Problem]:
     """The problems of the shown pack, once they are known."""
-    driver.wait(lambda: pack_sharing.problems(screen) is not None and screen.status.now, "the problems are known")
+    driver.wait(lambda: pack_sharing.problems(screen) is not None and screen.status.present, "the problems are known")
     return pack_sharing.problems(screen) or []
 
 
@@ -161,7 +161,7 @@ def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_onc
     assert "2 levels" in drawn(driver.app)
     driver.mouse_up(half(screen, 7, right=True))
     assert layout(path) == {0: ["00-1", "00-2", "00-4"], 1: ["01-0", "00-0", "00-3", "01-1", "01-2"]}
-    assert [each.what for each in steps] == ["Move 2 levels"]
+    assert [step.name for step in steps] == ["Move 2 levels"]
     driver.carry(place(8), half(screen, 1), drop=False)
     driver.mouse_up(half(screen, 1))
     assert layout(path)[0] == ["00-0", "00-3", "00-1", "00-2", "00-4"], "they stay marked"
@@ -282,7 +282,7 @@ def test_a_pad_alone_makes_a_pack_with_a_level_and_edits_it(driver: MenuDriver) 
     button("dpad-down")
     button("a")
     screen = driver.shown(PackScreen)
-    assert [pack.name for pack in screen.mine] == ["My pack"]
+    assert [pack.name for pack in screen.own_packs] == ["My pack"]
     button("a")
     assert driver.shown(MenuScreen).title == "Episode 1"
     button("a")
@@ -331,7 +331,7 @@ def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path) 
     assert pack.levels["00-0-first-steps.txt"].name == "Early steps"
     driver.choose("More...")
     driver.choose("Copy of the pack")
-    assert [each.name for each in screen.mine] == ["Laundry", "Laundry copy"]
+    assert [each.name for each in screen.own_packs] == ["Laundry", "Laundry copy"]
 
 
 def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: MenuDriver, path: Path) -> None:
@@ -435,7 +435,7 @@ def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(drive
     driver.shown(EditorScreen).session.close()
     driver.app.pop()
     assert not [each for each in screen.widgets if getattr(each, "text", "") == "New level..."]
-    driver.wait(lambda: screen.status.now, "the problems are known")
+    driver.wait(lambda: screen.status.present, "the problems are known")
     assert "to mend: Problems, above" in drawn(driver.app)
     screen.choose(screen.shelves.cells[2])
     assert driver.shown(FormPanel).title == "New level: its name"
@@ -445,7 +445,7 @@ def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(drive
 
 def test_levels_of_days_are_no_pack_of_ones_own(driver: MenuDriver, path: Path) -> None:
     shutil.copytree(path, path.with_name(DAILY))
-    assert [pack.path for pack in opened(driver).mine] == [path]
+    assert [pack.path for pack in opened(driver).own_packs] == [path]
 
 
 def test_a_pack_is_made_ready_in_the_background(
@@ -493,7 +493,7 @@ def test_a_pack_is_made_ready_in_the_background(
     foot = driver.app.canvas.point(0, 551)[1], driver.app.canvas.stage.bottom
     assert foot[0] <= notice.top < notice.bottom <= foot[1], "the state of the pack is read meanwhile"
     assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
-    driver.wait(lambda: screen.status.now, "the problems are known")
+    driver.wait(lambda: screen.status.present, "the problems are known")
     driver.choose("Problems")
     assert driver.app.notice == "", "what is said there goes with the screen"
     assert [problem.step for problem in problem_page(driver).problems] == ["Make ready"]
@@ -585,14 +585,14 @@ def test_what_was_made_ready_asks_only_at_its_own_desk(
     monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", lambda *_, **__: ready)
     other = packs.new_pack(path.parent, "Other", "me")
     screen = opened(driver)
-    screen.read(path)
+    screen.read_packs(path)
     pack_sharing.make_ready(screen)
-    screen.read(other)
+    screen.read_packs(other)
     driver.wait(lambda: not screen.packer.busy)
     driver.frames(3)
     assert driver.top() is screen
     assert driver.app.notice == "Laundry: Neither zip nor link yet: 1 open problem"
-    screen.read(path)
+    screen.read_packs(path)
     driver.frames(2)
     assert driver.shown(MenuScreen).title == "Laundry: 1 open problem"
 
@@ -608,7 +608,7 @@ def test_a_link_of_levels_without_certificate_is_asked_about(driver: MenuDriver,
         driver.choose("Copy all the same")
     assert (driver.top(), driver.app.notice, len(copied)) == (screen, "Link copied", 1)
     (path / "received").touch()
-    screen.read()
+    screen.read_packs()
     with patch("pygame.scrap.put_text", copied.append):
         driver.choose("Copy the link")
     assert len(copied) == 2, "it is not for who received it to mend"
@@ -632,7 +632,7 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
     monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
     screen = opened(driver)
     path_of_level = str(path / "00-0-first-steps.txt")
-    driver.wait(lambda: screen.status.now, "the problems are known")
+    driver.wait(lambda: screen.status.present, "the problems are known")
     assert screen.status.checked
     assert path_of_level not in screen.status.checked.places, "nobody has looked for a run yet"
     driver.choose("Make ready")
@@ -702,11 +702,11 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     stale = [cell.level.title for cell in screen.shelves.cells if cell.level and cell.level.pars is None]
     assert stale == ["Mind the Gap"]
     assert screen.status.counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
-    driver.wait(lambda: screen.status.now, "the problems are known")
+    driver.wait(lambda: screen.status.present, "the problems are known")
     assert [screen.status.state(cell.level) for cell in screen.shelves.cells if cell.level][1] == "changed"
     packs.place(path, [packs.new_level(path, "Empty", "me")], 1)
     screen.enter()
-    driver.wait(lambda: screen.status.now, "the problems are known")
+    driver.wait(lambda: screen.status.present, "the problems are known")
     assert screen.status.counts().startswith("9 levels in 2 episodes. Make ready will certify 2 levels")
     [entry] = [each.level for each in screen.shelves.cells if each.level and each.level.title == "Empty"]
     assert screen.status.state(entry) == "no run yet"
@@ -724,7 +724,7 @@ def test_what_the_editor_certified_is_certified_in_the_folder_too(driver: MenuDr
     assert screen.status.state(entry) == "no run yet"
     (levels / "certificates").mkdir()
     shutil.copy(path / "certificates" / f"{name}.exit.replay.txt", levels / "certificates")
-    screen.read()
+    screen.read_packs()
     assert screen.status.state(entry) == "certified"
     pack_menus.level_menu(screen, screen.tray.cells[0])
     driver.choose("Watch the run")
@@ -793,7 +793,7 @@ def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Pat
         driver.choose("More...")
         driver.choose("Delete the pack...")
         driver.choose(answer)
-        assert (path.exists(), bool(screen.mine)) == (there, there)
+        assert (path.exists(), bool(screen.own_packs)) == (there, there)
     assert Pack(driver.player.folder / "deleted" / "laundry").name == "Laundry"
     assert not any((screen.packer.text, screen.packer.saved)), "nothing is said of what is gone"
     assert "in the folder deleted/laundry now" in driver.app.notice.replace("\\", "/")
@@ -833,7 +833,7 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     driver.press("escape")
     driver.choose("Packs")
     screen = driver.shown(PackScreen)
-    screen.read(path)
+    screen.read_packs(path)
     driver.choose("More...")
     driver.choose("Delete the pack...")
     assert driver.shown(MenuScreen).title == "Delete Laundry with its 9 levels?"
@@ -867,18 +867,18 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         clipboard.append(f"https://example.org/game/ {clipboard[-1]}\n")
         shutil.rmtree(path)
         screen.enter()
-        assert not screen.mine
+        assert not screen.own_packs
         driver.choose("Paste link")
         assert "Laundry is among your packs now" in driver.app.notice
-        driver.wait(lambda: screen.status.now, "the problems are known")
+        driver.wait(lambda: screen.status.present, "the problems are known")
         work = "Make ready will look for all gold in 8 levels"
         assert screen.status.counts() == f"8 levels in 2 episodes. {work}. 0 problems"
         assert screen.status.checked
         assert {finding.code for finding in screen.status.checked.to_do} == {"no-gold-run"}
-        assert [pack.name for pack in screen.mine] == ["Laundry"]
+        assert [pack.name for pack in screen.own_packs] == ["Laundry"]
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
-        assert len(screen.mine) == 1
+        assert len(screen.own_packs) == 1
         assert driver.shown(MenuScreen).title == "Laundry is among your packs already"
         driver.choose("Play it")
         assert driver.shown(EpisodeGrid).player is driver.player
@@ -887,7 +887,7 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
         driver.choose("Keep both")
-        assert len(screen.mine) == 2, "it never goes over what is there unasked"
+        assert len(screen.own_packs) == 2, "it never goes over what is there unasked"
     assert layout(screen.path) == first
 
 
@@ -904,7 +904,7 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
 
     drop()
     assert driver.app.notice == "Laundry is among your packs now: Enter plays it"
-    assert [(each.name, each.received) for each in screen.mine] == [("Laundry", True)]
+    assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     before = {file: file.read_bytes() for file in path.rglob("*") if file.is_file()}
     (made / "00-0-first-steps.txt").unlink()
     (made / "00-1-mind-the-gap.txt").write_text((made / "01-0-springtime.txt").read_text("utf-8"), "utf-8")
@@ -915,19 +915,19 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
     assert "1 level new, 1 level changed, 1 level gone" in drawn(driver.app)
     driver.choose("Update it")
     assert driver.app.notice == "Laundry: 1 level new, 1 level changed, 1 level gone"
-    assert [(each.name, each.received) for each in screen.mine] == [("Laundry", True)]
+    assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     assert Pack(path).index.version == "1.1"
     assert packs.same_pack(Pack(path), Pack(made))
     driver.chord("z", pygame.KMOD_CTRL)
     assert {file: file.read_bytes() for file in path.rglob("*") if file.is_file()} == before
     drop()
     driver.choose("Keep both")
-    assert [each.name for each in screen.mine] == ["Laundry", "Laundry, 1.1"]
+    assert [each.name for each in screen.own_packs] == ["Laundry", "Laundry, 1.1"]
 
 
 def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
-    with patch.object(screen, "read", wraps=screen.read) as read:
+    with patch.object(screen, "read_packs", wraps=screen.read_packs) as read:
         screen.choose(screen.shelves.cells[1])
         read.reset_mock()
         driver.choose("Edit")
@@ -936,7 +936,7 @@ def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: P
         driver.app.pop()
         assert driver.top() is screen
         read.reset_mock()
-        screen.change(lambda: packs.rename_episode(path, 0, "Other"), "Rename")
+        screen.change_pack(lambda: packs.rename_episode(path, 0, "Other"), "Rename")
         assert read.call_count == 1
         read.reset_mock()
         with patch("pygame.scrap.get_text", Pack(PACK).files.link):
@@ -963,15 +963,15 @@ def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Pat
         driver.press("escape")
         driver.choose("Paste link")
         driver.choose("Receive it once more")
-    assert [bool(pack.received) for pack in screen.mine] == [False, True]
-    assert (screen.pack and screen.pack.received, screen.focus) == (True, screen.opener)
+    assert [bool(pack.received) for pack in screen.own_packs] == [False, True]
+    assert (screen.pack and screen.pack.received, screen.focus) == (True, screen.play_button)
 
 
 def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(driver: MenuDriver, path: Path) -> None:
     shutil.copytree(path, path.with_name("soap"))
     packs.describe(path.with_name("soap"), {"name": "Soap"})
     screen = opened(driver)
-    assert screen.chosen
+    assert screen.pack_choice
 
     def right_click(area: Area) -> MenuScreen:
         place = screen.theme.canvas.point(area[0] + area[2] / 2, area[1] + area[3] / 2)
@@ -979,9 +979,9 @@ def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(driver: MenuDriver, 
         driver.frames()
         return driver.shown(MenuScreen)
 
-    assert right_click(screen.chosen.area).title == "Laundry"
+    assert right_click(screen.pack_choice.area).title == "Laundry"
     driver.choose("Cancel")
-    x, y, w, _ = screen.chosen.area
+    x, y, w, _ = screen.pack_choice.area
     driver.mouse(x + w - 9, y + 9)
     assert (screen.pack and screen.pack.name) == "Soap", "an arrow shows the next one"
     seen = drawn(driver.app)
@@ -1058,7 +1058,7 @@ def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path) -> None:
     driver.press("escape")
     assert driver.top() is screen
     packs.new_pack(path.parent, "Empty", "me")
-    screen.read(path.parent / "empty")
+    screen.read_packs(path.parent / "empty")
     driver.choose("More...")
     assert not driver.button("Play it").enabled
 
@@ -1125,7 +1125,7 @@ def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(driver: MenuD
     assert (screen.pack and screen.pack.name, folder_texts(received)) == ("Laundry copy", before)
     drag()
     assert layout(screen.path)[1] == ["01-0", "00-1", "01-1", "01-2"], "the copy asks nothing"
-    screen.read(received)
+    screen.read_packs(received)
     drag()
     driver.choose("Change it all the same")
     assert layout(received)[1] == ["01-0", "00-1", "01-1", "01-2"]
@@ -1260,7 +1260,7 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     driver.app.pop()
     packs.take_back(path, level.name, Pack(path).index.accepted[0].code)
     packs.accept(path, level.name, "no-gold-run", "a joke")
-    screen.read()
+    screen.read_packs()
     assert not [problem for problem in problems_of(driver, screen) if problem.accepted], "it is not certified since"
 
 
@@ -1268,13 +1268,13 @@ def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Pa
     screen = opened(driver)
     driver.choose("New pack...")
     typed(driver, "Empty")
-    assert screen.beside == "none", "the folder has none"
+    assert screen.tray_key == "none", "the folder has none"
     own = driver.player.folder / "levels" / "mine.txt"
     own.write_text((path / "00-0-first-steps.txt").read_text("utf-8"), "utf-8")
     driver.choose("New pack...")
     typed(driver, "Next")
     driver.frames()
-    assert (screen.pack and screen.pack.name, screen.beside) == ("Next", "yours")
+    assert (screen.pack and screen.pack.name, screen.tray_key) == ("Next", "yours")
     assert len(screen.tray.cells) == 1
 
 
@@ -1316,7 +1316,7 @@ def test_mine_first_counts_packs_and_a_name_is_found_before_a_comment(driver: Me
     sources = [entry.source for entry in browser.shown]
     assert sources[0] == "yours"
     assert set(sources[1:9]) == {"Laundry"}
-    browser._search("rolling")
+    driver.type("rolling")
     assert [entry.title for entry in browser.shown][-1] == "Zz"
     assert len(browser.shown) > 1
     browser._sort("name")

@@ -105,7 +105,7 @@ def test_zip_dropped_on_the_list_of_levels_is_received_as_a_pack(driver: MenuDri
     assert isinstance(browser, Browser)
     pygame.event.post(pygame.Event(pygame.DROPFILE, file=zipped))
     driver.frames(2)
-    assert [(pack.name, pack.received) for pack in driver.shown(PackScreen).mine] == [("Other", True)]
+    assert [(pack.name, pack.received) for pack in driver.shown(PackScreen).own_packs] == [("Other", True)]
     driver.press("escape")
     assert browser.message == ""
     assert {entry.source for entry in browser.entries} == {"game", "Other"}

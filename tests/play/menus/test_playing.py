@@ -134,7 +134,7 @@ def test_deaths_are_counted_and_retry_is_one_key(driver: MenuDriver) -> None:
 
 def test_practice_saves_no_record_and_unlocks_nothing(driver: MenuDriver) -> None:
     grid = driver.opened("Episodes", EpisodeGrid)
-    grid._set_practice(True)
+    grid.practice.put(True)
     driver.press("return")
     for number in range(1, 6):
         level = driver.shown(LevelScreen)

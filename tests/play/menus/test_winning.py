@@ -146,7 +146,7 @@ def test_a_text_in_the_border_leaves_room_for_the_name_of_the_level(driver: Menu
         (396.0, 300.0),
         covers=False,
     )
-    view = HudView(3600, "", ("Episode 1.1, level 1: Long Name", "gold 0 / 5"), name="Long Name", said=said)
+    view = HudView(3600, "", ("Episode 1.1, level 1: Long Name", "gold 0 / 5"), name="Long Name", message=said)
     log = DrawLog()
     with log.installed(), log.recording(driver.app.theme.palette) as lines:
         Hud(driver.app.theme).draw(pygame.Surface((792, 600)), view)
@@ -253,7 +253,7 @@ def test_panel_of_an_end_fades_in_as_a_whole_and_its_medal_hides_no_word(driver:
 
     def drawn(stamp: float, seen: float) -> tuple[pygame.Surface, pygame.Rect]:
         surface = empty.copy()
-        view = HudView(0, "", ("", ""), end=end, medal="gold", stamp=stamp, seen=seen)
+        view = HudView(0, "", ("", ""), end=end, medal="gold", stamp=stamp, end_opacity=seen)
         return surface, hud.end_panel(surface, view, end)
 
     whole, box = drawn(1.0, 1.0)

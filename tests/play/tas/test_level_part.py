@@ -206,7 +206,7 @@ def test_the_rest_of_another_run_from_the_nearest_place(at: TasDriver) -> None:
     screen = at.screen
     screen.level.others.open([at.session.recording(mine.replaced(60, 60, [0] * 7), "later")])
     editor.go(120)
-    here, there = at.session.timeline.positions[120], editor.others[0].positions
+    here, there = at.session.timeline.positions[120], editor.others[0].trajectory.positions
     speed = at.session.timeline.trajectory().velocities[120]
     faster = np.hypot(*(editor.others[0].trajectory.velocities - speed).T)
     nearest = int(np.argmin(np.hypot(*(there - here).T) + AHEAD * faster))
@@ -238,7 +238,7 @@ def test_the_beginning_of_another_run_before_the_rest_of_this_one(at: TasDriver)
     at.chord("b", pygame.KMOD_LCTRL)
     assert (editor.track, at.app.notice) == (mine, "No tick is before this one: go to where your own run goes on")
     editor.go(120)
-    here, there = at.session.timeline.positions[119], other.positions
+    here, there = at.session.timeline.positions[119], other.trajectory.positions
     faster = other.trajectory.velocities - at.session.timeline.trajectory().velocities[119]
     joint = int(np.argmin(np.hypot(*(there - here).T) + AHEAD * np.hypot(*faster.T))) + 1
     assert joint != 120
@@ -278,7 +278,7 @@ def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) ->
     there_and_back = editor.track.replaced(0, 40, right * 20 + left * 60 + right * 60)
     at.screen.level.others.open([at.session.recording(there_and_back, "to and fro")])
     other = editor.others[0]
-    x = other.positions[:, 0]
+    x = other.trajectory.positions[:, 0]
     editor.go(10)
     here = at.session.timeline.positions[10, 0]
     back = 20 + int(np.argmin(np.abs(x[20:80] - here)))
@@ -287,7 +287,8 @@ def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) ->
         column = other.trajectory.columns[name]
         column[:20] += 0.01
         column[back] += here - x[back]
-    assert np.argmin(np.hypot(*(other.positions - at.session.timeline.positions[10]).T)) == back, "nearest by place"
+    far = np.hypot(*(other.trajectory.positions - at.session.timeline.positions[10]).T)
+    assert np.argmin(far) == back, "nearest by place"
     editor.go(11)
     at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
     assert "from its tick 11 on" in at.app.notice

@@ -23,9 +23,11 @@ from ninja_game.search.formula.task import SpanResult
 from ninja_game.sim.inputs import Input
 from ninja_game.sim.kinds import EXIT
 from ninja_game.tas.goals import IMPROVE, PRESETS
+from ninja_game.tas_editor import span_results
 from ninja_game.tas_editor.roll.facts import BEFORE, compared, different_keys
+from ninja_game.tas_editor.span_results import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults
 from ninja_game.tas_editor.tabs import search_tab as module
-from ninja_game.tas_editor.tabs.search_tab import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SearchTab, SpanResults
+from ninja_game.tas_editor.tabs.search_tab import SearchTab
 from ninja_game.tas_editor.tabs.tab import SMALL
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.theme import Theme
@@ -63,7 +65,7 @@ def is_in(at: TasDriver, results: SpanResults, found: SpanResult) -> bool:
 def searched(at: TasDriver, tab: SearchTab) -> SpanResults:
     """Search until there is something better than the run, then stop."""
     results = results_of(tab)
-    at.wait(lambda: bool(tab.found), "something better")
+    at.wait(lambda: bool(tab.better), "something better")
     at.choose("Stop")
     at.wait(lambda: not results.running, "the end")
     at.frames(2)  # the list is that of the end
@@ -149,7 +151,7 @@ def test_a_better_end_is_found_and_put_in_as_one_edit(at: TasDriver, tab: Search
     before, slow = at.editor.track, speed(at, 129)
     wish(at, "Greatest speed")
     results = searched(at, tab)
-    best = tab.found[0]
+    best = tab.better[0]
     row(at, tab, 0)
     assert at.editor.track != before
     assert speed(at, 129) == pytest.approx(-best.score)
@@ -189,11 +191,11 @@ def test_other_ticks_make_the_goal_of_the_menu_anew_and_end_old_results(at: TasD
 def test_results_of_one_way_are_one(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
     results = searched(at, tab)
-    best = tab.found[0]
+    best = tab.better[0]
     elsewhere = replace(best, score=best.score + 0.01, path=best.path + 99)
     results.search.results = best, replace(best, score=best.score + 0.01, path=best.path + 9), elsewhere
     at.frames(2)
-    assert tab.found[:2] == (best, elsewhere)
+    assert tab.better[:2] == (best, elsewhere)
 
 
 def test_pieces_of_a_span_in_which_nothing_better_is_found_are_searched_by_a_click(
@@ -206,7 +208,7 @@ def test_pieces_of_a_span_in_which_nothing_better_is_found_are_searched_by_a_cli
     tab.goal.show(f"won and tick < {end // 2}")
     tab.start()
     at.wait(lambda: bool(tab.pieces), "pieces")
-    assert all(found.missed_by for found in tab.found)
+    assert all(found.missed_by for found in tab.better)
     reached = {"gold-taken", "exit-opened"}
     splits = [tick for tick, names in at.session.timeline.event_ticks if reached & {*names.split()}]
     *legs, whole = tab.pieces
@@ -216,7 +218,7 @@ def test_pieces_of_a_span_in_which_nothing_better_is_found_are_searched_by_a_cli
     assert (whole.name, whole.wanted.method) == ("Whole run", IMPROVE)
     assert (legs[-1].name, legs[-1].wanted.goal) == ("To exit", "won")
     proposed = tab.pieces
-    row(at, tab, len(tab.found))
+    row(at, tab, len(tab.better))
     assert tab.span == (0, proposed[0].last)
     assert (tab.goal.text, tab.rest) == (proposed[0].wanted.goal, True)
     assert results_of(tab).running
@@ -270,29 +272,29 @@ def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
     assert current_thread() not in threads
     goal = tab.goal.text
     at.frames()
-    row(at, tab, len(tab.found))
+    row(at, tab, len(tab.better))
     task = results_of(tab).task
     assert (task.first, task.last, task.goal, task.rest) == (100, 130, goal, False)
-    assert tab.pieces[0].name == module.WITHOUT_REST
+    assert tab.pieces[0].name == span_results.WITHOUT_REST
 
 
 def test_a_taken_result_leaves_the_cursor_in_its_place_and_undo_too(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
     results = searched(at, tab)
     results.stop()
-    shorter = replace(tab.found[0], ticks=25, inputs=tab.found[0].inputs[:125])
-    results.better = tab.found = (shorter,)
+    shorter = replace(tab.better[0], ticks=25, inputs=tab.better[0].inputs[:125])
+    results.better = tab.better = (shorter,)
     for cursor, expected in ((50, 50), (110, 110), (128, 124), (135, 130)):
         at.editor.go(cursor)
         at.frames(2)
         top = at.screen.roll.top
-        assert results.put(shorter)
+        assert results.put_into_run(shorter)
         at.frames(2)
         assert (at.editor.selection, at.screen.roll.top) == ((expected, expected + 1), top), cursor
         at.screen.run("undo")
         assert at.editor.cursor == (cursor if cursor > 60 else 100), "back, where the change is seen from there"
     at.editor.select(100, 130)
-    assert results.put(shorter)
+    assert results.put_into_run(shorter)
     assert at.editor.selection == (100, 125), "a selected span is that of the result"
 
 
@@ -315,8 +317,8 @@ def test_the_result_under_the_mouse_is_looked_at(at: TasDriver, tab: SearchTab) 
     at.frames()
     preview = at.editor.preview
     assert preview is not None
-    assert preview.track.inputs == tab.found[0].inputs
-    assert len(preview.positions) >= 130
+    assert preview.track.inputs == tab.better[0].inputs
+    assert len(preview.trajectory.positions) >= 130
     at.mouse(300, 100, click=False)
     at.frames()
     assert at.editor.preview is None
@@ -327,7 +329,7 @@ def test_a_result_that_does_not_fit_any_more_brings_its_run_back(at: TasDriver, 
     results = searched(at, tab)
     down = not at.editor.track.keys_at(50) & Input.LEFT
     at.editor.edit(lambda track: track.with_key(50, 51, Input.LEFT, down=down))
-    changed, found = at.editor.track, tab.found[0]
+    changed, found = at.editor.track, tab.better[0]
     at.frames(2)
     row(at, tab, 0)
     assert is_in(at, results, found), "the run as it was searched, with the result"
@@ -336,16 +338,16 @@ def test_a_result_that_does_not_fit_any_more_brings_its_run_back(at: TasDriver, 
     at.session.undo()
     assert at.editor.track == changed
     at.session.undo()
-    assert results.behind == 130
+    assert results.first_behind == 130
     at.editor.edit(lambda track: track.with_key(200, 210, Input.LEFT, down=True))
     row(at, tab, 0)
-    assert is_in(at, results, tab.found[0]), "what is behind the span does not matter"
+    assert is_in(at, results, tab.better[0]), "what is behind the span does not matter"
 
 
 def test_results_of_earlier_searches_stay_listed_until_they_are_forgotten(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
     results = searched(at, tab)
-    best, before = tab.found[0], at.editor.track
+    best, before = tab.better[0], at.editor.track
     at.editor.select(50, 90)
     tab.use_selection()
     at.frames(2)
@@ -356,7 +358,7 @@ def test_results_of_earlier_searches_stay_listed_until_they_are_forgotten(at: Ta
     results_of(tab).stop()
     at.wait(lambda: not results_of(tab).running, "the end")
     at.frames(2)
-    first = len(tab.found)
+    first = len(tab.better)
     row(at, tab, first, click=False)
     at.frames()
     assert at.editor.preview is not None
@@ -373,7 +375,7 @@ def test_results_of_earlier_searches_stay_listed_until_they_are_forgotten(at: Ta
     assert len(kept) == len({*kept}), "none is kept twice"
     at.choose("Forget earlier")
     at.frames(2)
-    assert tab.list.count == len(tab.found)
+    assert tab.list.count == len(tab.better)
 
 
 def test_old_pieces_are_no_rows_after_an_edit(at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -386,8 +388,8 @@ def test_old_pieces_are_no_rows_after_an_edit(at: TasDriver, tab: SearchTab, mon
     at.frames(2)
     assert not tab.pieces
     monkeypatch.undo()
-    tab._asked = None
-    at.wait(lambda: tab._cut is at.editor.track, "the pieces of the run as it is")
+    tab._asked_track = None
+    at.wait(lambda: tab._cut_track is at.editor.track, "the pieces of the run as it is")
     assert [piece[:3] for piece in tab.pieces] == [(0, 110, "Whole run")], "it ends before the span"
 
 
@@ -401,7 +403,7 @@ def test_no_pieces_are_proposed_for_what_is_not_to_be_sooner(
         tab.start()
         at.wait(lambda: not results_of(tab).running, "the end")
         at.frames(2)
-        assert tab._in_pieces is None, goal
+        assert tab._pieced_span is None, goal
 
 
 def test_an_edit_in_front_ends_the_search(at: TasDriver, tab: SearchTab) -> None:
@@ -410,7 +412,7 @@ def test_an_edit_in_front_ends_the_search(at: TasDriver, tab: SearchTab) -> None
     at.wait(lambda: results.search.ticks_run, "a search")
     at.editor.edit(lambda track: track.replaced(0, 0, [0]))
     at.wait(lambda: not results.running, "the end")
-    assert results.behind is None, "it did not end by itself"
+    assert results.first_behind is None, "it did not end by itself"
 
 
 def test_the_same_end_is_found_sooner_and_the_rest_follows(at: TasDriver, tab: SearchTab) -> None:
@@ -422,20 +424,20 @@ def test_the_same_end_is_found_sooner_and_the_rest_follows(at: TasDriver, tab: S
     wish(at, "Same end, sooner")
     assert tab.rest
     results = searched(at, tab)
-    words, other, *_, gain = results.words(tab.found[0])
-    assert words == f"exit in tick {tab.found[0].score - 1:.0f}"
+    words, other, *_, gain = results.words(tab.better[0])
+    assert words == f"exit in tick {tab.better[0].score - 1:.0f}"
     assert 0 <= int(other) < 24
     assert gain in ("1 tick sooner", "2 ticks sooner", "3 ticks sooner")
     at.editor.edit(lambda track: track.named(end + 3, "last"))
     row(at, tab, 0)
-    assert at.session.timeline.end == (int(tab.found[0].score) - 1, "exit")
-    assert len(at.editor.track) == int(tab.found[0].score), "it ends at the exit"
+    assert at.session.timeline.end == (int(tab.better[0].score) - 1, "exit")
+    assert len(at.editor.track) == int(tab.better[0].score), "it ends at the exit"
     assert not at.session.tail_behind
     assert at.session.timeline.end[0] < end + 3
-    assert tab.found[0].gold == at.session.timeline.column("gold")[at.session.timeline.end[0]]
+    assert tab.better[0].gold == at.session.timeline.column("gold")[at.session.timeline.end[0]]
     own = results.search.own
     assert own is not None
-    fewer = replace(tab.found[0], gold=own.gold - 2)
+    fewer = replace(tab.better[0], gold=own.gold - 2)
     assert results.words(fewer)[0].endswith(", 2 gold fewer")
 
 
@@ -464,19 +466,19 @@ def test_a_run_gets_shorter_by_what_the_list_says(at: TasDriver, tab: SearchTab,
     before = len(at.editor.track)
     wish(at, name)
     results = searched(at, tab)
-    for index in (0, len(tab.found) - 1, 0):
-        gain = results.words(tab.found[index])[-1]
+    for index in (0, len(tab.better) - 1, 0):
+        gain = results.words(tab.better[index])[-1]
         row(at, tab, index)
-        assert is_in(at, results, tab.found[index])
+        assert is_in(at, results, tab.better[index])
         assert gain.split(" tick")[0] == str(before - len(at.editor.track))
 
 
 def test_a_search_is_cancelled_by_hand_and_when_the_tas_editor_is_left(
     at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert module.CLOSING_SECONDS <= 0.5, "nobody waits longer for a TAS editor to close"
+    assert span_results.CLOSING_SECONDS <= 0.5, "nobody waits longer for a TAS editor to close"
     # On a slow machine a round of trials takes longer.
-    monkeypatch.setattr(module, "CLOSING_SECONDS", LONGEST)
+    monkeypatch.setattr(span_results, "CLOSING_SECONDS", LONGEST)
     wish(at, "Greatest speed")
     first = results_of(tab)
     at.wait(lambda: first.search.ticks_run, "a search")
@@ -540,18 +542,18 @@ def test_what_is_no_better_than_the_run_is_not_listed(at: TasDriver, tab: Search
     at.wait(lambda: bool(results.search.results), "results")
     at.choose("Stop")
     at.wait(lambda: not results.running, "the end")
-    assert not tab.found
+    assert not tab.better
     assert results.note == "Nothing better than the run's own keys: goal after tick 109."
 
 
 def test_a_goal_out_of_reach_is_not_reached(at: TasDriver, tab: SearchTab) -> None:
     at.write("y < -10000")
     at.press("return")
-    at.wait(lambda: bool(tab.found), "a miss")
+    at.wait(lambda: bool(tab.better), "a miss")
     at.choose("Stop")
     at.wait(lambda: not results_of(tab).running, "the end")
     at.frames(2)
-    (miss,) = tab.found
+    (miss,) = tab.better
     words, *_, gain = results_of(tab).words(miss)
     assert words == f"closest: {10000 + miss.end[1]:.3g} short after tick {miss.inputs and len(miss.inputs) - 1}"
     assert gain == "a miss"
@@ -562,7 +564,7 @@ def test_a_goal_out_of_reach_is_not_reached(at: TasDriver, tab: SearchTab) -> No
 def test_a_goal_out_of_reach_gets_advice(at: TasDriver, tab: SearchTab) -> None:
     at.write("x > 0 and y < -10000")
     at.press("return")
-    at.wait(lambda: bool(tab.found), "a miss")
+    at.wait(lambda: bool(tab.better), "a miss")
     at.choose("Stop")
     results = results_of(tab)
     at.wait(lambda: not results.running, "the end")
@@ -599,17 +601,17 @@ def test_what_is_found_takes_the_place_of_the_nearest_miss(at: TasDriver, tab: S
     at.write("y < -10000")
     at.press("return")
     results = results_of(tab)
-    at.wait(lambda: bool(tab.found), "a miss")
-    results.search.results = (replace(tab.found[0], missed_by=None),)
+    at.wait(lambda: bool(tab.better), "a miss")
+    results.search.results = (replace(tab.better[0], missed_by=None),)
     results.refresh()
     assert results.better == results.search.results
 
 
 def test_the_rest_of_the_run_and_a_measure_exclude_each_other(at: TasDriver, tab: SearchTab) -> None:
-    tab._put_order("smallest")
-    tab._put_rest(True)
+    tab._set_order("smallest")
+    tab._set_rest(True)
     assert (tab.order, tab.task.measure) == ("earliest", "")
-    tab._put_order("greatest")
+    tab._set_order("greatest")
     assert not tab.rest
     assert tab.task.measure == "speed"
 
@@ -643,12 +645,12 @@ def test_the_whole_run_is_shortened_in_the_background_and_keeps_its_markers(at: 
     wish(at, "Whole run")
     assert tab.span == (0, end + 41)
     results = results_of(tab)
-    at.wait(lambda: not results.running or (tab.found and tab.found[0].ticks < end + 20), "a shorter run")
+    at.wait(lambda: not results.running or (tab.better and tab.better[0].ticks < end + 20), "a shorter run")
     assert results.running, results.search.problem
     at.choose("Stop")
     at.wait(lambda: not results.running, "the end")
     at.frames(2)
-    found = tab.found[0]
+    found = tab.better[0]
     assert results.words(found)[0].startswith(f"exit in tick {found.ticks - 1}")
     at.editor.go(30)
     row(at, tab, 0)
@@ -668,10 +670,10 @@ def test_a_run_that_ends_before_the_exit_is_led_there_and_shortened(at: TasDrive
     wish(at, "Whole run")
     assert tab.span == (0, end - 30)
     results = results_of(tab)
-    at.wait(lambda: bool(tab.found), "a way to the exit")
+    at.wait(lambda: bool(tab.better), "a way to the exit")
     at.choose("Stop")
     at.wait(lambda: not results.running, "the end")
-    assert results.words(tab.found[0])[-1] == "new"
+    assert results.words(tab.better[0])[-1] == "new"
     row(at, tab, 0)
     assert at.session.timeline.end[1] == "exit"
 
@@ -698,25 +700,25 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     wish(at, "Whole run")
     results = results_of(tab)
 
-    at.wait(lambda: any(each.own_route for each in tab.found), "a result of the own route")
+    at.wait(lambda: any(each.own_route for each in tab.better), "a result of the own route")
     at.choose("Stop")
     at.wait(lambda: not results.running, "the end")
     at.frames(2)
-    own = next(each for each in tab.found if each.own_route)
+    own = next(each for each in tab.better if each.own_route)
     assert results.words(own)[0] == f"tick {own.ticks - 1}, own route"
     assert results.words(replace(own, gold=own.gold - 1))[0].endswith(", 1 gold fewer, own route")
-    assert results.put(own)
+    assert results.put_into_run(own)
     assert "Cy" not in at.session.origin.replay.co_authors
     at.session.undo()
     assert at.editor.track == slow
     beside = replace(own, inputs=fast.inputs[: own.ticks], own_route=False)
     assert results.words(beside)[0].endswith(", this is Cy")
-    assert results._taken(beside) == at.editor.others[0].made
-    other = replace(own, own_route=False, path=at.editor.others[0].positions[: own.ticks])
+    assert results._contributions(beside) == at.editor.others[0].made
+    other = replace(own, own_route=False, path=at.editor.others[0].trajectory.positions[: own.ticks])
     cy = at.editor.others[0]
     results._others = (replace(cy, name="Dee", trajectory=at.session.timeline.trajectory()), cy)
     assert results.words(other)[0].endswith(", like Cy")
-    assert results.put(other)
+    assert results.put_into_run(other)
     assert "Cy" in at.session.origin.replay.co_authors
 
 
@@ -752,7 +754,7 @@ def test_ticks_that_are_not_the_selected_ones_say_why(at: TasDriver, tab: Search
     tab.goal.show("x > 1")
     at.editor.select(100, 131)
     tab.use_selection()
-    assert tab._why == "", "what a person has typed is for the selection"
+    assert tab._span_reason == "", "what a person has typed is for the selection"
 
 
 def test_a_speed_of_two_digits_has_room(at: TasDriver) -> None:
@@ -774,9 +776,9 @@ def test_a_selection_is_searched_whatever_ticks_a_goal_of_the_menu_had(
 ) -> None:
     for first in (60, 100):
         wish(at, name)
-        assert tab._why
+        assert tab._span_reason
         selected(at, first, 20)
-        assert (tab.span, tab._why, tab.method, tab.goal.text) == ((first, first + 20), "", "auto", "")
+        assert (tab.span, tab._span_reason, tab.method, tab.goal.text) == ((first, first + 20), "", "auto", "")
     at.write("x > 1")
     assert (tab.task.first, tab.task.last, tab.task.goal) == (100, 120, "x > 1")
 
@@ -787,7 +789,7 @@ def test_a_goal_that_is_typed_leaves_the_whole_run(at: TasDriver, tab: SearchTab
     at.mouse(*tab.goal.centre)
     at.press("end")
     at.write(" and x > 1")
-    assert (tab.span, tab.method, tab._why) == ((100, 130), "auto", "")
+    assert (tab.span, tab.method, tab._span_reason) == ((100, 130), "auto", "")
     assert tab.goal.text == "won and x > 1"
 
 
