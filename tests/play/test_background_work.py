@@ -36,12 +36,13 @@ RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
 
 
 def test_a_window_waits_shortly_for_what_works_in_the_background(app: App) -> None:
-    usual = sys.getswitchinterval()
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(0.005)  # another window of this process may have shortened it
     try:
         app.run(1)
-        assert sys.getswitchinterval() < usual / 5
+        assert sys.getswitchinterval() <= 0.001
     finally:
-        sys.setswitchinterval(usual)
+        sys.setswitchinterval(before)
 
 
 class LibraryPanic(BaseException):
