@@ -190,7 +190,7 @@ class Hud:
         x = _BAR_LEFT + _BAR_LENGTH
         text = self.theme.text(
             surface,
-            f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS),
+            f"{rounded_text(int(left))} s left{' to live' if left < _LAST_TICKS else ''}",
             _RIGHT,
             7.4,
             size=9,

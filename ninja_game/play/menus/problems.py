@@ -119,7 +119,8 @@ class ProblemsScreen(MenuScreen):
         texts = [f"{shown_text(problem.text, MAX_TEXT)}.", problem.hint] if problem.text else []
         theme.paragraph(surface, texts, (54, 426, 684, 90), 11, 14)
         accepted, steps = (sum(bool(getattr(other, kind)) for other in self.problems) for kind in ("accepted", "step"))
-        count = counted(len(self.problems) - accepted - steps, "problem") + f", {accepted} accepted" * bool(accepted)
+        count = counted(len(self.problems) - accepted - steps, "problem")
+        count += f", {accepted} accepted" if accepted else ""
         text = f"Looking for problems: {self._looks // 1000} s" if self._looks else count
         theme.text(surface, text, 44, 538, size=10, colour=theme.palette.faint)
 
