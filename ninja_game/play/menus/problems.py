@@ -21,19 +21,15 @@ MAX_TEXT = 900
 
 
 class Problem(NamedTuple):
-    """``text``: where and what; ``hint``: how to fix it. ``go``: leads to its place, ``accept``: accepts it as it is.
+    """A row of the screen of problems."""
 
-    ``accepted``: it is accepted already, and ``accept`` takes that back. ``search``: gives the solver more time.
-    ``step``: what comes next, where nothing is wrong: the text of the button of ``go``.
-    """
-
-    text: str
-    hint: str = ""
-    go: Callable[[], object] | None = None
-    accept: Callable[[], object] | None = None
-    accepted: bool = False
-    search: Callable[[], object] | None = None
-    step: str = ""
+    text: str  #: place and problem
+    hint: str = ""  #: how to fix it
+    go: Callable[[], object] | None = None  #: leads to its place
+    accept: Callable[[], object] | None = None  #: accepts it as it is, or takes that back
+    accepted: bool = False  #: whether it is accepted already
+    search: Callable[[], object] | None = None  #: gives the solver more time
+    step: str = ""  #: the next step, where nothing is wrong: the text of the button of ``go``
 
 
 class ProblemsScreen(MenuScreen):
