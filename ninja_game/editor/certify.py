@@ -207,7 +207,7 @@ class Certifier:
         search = self.search
         if search.run is not None and not search.failed:
             gold = f", {search.run.gold} gold" if search.run.gold else ""
-            shortening = ", shortening" * self.busy
+            shortening = ", shortening" if self.busy else ""
             return f"Certified: {seconds_text(search.run.end_tick)} s{gold}{shortening}"
         if search.end == STOPPED and search.progress:
             return f"Stopped: no exit found in {search.progress.seconds:.0f} s"
@@ -387,7 +387,8 @@ def place_before(draft: Draft, routes: Iterable[PathPoints], place: tuple[float,
         places += [there for before, there in pairwise(route[:came]) if before[1] == there[1]][-1:]
     ways = [[(column + step * k, row) for k in range(1, 4)] for step in ((1, -1) if start > place else (-1, 1))]
     for way in sorted(ways, key=lambda way: -sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way)):
-        places += [middle_of(way[-1])] * all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way)
+        if all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way):
+            places.append(middle_of(way[-1]))
     runs = ((at, _played(with_ninja_at(draft, at), bytes(TICKS))) for at in places)
     return next((at for at, run in runs if run and run.outcome != "dead"), None)
 

@@ -208,7 +208,7 @@ def updated_text(text: str, opened: Draft, draft: Draft) -> str:
     if reads_as(changed, draft, named=draft.name != opened.name):
         return changed
     comments = [line for line in text.split("\n") if line.startswith(";") and not _RULER.fullmatch(line)]
-    return ascii_text(draft) + "".join(f"\n{line}" for line in comments) + "\n" * bool(comments)
+    return ascii_text(draft) + "".join(f"\n{line}" for line in comments) + ("\n" if comments else "")
 
 
 def reads_as(text: str, draft: Draft, *, named: bool = True) -> bool:

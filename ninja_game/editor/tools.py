@@ -259,7 +259,7 @@ class EditorTools:
             return all(self.draft.tile((column + k * i, row + k * j)) == brush.FULL for k in (-1, 1))
 
         column, row = cell_of(x, y)
-        closing = ("left", "right") * is_gap(0, 1) + ("top", "bottom") * is_gap(1, 0)
+        closing = (("left", "right") if is_gap(0, 1) else ()) + (("top", "bottom") if is_gap(1, 0) else ())
         return brush.placed(self.spec, x, y, snap or self.snap, (closing or SIDES) if self.nearest else ())
 
     def _change(self, stamp: stamps.Stamp, draft: Draft | None = None) -> None:

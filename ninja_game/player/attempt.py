@@ -24,13 +24,7 @@ AttemptState = tuple[SaveState, bytes, int, int, bool]
 
 
 class Attempt:
-    """One try at a level, from its start to the exit, to death, or to giving up.
-
-    ``lifetime``: ticks left, which gold adds to. ``inputs``: the recording, one byte per tick. ``score``: ticks, taken
-    at the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assists``: the
-    help used, practice or its tools, which makes it no record. ``death_refused``: only invincibility saved the ninja,
-    so that its keys alone no longer make this run.
-    """
+    """One try at a level, from its start to the exit, to death, or to giving up."""
 
     def __init__(
         self, level: Level, *, body: Body = "circle", lifetime: int = LIFETIME, practice_mode: bool = False
@@ -46,13 +40,13 @@ class Attempt:
         self._begin()
 
     def _begin(self) -> None:
-        self.lifetime = self.start_lifetime
-        self.inputs = bytearray()
-        self.score = 0
-        self.ended_tick = -1
+        self.lifetime = self.start_lifetime  #: ticks left, which gold adds to
+        self.inputs = bytearray()  #: the recording, one byte per tick
+        self.score = 0  #: ticks, taken at the exit contact
+        self.ended_tick = -1  #: the tick of the first exit contact or death, counted from 0
         self.self_inflicted = False
-        self.assists = {"practice"} if self.practice_mode else set()
-        self.death_refused = False
+        self.assists = {"practice"} if self.practice_mode else set()  #: the help used, which makes it no record
+        self.death_refused = False  #: whether only invincibility saved the ninja: its keys alone do not make this run
 
     @property
     def assisted(self) -> bool:

@@ -149,7 +149,7 @@ def read_backup(player: PlayerData, data: bytes) -> list[str]:
         if SETTINGS in taken:
             (settings := path.with_name(SETTINGS)).write_bytes(files[SETTINGS])
             site = read_settings(settings)[0].site
-            left_out += [f"links lead to {site or 'no page'} now"] * (site != player.settings.site)
+            left_out += [f"links lead to {site or 'no page'} now"] if site != player.settings.site else []
     return [f"{replays} new replays in the records", f"{len(taken)} new files", *taken, *left_out, *store.messages]
 
 

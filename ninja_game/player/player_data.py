@@ -211,12 +211,13 @@ def save_best(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
     data.records.level_passed(replay)
     before = data.marks.of(level, body)
     now = data.marks.passed(level, replay.final_tick, replay.gold, body)
-    notices = [FIRST_PASS] if before is None else [NEW_BEST] * (now.fastest < before.fastest)
+    notices = [FIRST_PASS] if before is None else [NEW_BEST] if now.fastest < before.fastest else []
     if body != "circle":
         return notices
     medal = medal_of(entry, now)
-    notices += [NEW_MEDAL] * bool(medal and medal != medal_of(entry, before))
-    return notices + [NEW_ALL_GOLD] * (has_all_gold(entry, now) and not has_all_gold(entry, before))
+    if medal and medal != medal_of(entry, before):
+        notices.append(NEW_MEDAL)
+    return [*notices, NEW_ALL_GOLD] if has_all_gold(entry, now) and not has_all_gold(entry, before) else notices
 
 
 def count_of(

@@ -138,10 +138,11 @@ class RunCommands(DocumentCommands):
         session, behind_exit = self.session, ", without what is behind its exit"
         behind_death = ", with what is behind its end (Ctrl+E removes it)"
         tail = {"dead": behind_death, "exit": behind_exit}.get(session.tail_behind, "")
-        branches = " and its branches beside it" * branches_path(path).exists()
+        branches = " and its branches beside it" if branches_path(path).exists() else ""
         replay = session.origin.replay
-        nobody = "; its player is unknown" * (not (replay.author or replay.co_authors))
-        return f"Saved{tail}: {path}{branches}{nobody}{': Save as asks for your name' * self._asks_name}"
+        nobody = "" if replay.author or replay.co_authors else "; its player is unknown"
+        name_note = ": Save as asks for your name" if self._asks_name else ""
+        return f"Saved{tail}: {path}{branches}{nobody}{name_note}"
 
     @property
     def _asks_name(self) -> bool:
@@ -162,8 +163,8 @@ class RunCommands(DocumentCommands):
 
     def watch(self) -> None:
         others = self.editor.others if self.editor.ghosts else ()
-        beside = [self.session.recording(each.track, each.name) for each in others]
-        beside = [replace(each, replay=replace(each.replay, author=each.replay.name)) for each in beside]
+        beside = [self.session.recording(other.track, other.name) for other in others]
+        beside = [replace(run, replay=replace(run.replay, author=run.replay.name)) for run in beside]
         self.app.push(ReplayScreen(self.app, [self.session.recording(), *beside], editable=False))
 
     def offer_recovered(self) -> None:

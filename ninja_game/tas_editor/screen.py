@@ -106,9 +106,9 @@ class TasScreen(WorkspaceScreen):
     def _recover(self, run: RecoveredRun) -> None:
         screen = TasScreen(self.app, run.opened, recovered_run=run)
         if same_level(run.opened.recording, self.session.origin):
-            known = {each.track for each in screen.editor.others}
+            tracks = {other.track for other in screen.editor.others}
             for other in self.editor.others:
-                if other.track not in known:
+                if other.track not in tracks:
                     screen.editor.show_beside(other)
         self.app.replace(screen)
 
@@ -166,8 +166,8 @@ class Head(TasPart):
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         end = session.timeline.end[0]
         opened = Path(session.origin.file).name
-        where = ", on another level" * session.moved
-        unsaved = f"{opened}{where}, to be saved as a new file" if opened else "no file yet"
+        level_note = ", on another level" if session.moved else ""
+        unsaved = f"{opened}{level_note}, to be saved as a new file" if opened else "no file yet"
         file = session.file.path.name if session.file.path else unsaved
         origin, replay = session.origin, session.origin.replay
         how, room = f" {replay.how}".rstrip(), right / 2 - 62
@@ -180,8 +180,8 @@ class Head(TasPart):
         x = title.right / theme.canvas.scale + 12
         saved = ", not saved"
         if session.is_run_saved:
-            what = "branches" if len(session.branches) else "watched values"
-            unsaved_note = f", not its {what}" * (not session.is_saved)
+            rest = "branches" if len(session.branches) else "watched values"
+            unsaved_note = "" if session.is_saved else f", not its {rest}"
             saved = f", saved{unsaved_note}" if session.file.path else unsaved_note
         state = session.journal.problem or file + saved
         seconds = f", {seconds_text(end)} s" if end >= 0 else ""

@@ -158,15 +158,13 @@ _STILL = 3  # less movement of the mouse than this, px, is a click
 class Camera:
     """The part of a level in a picture of some size (``window``, px); the mouse zooms and moves it.
 
-    ``zoom``: 1: all of the level; one notch of the wheel multiplies it by ``step``, up to ``most``, 0: to
-    MAX_SCALE. ``centre``: px of the level in the middle. ``held``: the px where a drag is, ``moved``: whether it
-    has moved.
+    One notch of the wheel multiplies the zoom by ``step``, up to ``most``, 0: to MAX_SCALE.
     """
 
     def __init__(self, step: float = 1.25, most: float = 0.0) -> None:
         self._step, self._most = step, most
-        self.held: tuple[int, int] | None = None
-        self.moved = False
+        self.held: tuple[int, int] | None = None  #: the place of a drag, px
+        self.moved = False  #: whether the drag has moved
         self.show_all()
 
     @property
@@ -183,8 +181,8 @@ class Camera:
         return Lens(window, scale, (_origin(window[0], WIDTH, x, scale), _origin(window[1], HEIGHT, y, scale)))
 
     def show_all(self) -> None:
-        self.zoom = 1.0
-        self.centre: Point = (WIDTH / 2, HEIGHT / 2)
+        self.zoom = 1.0  #: 1: all of the level
+        self.centre: Point = (WIDTH / 2, HEIGHT / 2)  #: the place in the middle, px of the level
 
     def zoom_at(self, window: tuple[int, int], px: tuple[int, int], notches: float) -> None:
         """Zoom; the level's place under a px stays there as far as possible."""

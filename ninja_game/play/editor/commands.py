@@ -210,7 +210,7 @@ class EditorCommands(DocumentCommands):
             return
         if certifier.busy and not certifier.is_stale(level):
             certifier.stop()
-            self.app.notify("Stopped. " * (certifier.search.run is not None) + certifier.text, here=True)
+            self.app.notify(f"{'Stopped. ' if certifier.search.run else ''}{certifier.text}", here=True)
             return
         start, findings = partial(certifier.start, level), self.session.examine()
         odd = [number for finding in findings if finding.code in UNREACHABLE for number in finding.records]
@@ -432,7 +432,8 @@ class TryContext(LevelContext):
 
     def passed(self, attempt: Attempt) -> list[str]:
         self._tried(attempt, over=True)
-        return ["It can be passed" + ": this run certifies it" * self._session.passed(self.level, attempt)]
+        certifies = self._session.passed(self.level, attempt)
+        return ["It can be passed: this run certifies it" if certifies else "It can be passed"]
 
     def died(self, attempt: Attempt) -> None:
         self._tried(attempt, over=True)

@@ -245,15 +245,15 @@ class MessagesScreen(MenuScreen):
         put(message.text)
         text.put = put
         moment = Button((36, y, 116, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
-        about: list[Widget] = []
+        details: list[Widget] = []
         if message.when in _DETAILS:
             hint, detail = _DETAILS[message.when], partial(setattr, message, "detail")
-            about.append(TextEntry((155, y, 66, 28), hint, message.detail, detail, longest=6, hint=hint))
+            details.append(TextEntry((155, y, 66, 28), hint, message.detail, detail, longest=6, hint=hint))
         usual = f"{shown_ticks(message.when, len(self._together(message))) // TICKS_PER_SECOND} s"
         put_time = partial(setattr, message, "time")
-        about.append(TextEntry((224, y, 48, 28), usual, message.time, put_time, longest=2, hint=_TIME_HINT))
+        details.append(TextEntry((224, y, 48, 28), usual, message.time, put_time, longest=2, hint=_TIME_HINT))
         remove = Button((275, y, 55, 28), "Remove", lambda: self._remove(message), size=10)
-        return [moment, *about, remove, text]
+        return [moment, *details, remove, text]
 
     def _ask_moment(self, message: Message) -> None:
         def choose(when: str) -> None:
@@ -367,13 +367,14 @@ class MessagesScreen(MenuScreen):
         selected = self.selected
         self._draw_level(surface, selected)
         name, when = _WHEN[selected.when] if selected else ("", "")
-        about = [f"{name}: {when[0].lower()}{when[1:]}."] if selected else []
-        about += ["A click in the picture moves it."] * bool(selected and selected.when == "at")
+        help_texts = [f"{name}: {when[0].lower()}{when[1:]}."] if selected else []
+        if selected and selected.when == "at":
+            help_texts.append("A click in the picture moves it.")
         if selected and not selected.problem[1]:
-            about += [finding.advice for finding in unseen_messages(selected.source, self._ground)]
+            help_texts += [finding.advice for finding in unseen_messages(selected.source, self._ground)]
         x, y, w, h = PICTURE
         below = x, y + h + 10, w, END - y - h - 10
-        theme.paragraph(surface, (*about, *_HELP), below, 11, 15, colour=theme.palette.faint)
+        theme.paragraph(surface, (*help_texts, *_HELP), below, 11, 15, colour=theme.palette.faint)
 
     def _turn_of(self, message: Message) -> str:
         """The number of a message among those of its moment; '' for an only one."""

@@ -227,7 +227,7 @@ class PaletteView(Widget):
         return brush.OBJECT_TYPES[brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(self.tools.spec))]
 
     @property
-    def said(self) -> str:
+    def label(self) -> str:
         """The name and the keys of the entry under the mouse, or else of the chosen one."""
         what = self._in_hand if self.hovered is None else self.hovered
         if isinstance(what, brush.ObjectType):
@@ -236,16 +236,16 @@ class PaletteView(Widget):
         return f"{name[0].upper()}{name[1:]}: {brush.tile_key(what)}"
 
     def _at(self, x: float, y: float) -> Entry | None:
-        return next((what for what, area in self.places() if inside(area, x, y)), None)
+        return next((entry for entry, area in self.places() if inside(area, x, y)), None)
 
     def contains(self, x: float, y: float) -> bool:
         """Whether there is an entry at a point; the mouse between two entries means nothing here."""
         return self._at(x, y) is not None
 
     def click(self, x: float, y: float) -> bool:
-        what = self._at(x, y)
-        if what is not None:
-            self.tools.pick_up(what.spec if isinstance(what, brush.ObjectType) else what)
+        entry = self._at(x, y)
+        if entry is not None:
+            self.tools.pick_up(entry.spec if isinstance(entry, brush.ObjectType) else entry)
         return True
 
     def hover(self, x: float, y: float) -> None:
@@ -279,19 +279,19 @@ class PaletteView(Widget):
             at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW
             live = isinstance(entry_of_key(tools, family.key, taken), int)
             self._draw_key(surface, theme, family.key, at, live=live)
-        for what, area in self.places():
+        for entry, area in self.places():
             canvas.fill_rect(surface, palette.background, *area)
             at = canvas.point(area[0], area[1])
-            surface.blit(self._icon(theme, what, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
-            if isinstance(what, brush.ObjectType):
+            surface.blit(self._icon(theme, entry, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
+            if isinstance(entry, brush.ObjectType):
                 below = area[0] + OBJECT / 2 - 2.5, area[1] + OBJECT
-                self._draw_key(surface, theme, what.key, below, live=entry_of_key(tools, what.key, taken) is what)
-            if what in (brush.EMPTY, brush.FULL):
-                key = brush.tile_key(what)
+                self._draw_key(surface, theme, entry.key, below, live=entry_of_key(tools, entry.key, taken) is entry)
+            if entry in (brush.EMPTY, brush.FULL):
+                key = brush.tile_key(entry)
                 left_of = area[0] - 9, area[1] + 4
-                self._draw_key(surface, theme, key, left_of, live=entry_of_key(tools, key.lower(), taken) == what)
+                self._draw_key(surface, theme, key, left_of, live=entry_of_key(tools, key.lower(), taken) == entry)
                 canvas.frame_rect(surface, palette.panel_edge, *area)
-            if what == self._in_hand:
+            if entry == self._in_hand:
                 canvas.frame_rect(surface, palette.accent, *area, 2)
 
     def _draw_key(self, surface: pygame.Surface, theme: Theme, key: str, at: Point, *, live: bool) -> None:
@@ -299,13 +299,15 @@ class PaletteView(Widget):
         if live:
             theme.text(surface, key_label_of(key), *at, size=8, height=KEY, bold=True)
 
-    def _icon(self, theme: Theme, what: Entry, area: Area) -> pygame.Surface:
+    def _icon(self, theme: Theme, entry: Entry, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size
-        if not isinstance(what, brush.ObjectType):
-            return tile_icon(what, size, theme.palette.base.name)
+        if not isinstance(entry, brush.ObjectType):
+            return tile_icon(entry, size, theme.palette.base.name)
         # The chosen entry with its present properties.
-        in_hand = self.tools.objects and brush.object_type_of(self.tools.spec) == what.name
-        return object_icon(self.tools.spec if in_hand else what.spec, size, theme.canvas.scale, theme.palette.base.name)
+        in_hand = self.tools.objects and brush.object_type_of(self.tools.spec) == entry.name
+        return object_icon(
+            self.tools.spec if in_hand else entry.spec, size, theme.canvas.scale, theme.palette.base.name
+        )
 
 
 @lru_cache(maxsize=200)

@@ -316,8 +316,8 @@ class PalettePart(EditorPart):
         super().paint(surface, theme)
         x, y, w, h = self.area
         theme.canvas.fill_rect(surface, theme.palette.panel, x + 2, y, w - 4, h, 3)
-        said = self._palette.said
-        theme.text(surface, said, x + 7, y + h - 13, size=8.5, width=w - 48, height=13, bold=True)
+        label = self._palette.label
+        theme.text(surface, label, x + 7, y + h - 13, size=8.5, width=w - 48, height=13, bold=True)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         used = super().mouse(event, x, y)
@@ -379,8 +379,8 @@ class Findings(EditorPart):
             room = self.area[2] - 32
             accepted = self.session.accepted
             texts = [
-                f"{each.sentence}. Accepted: {accepted[each.code]}" if each.code in accepted else each.advice
-                for each in self._shown
+                f"{odd.sentence}. Accepted: {accepted[odd.code]}" if odd.code in accepted else odd.advice
+                for odd in self._shown
             ]
             self._lines = [(k, line) for k, text in enumerate(texts) for line in wrapped(theme, text, room, 9.5)]
             self.list.fill(self._lines)
@@ -457,7 +457,7 @@ class StatusLine(EditorPart):
         texts = [message.text for message in messages if message.place and message.cell == tools.cell]
         if texts:
             return f"Double click opens the message, Select drags it: {texts[0]}"
-        slopes = "Slopes by themselves. " * tools.sets_slopes
+        slopes = "Slopes by themselves. " if tools.sets_slopes else ""
         start = self.session.start
         shown = slopes + _TOOL_HINTS[tools.effective_tool] if start == "off" else _REACH.format(start)
         return self.view.hint or (shown if start == "off" or self.session.reach else _NO_REACH)

@@ -83,12 +83,7 @@ def _examine(question: Question) -> Examined:
 
 
 class EditorSession:
-    """``tools``: change the level; ``source``: its file. ``tries``: all tests of the level as it is.
-
-    ``last_try``: the route of the last test, ``last_death``: where the last of ``tries`` died. ``start``: of STARTS,
-    the ninja's state at the pointer for the search of what it can reach. ``accepted``: why its pack accepts findings
-    about it, by code.
-    """
+    """A level under edit, with its file, its tests, and the searches about it."""
 
     def __init__(self, app: App, source: Source | None = None) -> None:
         self.app = app
@@ -105,7 +100,7 @@ class EditorSession:
         digest, history = _HISTORIES.get(source.path, ("", None)) if source.path and not draft else ("", None)
         # Discarded changes can be undone too.
         self.tools.load(draft.draft if draft else source.draft, history if digest == source.digest else None)
-        self.accepted = dict[str, str]()
+        self.accepted = dict[str, str]()  #: why its pack accepts findings about it, by code
         with suppress(NinjaGameError, OSError):
             path = self.source.path
             reasons = Pack(path.parent).index.reasons if path and is_pack(path.parent) else {}
@@ -117,13 +112,13 @@ class EditorSession:
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
         self._known_runs: NewestJob[tuple[Level, Replay], Certification] = NewestJob(lambda known: search_of(*known))
-        self.start = "off"
+        self.start = "off"  #: the ninja's state at the pointer for the search of what it can reach, of STARTS
         self._start_asked: Ask | None = None
         self._tries: dict[Level, tuple[Try, ...]] = {}
         self._tried_level: Level | None = None
-        self.tries: tuple[Try, ...] = ()
-        self.last_try: PathPoints = ()
-        self.last_death: PathPoints = ()
+        self.tries: tuple[Try, ...] = ()  #: all tests of the level as it is
+        self.last_try: PathPoints = ()  #: route of the last test
+        self.last_death: PathPoints = ()  #: where the last of the tries died
         self._file_stamp, self._looked_at = NO_FILE, 0.0
         self._certified: tuple[object, ...] = ()
         self._asked: Question | None = None

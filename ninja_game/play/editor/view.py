@@ -383,8 +383,10 @@ class EditorView(Pane):
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
             return
         self._marked = state
-        told = [finding for finding in session.findings if finding.code not in session.accepted]
-        signs = [p for finding in told for p in finding_points(session.examined or session.draft.level, finding)]
+        open_findings = [finding for finding in session.findings if finding.code not in session.accepted]
+        signs = [
+            p for finding in open_findings for p in finding_points(session.examined or session.draft.level, finding)
+        ]
         routes: list[tuple[PathPoints, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(

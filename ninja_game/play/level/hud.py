@@ -188,7 +188,7 @@ class Hud:
         for medal, ticks in pars:
             draw_medal(surface, self.theme, medal, _BAR_LEFT + bar_length(ticks), _BAR_MIDDLE, _MARK_SIZE)
         x, ink = _BAR_LEFT + _BAR_LENGTH, palette.on_tile
-        words, room = f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS), _RIGHT - x - 10
+        words, room = f"{rounded_text(int(left))} s left{' to live' if left < _LAST_TICKS else ''}", _RIGHT - x - 10
         text = self.theme.text(surface, words, _RIGHT, 7.4, size=9, colour=ink, align="right", bold=True, width=room)
         return [frame.union(canvas.rect(x, 2, 8, 20)) if pars else frame, text.inflate(canvas.px(8), 4)]
 

@@ -114,12 +114,13 @@ def _reached(play: LevelPlay) -> list[str]:
         following.append(next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!")
     gold = f"{attempt.gold} of {play.all_gold} gold" if attempt.gold < play.all_gold else f"All {play.all_gold} gold"
     medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
-    clock = [f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"] * play.context.carries_clock
+    clock = f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"
     # A first pass is a record in everything, and shows the medal and the gold already.
     first = FIRST_PASS in play.notices
     news = [notice for notice in play.notices if notice != NEW_ALL_GOLD and not (first and notice in OF_A_LEVEL)]
-    brought = "    ".join([*[gold] * bool(play.all_gold), *news])
-    return [*medal, *following, *[brought] * bool(brought), *clock]
+    gains = "    ".join([gold, *news] if play.all_gold else news)
+    lines = [*medal, *following, gains, clock if play.context.carries_clock else ""]
+    return [line for line in lines if line]
 
 
 def named_in(world: World, names: Sequence[str]) -> list[tuple[str, float, float]]:
@@ -151,7 +152,8 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
 
 def _after_death(play: LevelPlay, key: KeyName) -> str:
     try_again = f"{key('confirm')} or {key('jump')}: try again"
-    return f"{try_again}    {key('replay')}: watch it" + f"    {key('skip')}: get help" * play.is_stuck
+    get_help = f"    {key('skip')}: get help" if play.is_stuck else ""
+    return f"{try_again}    {key('replay')}: watch it{get_help}"
 
 
 def cause_of_death(play: LevelPlay) -> tuple[str, str]:
@@ -159,9 +161,9 @@ def cause_of_death(play: LevelPlay) -> tuple[str, str]:
     if play.attempt.self_inflicted:
         return "You gave up", ""
     if play.killer != SELF:
-        return f"Killed by a {play.killer}", WHY[play.killer] * play.messages.helps
+        return f"Killed by a {play.killer}", WHY[play.killer] if play.messages.helps else ""
     if play.crushed:
         return "You were crushed", ""
     if play.attempt.lifetime <= 0:
         return "Out of time", ""
-    return "You hit the ground too hard", FALL_HELP * play.messages.helps
+    return "You hit the ground too hard", FALL_HELP if play.messages.helps else ""

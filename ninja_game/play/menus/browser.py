@@ -101,7 +101,7 @@ class Browser(ThumbnailScreen):
 
     def build(self) -> Sequence[Widget]:
         watch = self.watch_best, self.watch_author
-        more = [self.change] * bool(self._edit)
+        more = [self.change] if self._edit else []
         if self._packs:
             more.append(Button((368, 66, 52, 32), "Packs", self._packs, hint="Bundle your levels into packs"))
         return [*self.choosers(), self.play_it, self.practice, *watch, *more, self.link]
@@ -182,10 +182,9 @@ class Browser(ThumbnailScreen):
         known = ours or bool(selected and self.player.catalogue.author_run(selected))
         opened = mine or (selected is not None and opens_author(selected, self.marks.get(selected.digest)))
         self.watch_author.enabled = known and opened
-        closed = (
-            "earn a gold medal to watch it" if known else "none is known" + ": Certify, in the editor, finds one" * mine
-        )
-        self.watch_author.hint = "" if self.watch_author.enabled else closed
+        unknown = "none is known: Certify, in the editor, finds one" if mine else "none is known"
+        lock_hint = "earn a gold medal to watch it" if known else unknown
+        self.watch_author.hint = "" if self.watch_author.enabled else lock_hint
         self.watch_best.hint = "Your best run" if self.watch_best.enabled else "You have not passed this level yet"
 
     def play(self, index: int, *, practice: bool = False) -> None:

@@ -198,7 +198,8 @@ class EpisodeGrid(ThumbnailScreen):
         self.practice = setting_choice(self.app, area, "Practice mode", "practice", hint=PRACTICE_HINT)
         problems = problems_button(self.app, (LEFT, 546, WIDE, 18), lambda: self.problems)
         if len(self.packs) < 2:
-            return [self.grid, self.play, *[self.practice] * (not self.previews), self.rows, *problems]
+            practice = [] if self.previews else [self.practice]
+            return [self.grid, self.play, *practice, self.rows, *problems]
         names = [("This game's levels" if not pack.key else pack.name, pack.key) for pack in self.packs]
         choice = Choice((LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack)
         choice.hint = "Level pack. Levels > Packs > Paste link takes in more, as does the folder in Settings > Play"
@@ -282,9 +283,9 @@ class EpisodeGrid(ThumbnailScreen):
         theme.text(surface, shown_text(name), LEFT, 58, size=20, bold=True, width=WIDE)
         theme.text(surface, shown_text(by), LEFT, 84, size=11, width=WIDE)
         theme.text(surface, _PREVIEWED, SIDE, 114, size=10, colour=faint, width=364)
-        about = shown_text(index.comment, 200) if index else ""
-        theme.paragraph(surface, [about], (LEFT, self._below, WIDE, 44), 11, 14)
-        top = self._below + 50 * bool(about)
+        comment = shown_text(index.comment, 200) if index else ""
+        theme.paragraph(surface, [comment], (LEFT, self._below, WIDE, 44), 11, 14)
+        top = self._below + (50 if comment else 0)
         self._draw_total(surface, theme, top)
         self._draw_picture(surface, top + 52, float(WIDE))
 
@@ -297,8 +298,8 @@ class EpisodeGrid(ThumbnailScreen):
     def _draw_total(self, surface: pygame.Surface, theme: Theme, y: float) -> None:
         levels = self.pack.levels
         total = tally(levels, self.marks, self.passed)
-        whose = f" by {shown_text(self.player.settings.name)}" * bool(self.player.settings.name)
-        passed = f"{total.passed} of {total.levels} levels passed{whose}"
+        by = f" by {shown_text(self.player.settings.name)}" if self.player.settings.name else ""
+        passed = f"{total.passed} of {total.levels} levels passed{by}"
         theme.text(surface, passed, LEFT, y, size=11, bold=True, width=WIDE)
         x = LEFT + 8.0
         if any(entry.pars for entry in levels):

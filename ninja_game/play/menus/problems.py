@@ -21,19 +21,15 @@ MAX_TEXT = 900
 
 
 class Problem(NamedTuple):
-    """``text``: where and what; ``hint``: how to fix it. ``go``: leads to its place, ``accept``: accepts it as it is.
+    """A row of the screen of problems."""
 
-    ``accepted``: it is accepted already, and ``accept`` takes that back. ``search``: gives the solver more time.
-    ``step``: what comes next, where nothing is wrong: the text of the button of ``go``.
-    """
-
-    text: str
-    hint: str = ""
-    go: Callable[[], object] | None = None
-    accept: Callable[[], object] | None = None
-    accepted: bool = False
-    search: Callable[[], object] | None = None
-    step: str = ""
+    text: str  #: place and problem
+    hint: str = ""  #: how to fix it
+    go: Callable[[], object] | None = None  #: leads to its place
+    accept: Callable[[], object] | None = None  #: accepts it as it is, or takes that back
+    accepted: bool = False  #: whether it is accepted already
+    search: Callable[[], object] | None = None  #: gives the solver more time
+    step: str = ""  #: the next step, where nothing is wrong: the text of the button of ``go``
 
 
 class ProblemsScreen(MenuScreen):
@@ -112,7 +108,8 @@ class ProblemsScreen(MenuScreen):
         texts = [f"{shown_text(problem.text, MAX_TEXT)}.", problem.hint] if problem.text else []
         theme.paragraph(surface, texts, (54, 426, 684, 90), 11, 14)
         accepted, steps = (sum(bool(getattr(other, kind)) for other in self.problems) for kind in ("accepted", "step"))
-        count = counted(len(self.problems) - accepted - steps, "problem") + f", {accepted} accepted" * bool(accepted)
+        count = counted(len(self.problems) - accepted - steps, "problem")
+        count += f", {accepted} accepted" if accepted else ""
         text = f"Looking for problems: {self._looks // 1000} s" if self._looks else count
         theme.text(surface, text, 44, 538, size=10, colour=theme.palette.faint)
 

@@ -44,7 +44,7 @@ FILES_SHOWN = 300
 
 OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}
 YOU = "you"
-WHOSE = [("All runs", "all"), ("Yours", "yours"), ("Others'", "others")]
+OWNERS = [("All runs", "all"), ("Yours", "yours"), ("Others'", "others")]
 NONE_YET = "Your runs will show up here. Earn a gold medal and the author's run joins them"
 NO_MATCH = "No replay matches"
 HINT = "Enter to watch, Delete to remove, E to save as a text file, C to copy a link"
@@ -54,8 +54,8 @@ class ReplayRow(NamedTuple):
     """A replay: title, player, result, date; and its place."""
 
     text: str
-    who: str
-    what: str
+    player: str
+    result: str
     when: str
     good: bool
     source: SavedReplay | Recording
@@ -78,8 +78,8 @@ class ReplaysScreen(MenuScreen):
         self._files: list[ReplayRow] = []
         self._unread = self._file_rows()
         self._words: list[str] = []
-        self.whose = "all"
-        self.filter = Choice((346, 62, 180, 28), "", WHOSE, lambda: self.whose, self._show)
+        self.shown_owner = "all"
+        self.filter = Choice((346, 62, 180, 28), "", OWNERS, lambda: self.shown_owner, self._show)
         self.field = TextEntry((44, 62, 290, 28), "Search level or player", "", self._search)
         self.list = ListView((44, 120, 712, 12 * ROW), ROW, self._draw_row, self._choose, opens=True)
         self.list.hint = self.hint
@@ -91,8 +91,8 @@ class ReplaysScreen(MenuScreen):
         self._arrange()
         return [self.list, self.field, self.filter]
 
-    def _show(self, whose: str) -> None:
-        self.whose = whose
+    def _show(self, owner: str) -> None:
+        self.shown_owner = owner
         self._arrange()
 
     def _search(self, text: str) -> None:
@@ -104,10 +104,10 @@ class ReplaysScreen(MenuScreen):
         self._saved = list(map(_row_of, self.player.records.replays(self._words)))
 
     def _arrange(self) -> None:
-        files = [row for row in self._files if has_words(self._words, row.text, row.who, row.what, row.when)]
-        shown = {"yours": self._saved, "others": files}.get(self.whose, [*self._saved, *files])
+        files = [row for row in self._files if has_words(self._words, row.text, row.player, row.result, row.when)]
+        shown = {"yours": self._saved, "others": files}.get(self.shown_owner, [*self._saved, *files])
         self.rows = self.arranged(shown)
-        self.list.empty = NO_MATCH if self._words or self.whose != "all" else self.empty
+        self.list.empty = NO_MATCH if self._words or self.shown_owner != "all" else self.empty
         self.list.fill(self.rows)
 
     def _read_files(self, seconds: float) -> bool:
@@ -230,9 +230,9 @@ class ReplaysScreen(MenuScreen):
         theme.row(surface, (x, y + 2, w, h - 4), chosen=chosen, focused=focused, radius=3)
         top = y + h / 2 - 6
         theme.text(surface, row.text, x + 10, top, size=12, bold=chosen, width=270)
-        theme.text(surface, row.who, 340, top + 0.5, size=11, colour=palette.faint, width=126)
+        theme.text(surface, row.player, 340, top + 0.5, size=11, colour=palette.faint, width=126)
         colour = palette.good if row.good else palette.faint
-        theme.text(surface, row.what, 612, top, size=12, colour=colour, align="right", width=140)
+        theme.text(surface, row.result, 612, top, size=12, colour=colour, align="right", width=140)
         theme.text(surface, row.when, 734, top + 1, size=10, colour=palette.faint, align="right", width=114)
 
 
@@ -249,9 +249,9 @@ def _may_have_runs(file: Path) -> bool:
 
 
 def _row_of(saved: SavedReplay) -> ReplayRow:
-    what = result_of(saved.outcome, saved.gold, saved.final_tick)
+    result = result_of(saved.outcome, saved.gold, saved.final_tick)
     when = saved.made_at[:16].replace("T", "  ")
-    return ReplayRow(saved.name or "unnamed", saved.player or YOU, what, when, saved.outcome == "exit", saved)
+    return ReplayRow(saved.name or "unnamed", saved.player or YOU, result, when, saved.outcome == "exit", saved)
 
 
 def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
@@ -267,8 +267,8 @@ def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
 def result_of(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:
     """The time of a passed run; of any other one its outcome and time."""
     taken = "all gold" if gold == all_gold > 0 else f"{gold} gold" if gold else "exit"
-    what = taken if outcome == "exit" else OUTCOMES[outcome]
-    return f"{what}, {seconds_text(final_tick + (outcome == 'running'))} s"
+    result = taken if outcome == "exit" else OUTCOMES[outcome]
+    return f"{result}, {seconds_text(final_tick + (outcome == 'running'))} s"
 
 
 def watch(app: App, replays: Iterable[Replay | None]) -> bool:
@@ -387,9 +387,9 @@ class RecordsScreen(MenuScreen):
             ("Tries", str(played.attempts)), ("Passes", str(played.passes)), ("Gold collected", str(played.gold)),
             ("Time played", (f"{hours} h " if hours else "") + f"{minutes} min"),
         )  # fmt: skip
-        for place, (what, number) in enumerate(lines):
+        for place, (name, number) in enumerate(lines):
             y = 364 + 22 * place
-            theme.text(surface, what, SIDE, y, size=11, colour=palette.faint)
+            theme.text(surface, name, SIDE, y, size=11, colour=palette.faint)
             theme.text(surface, number, SIDE + SIDE_WIDTH, y, size=11, align="right")
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:

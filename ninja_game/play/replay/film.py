@@ -126,7 +126,7 @@ class _Panel:
         context = OffscreenContext(film.size, film.settings)
         self.film, self.run, self.splits, self.time = film, run, splits, 0
         alike = [other.title for other in (film.run, *film.beside)].count(run.title) > 1
-        self.title = run.title + f", {run.place}" * (alike and bool(run.place))
+        self.title = f"{run.title}, {run.place}" if alike and run.place else run.title
         self.playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
         self.view = LevelView(context, self.playback.simulation)
         self.hud = Hud(context.theme)
@@ -146,7 +146,7 @@ class _Panel:
             covered = hud.time_bar(surface, run.lifetime + GOLD_BONUS * simulation.gold - self.time)
         else:
             covered = [hud.label(surface, self.title, self.letters)]
-        words, room = [self.title] * bool(run.episode), 670 if self.film.keys else 744
+        words, room = [self.title] if run.episode else [], 670 if self.film.keys else 744
         if self.film.splits:
             words.append(f"{seconds_text(self.time)} s")
             texts = [text for tick, text in self.splits if tick < simulation.tick][-SHOWN_SPLITS:]

@@ -303,7 +303,7 @@ class ReplayScreen(Screen):
         return (
             f"{key('frame_back')} {key('frame_forward')}: tick by tick    {key('left')} {key('right')}: a second    "
             f"{key('slower')} {key('faster')}: speed    {key('export')}: film    "
-            + f"{key('edit')}: edit    " * bool(self.tas_editor)
+            + (f"{key('edit')}: edit    " if self.tas_editor else "")
             + f"{key('link')}: link    {key('back')}: leave"
         )
 
@@ -356,5 +356,5 @@ class ReplayBar:
     @staticmethod
     def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str, *, still: bool) -> pygame.Rect:
         at = min(tick, end)
-        text = f"{seconds_text(at)} / {seconds_text(end)} s    {speed}" + f"    tick {at}" * still
+        text = f"{seconds_text(at)} / {seconds_text(end)} s    {speed}{f'    tick {at}' if still else ''}"
         return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")

@@ -276,7 +276,7 @@ class RunFiles(MenuScreen):
 
 def _folders_in(folder: Path) -> list[Path]:
     try:
-        return sorted(each for each in folder.iterdir() if each.is_dir() and not each.name.startswith("."))
+        return sorted(path for path in folder.iterdir() if path.is_dir() and not path.name.startswith("."))
     except OSError:
         return []
 
@@ -289,8 +289,8 @@ def _named(row: ReplayRow) -> ReplayRow:
     if source.replay.unclaimed:
         with suppress(NinjaGameError):
             run = run_level(source.level, source.inputs, body=source.body, budget=QUICK)
-            what = result_of(run.outcome, run.gold, run.ticks - 1, source.level.gold)
-            row = row._replace(what=what, good=run.outcome == "exit")
+            result = result_of(run.outcome, run.gold, run.ticks - 1, source.level.gold)
+            row = row._replace(result=result, good=run.outcome == "exit")
     return row._replace(text=f"{source.place}   {source.comment}".rstrip())
 
 

@@ -244,7 +244,7 @@ class LevelPart(TasPart):
         palette, y = theme.palette, y + h - LINE
         theme.canvas.fill_rect(surface, palette.tile, x, y, w, LINE)
         zoom = self.picture.camera.zoom
-        speed = f"zoom {zoom:.1f}, " * (zoom > 1) + f"speed x {SPEEDS[self.playing.speed]:g}"
+        speed = f"{f'zoom {zoom:.1f}, ' if zoom > 1 else ''}speed x {SPEEDS[self.playing.speed]:g}"
         right = theme.text(surface, speed, x + w - 6, y + 1, size=paths.LETTERS, colour=palette.on_tile, align="right")
         room = right.left / theme.canvas.scale - x - 12
         theme.text(
@@ -322,7 +322,7 @@ class LevelPointer:
         obj = part.pointed
         words = f"{obj.kind} {obj.id}; right button: watch it; " if obj else ""
         zoomed = self._camera.zoom > 1
-        click = f"Click: to tick {tick}; " * (tick is not None)
+        click = "" if tick is None else f"Click: to tick {tick}; "
         editor.hint = f"{words}{click}wheel: zoom{', right button: move, 0: all' if zoomed else ''}"
         self._goes = tick is not None and (dragged or pressed)
         if self._goes and tick is not None:

@@ -156,7 +156,7 @@ class Digits:
         scale = theme.canvas.scale
         self._advance = {char: (widest if char.isdigit() else width) * scale for char, width in widths.items()}
 
-    def _of(self, colour: pygame.Color) -> dict[str, tuple[pygame.Surface, float]]:
+    def _characters(self, colour: pygame.Color) -> dict[str, tuple[pygame.Surface, float]]:
         render = self.theme.lettering.rendered
         return {char: (render(char, self._size, colour), wide) for char, wide in self._advance.items()}
 
@@ -164,7 +164,7 @@ class Digits:
         """Blits (picture, place) of a number that ends left of ``right``, px."""
         key = int(colour)
         if key not in self._pictures:
-            self._pictures[key] = self._of(colour)
+            self._pictures[key] = self._characters(colour)
         characters, x, made = self._pictures[key], right + 0.5, []
         for character in reversed(text):
             picture, wide = characters[character]

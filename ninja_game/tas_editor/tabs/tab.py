@@ -97,7 +97,7 @@ class TabStrip(TasPart):
         ]
         switches = [
             LitButton(key, partial(overlays.toggle, name), partial(self._is_on, name), hint=TABLE.hint(name))
-            for name, key in ((each, key_text(TABLE.by_name[each])) for each in OVERLAY_ACTIONS)
+            for name, key in ((action, key_text(TABLE.by_name[action])) for action in OVERLAY_ACTIONS)
         ]
         self.widgets = [*names, *switches]
 
@@ -105,7 +105,7 @@ class TabStrip(TasPart):
         return name == self.editor.tab or name in self._overlays.on
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        self.editor.hint = next((each.hint for each in self.widgets if each.contains(x, y)), "")
+        self.editor.hint = next((widget.hint for widget in self.widgets if widget.contains(x, y)), "")
         return False
 
     def commands(self) -> Commands:

@@ -168,7 +168,7 @@ class TextTab(Tab):
                     raise
                 typed = _read(named)
         except FormatError as error:
-            place = f"word {error.line}: " * bool(error.line)
+            place = f"word {error.line}: " if error.line else ""
             error.line = error.column = 0
             self.editor.refuse(f"Not changed: {place}{error}")
             return False

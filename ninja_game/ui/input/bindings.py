@@ -102,7 +102,7 @@ class Bindings:
         """The jump bit while an input for both jump and confirm is down: a confirmation is no jump."""
         state = pygame.key.get_pressed()
         down = any(tuple.__getitem__(state, code) for code in self._jump_choosing)
-        return JUMP_HELD * bool(down or (pads and self.pads.down & self._jump_choosing_pad))
+        return JUMP_HELD if down or (pads and self.pads.down & self._jump_choosing_pad) else 0
 
     def stop_running(self) -> None:
         """Forget the running of ``tap_to_run``, and taps that have not counted yet."""

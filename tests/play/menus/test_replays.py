@@ -68,7 +68,7 @@ def test_ones_own_runs_are_shown_alone(driver: MenuDriver) -> None:
     assert [row.when == "Included" for row in screen.rows] == [False, True]
     screen.focus = screen.filter
     driver.press("right")
-    assert [row.who for row in screen.rows] == ["you"]
+    assert [row.player for row in screen.rows] == ["you"]
     driver.press("right")
     assert [row.when for row in screen.rows] == ["Included"]
 
@@ -88,12 +88,12 @@ def test_rows_say_exit_or_gold_and_authors_have_one_name(driver: MenuDriver) -> 
     driver.earn_gold()
     screen = driver.opened("Replays", ReplaysScreen)
     driver.wait(lambda: len(screen.rows) >= len(bundled_replays()))
-    assert "exit" in {row.what.split(", ")[0] for row in screen.rows}
+    assert "exit" in {row.result.split(", ")[0] for row in screen.rows}
     level = room_level(["@.o.o"], ())
     full = Replay(b"", 9, "exit", gold=level.gold, level=level)
-    assert _row_of_recording(Recording(level, full), "").what == "all gold, 0.225 s"
+    assert _row_of_recording(Recording(level, full), "").result == "all gold, 0.225 s"
     theirs = replace(full, author="ninja-game check")
-    assert _row_of_recording(Recording(level, theirs), "").who == "ninja-game"
+    assert _row_of_recording(Recording(level, theirs), "").player == "ninja-game"
 
 
 def test_the_same_run_of_an_author_stands_once(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:

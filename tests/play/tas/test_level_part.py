@@ -336,8 +336,8 @@ def test_runs_that_reach_the_exit_are_listed_first_also_those_that_claim_nothing
     listed = at.shown(OtherRunScreen)
     assert listed.list.empty.startswith("No other run of this level is known")
     at.wait(lambda: len(listed.rows) == 3, "the list")
-    assert [row.what.partition(",")[0] for row in listed.rows] == ["all gold", "all gold", "unfinished"]
-    assert listed.rows[0].what == f"all gold, {seconds_text(WALK_END)} s"
+    assert [row.result.partition(",")[0] for row in listed.rows] == ["all gold", "all gold", "unfinished"]
+    assert listed.rows[0].result == f"all gold, {seconds_text(WALK_END)} s"
     at.close()
 
 
@@ -384,7 +384,7 @@ def test_a_run_that_costs_much_is_listed_as_it_is(tmp_path: Path, monkeypatch: p
     at.chord("o", pygame.KMOD_LCTRL)
     listed = at.shown(OtherRunScreen)
     at.wait(lambda: listed.rows, "the list")
-    assert {row.what.partition(",")[0] for row in listed.rows} == {"recording"}
+    assert {row.result.partition(",")[0] for row in listed.rows} == {"recording"}
     at.close()
 
 

@@ -129,7 +129,7 @@ def test_runs_of_one_file_of_n_are_told_apart(at: TasDriver, tmp_path: Path) -> 
     at.chord("o", pygame.KMOD_LCTRL)
     screen = at.shown(OtherRunScreen)
     rows = [row for row in screen.rows if row.text.startswith("many.txt")]
-    assert [(row.text, row.who) for row in rows] == [
+    assert [(row.text, row.player) for row in rows] == [
         ("many.txt 1   test", ""), ("many.txt 2   test", ""), ("many.txt   test", "")
     ]  # fmt: skip
     assert [row for row in screen.rows if not row.good][:3] == rows, "the fastest first, after those with an exit"
