@@ -105,8 +105,8 @@ class ListView(Widget):
         return x + column * width, y + (line - self.first) * self.cell_height, width, self.cell_height
 
     def _index_at(self, x: float, y: float) -> int | None:
-        left, top, w, _ = self.area
-        column, line = int((x - left) // ((w - BAR - 4) / self.columns)), int((y - top) // self.cell_height)
+        left, top, *_ = self.area
+        column, line = int((x - left) // self.row_area(0)[2]), int((y - top) // self.cell_height)
         index = (self.first + line) * self.columns + column
         shown = 0 <= column < self.columns and line < self.visible_lines and index < self.count
         return index if shown else None

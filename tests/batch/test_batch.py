@@ -18,14 +18,9 @@ from ninja_game.errors import ArgumentError, LevelError
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import DRONE, EXIT, MINE
 from ninja_game.sim.states import OUTCOME_NAMES
+from tests.support.learning import FLOOR, LEVELS
 from tests.support.memories import BOTH
 
-FLOOR = "0" * 713
-LEVELS = [
-    parse_level(FLOOR + "|5^100,566!11^160,564,130,564!6^300,564,0,1,0,2!0^220,566!0^240,566"),
-    parse_level(FLOOR + "|5^100,566!12^150,566!1^60,500!8^400,100,1!3^500,300!10^600,200!6^300,300,0,0,2,0"),
-    parse_level(FLOOR + "|5^700,300!2^700,560,0,-1!4^200,564,0!" + "!".join(f"0^{x},566" for x in range(30, 760, 12))),
-]
 needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 
 

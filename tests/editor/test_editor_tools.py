@@ -120,6 +120,9 @@ def test_what_has_a_switch_takes_two_presses_or_one_drag(tools: EditorTools, nam
     assert tools.cancel()
     assert len(tools.draft.objects) == 1
     assert not tools.cancel()
+    drag(tools, (238, 500))
+    tools.pick_up(object_of_type("gold"))
+    assert not pending(tools), "the next press puts what was taken"
 
 
 def test_doors_go_to_the_nearest_side_and_the_rest_where_it_sits_in_a_cell(tools: EditorTools) -> None:

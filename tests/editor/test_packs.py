@@ -230,20 +230,24 @@ def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Pa
     assert list(obstacles) == [(level, "exit"), (level, "gold")]
 
 
-def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(
-    pack: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.fixture
+def searched(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The names of levels for which a search, in vain, has looked."""
+    names = list[str]()
+
+    def search(levels: list[NamedLevel], *_: object, **__: object) -> list[dict[str, object]]:
+        names.extend(level.name for level in levels)
+        return [{} for _ in levels]
+
+    monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
+    return names
+
+
+def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(pack: Path, searched: list[str]) -> None:
     levels = Pack(pack).levels
     why = level_finding("gold-left", (2,), most=1, never="never gold")
     obstacles: Obstacles = {(named.level, "gold"): why for file, named in levels.items() if file != FIRST}
     packs.accept(pack, FIRST, "no-gold-run", "a joke")
-    searched: list[str] = []
-
-    def search(levels: list[NamedLevel], *_: object, **__: object) -> list[dict[str, object]]:
-        searched.extend(each.name for each in levels)
-        return [{} for _ in levels]
-
-    monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
     ready = make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     assert searched == []
     assert {finding.code for finding in ready.findings} == {"no-gold-run"}
@@ -278,14 +282,7 @@ def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch)
     assert {"Certifying: 1 of 2 levels done", "Certifying: 2 of 2 levels done"} < {*said}
 
 
-def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    searched: list[str] = []
-
-    def search(levels: list[NamedLevel], *_: object, **__: object) -> list[dict[str, object]]:
-        searched.extend(each.name for each in levels)
-        return [{} for _ in levels]
-
-    monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
+def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, searched: list[str]) -> None:
     for file in Pack(pack).levels:
         packs.accept(pack, file, "no-gold-run", "a joke")
     gold = RUN.replace("exit", "gold")

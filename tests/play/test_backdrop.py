@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 
@@ -14,7 +16,7 @@ from ninja_game.sim.kinds import EXIT, NINJA, SWITCH
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
-from ninja_game.ui.theme import CLASSIC, MOODS, PALETTES
+from ninja_game.ui.theme import CLASSIC, MOODS, PALETTES, Palette
 from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.sprites import moving_sprites
 from ninja_game.view.sprites.backdrop import Backdrop
@@ -33,37 +35,40 @@ def painted(run: Simulation, animation: ObjectAnimation, book: SpriteBook) -> Ba
     return backdrop
 
 
+def pictures(path: Path, palette: Palette) -> Iterator[tuple[Simulation, ObjectAnimation, Backdrop]]:
+    """A run and its backdrop before its first tick, then after every one."""
+    recording = load_replays(path)[0]
+    run = Simulation(recording.level)
+    animation = ObjectAnimation(run.world)
+    backdrop = painted(run, animation, SpriteBook(CANVAS.scale, palette))
+    yield run, animation, backdrop
+    for keys in recording.inputs:
+        run.step_keys(keys)
+        animation.on_tick(run.world)
+        backdrop.update(run.world, animation, 1.0)
+        yield run, animation, backdrop
+
+
 def pixels(backdrop: Backdrop) -> bytes:
     return pygame.image.tobytes(backdrop.picture, "RGB")
 
 
 @pytest.mark.parametrize("path", REPLAYS, ids=lambda path: path.name.split(".")[0])
 def test_mended_backdrop_is_the_backdrop_painted_anew(path: Path) -> None:
-    recording = load_replays(path)[0]
     palette = (CLASSIC, *MOODS)[REPLAYS.index(path) % 6]
-    run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, palette)
-    animation = ObjectAnimation(run.world)
-    backdrop = painted(run, animation, book)
-    for tick, keys in enumerate(recording.inputs):
-        run.step_keys(keys)
-        animation.on_tick(run.world)
-        backdrop.update(run.world, animation, 1.0)
-        if tick % 15 == 0:
+    book = SpriteBook(CANVAS.scale, palette)
+    for tick, (run, animation, backdrop) in enumerate(pictures(path, palette)):
+        if tick % 15 == 1:
             assert pixels(backdrop) == pixels(painted(run, animation, book)), tick
 
 
 def test_exit_switch_looks_pressed_from_its_tick_on() -> None:
-    recording = load_replays(REPLAYS[0])[0]
-    run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, CLASSIC)
-    animation = ObjectAnimation(run.world)
-    backdrop = painted(run, animation, book)
+    pictured = pictures(REPLAYS[0], CLASSIC)
+    run, _, backdrop = next(pictured)
     switch = next(o for o in run.world.objects[: run.world.slots_used] if o.kind == SWITCH)
     place = pygame.Rect(CANVAS.point(switch.x - 4, switch.y - 2), (4, 2))
     lit = pygame.transform.average_color(backdrop.picture, place)
-    for keys in recording.inputs:
-        run.step_keys(keys)
-        animation.on_tick(run.world)
-        backdrop.update(run.world, animation, 1.0)
+    for _ in pictured:
         if any(event.kind == EXIT_OPENED for event in run.world.events[: run.world.event_count]):
             break
         assert pygame.transform.average_color(backdrop.picture, place) == lit
@@ -73,10 +78,8 @@ def test_exit_switch_looks_pressed_from_its_tick_on() -> None:
 @pytest.mark.parametrize("name", ["classic", "contrast", "night", "safe"])
 def test_light_goes_from_the_switch_to_the_open_exit_where_there_is_a_scenery(name: str) -> None:
     palette = PALETTES[name]
-    recording = load_replays(REPLAYS[0])[0]
-    run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, palette)
-    animation = ObjectAnimation(run.world)
-    backdrop = painted(run, animation, book)
+    pictured = pictures(REPLAYS[0], palette)
+    run, _, backdrop = next(pictured)
     slots = {o.kind: o for o in run.world.objects[: run.world.slots_used] if o.kind in {SWITCH, EXIT}}
     beside = {kind: pygame.Rect(CANVAS.point(o.x - 4, o.y - 26), (4, 4)) for kind, o in slots.items()}
 
@@ -84,10 +87,7 @@ def test_light_goes_from_the_switch_to_the_open_exit_where_there_is_a_scenery(na
         return sum(pygame.transform.average_color(backdrop.picture, beside[kind])[:3])
 
     before = {kind: brightness(kind) for kind in beside}
-    for keys in recording.inputs:
-        run.step_keys(keys)
-        animation.on_tick(run.world)
-        backdrop.update(run.world, animation, 1.0)
+    deque(pictured, maxlen=0)
     change = {kind: brightness(kind) - light for kind, light in before.items()}
     assert (change[SWITCH] < 0 < change[EXIT]) if palette.scenery else not any(change.values())
 

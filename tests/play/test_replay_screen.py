@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from random import Random
+from unittest.mock import patch
 
 import pygame
 import pytest
@@ -84,11 +85,11 @@ def test_single_ticks_and_seconds_go_both_ways_and_stop() -> None:
             assert screen.tick == tick
 
 
-def test_a_key_with_two_meanings_has_the_first_one() -> None:
-    with viewer(RUN) as (_, screen):
+def test_a_key_with_two_meanings_has_the_first_one_and_a_run_that_stands_is_silent() -> None:
+    with viewer(RUN) as (app, screen), patch.object(app.audio_output, "quiet") as quiet:
         screen.seek(100)
         screen.handle(InputEvent(pygame.Event(pygame.KEYDOWN), pressed=("pause", "frame_forward")))
-        assert (screen.tick, screen.paused) == (100, True)
+        assert (screen.tick, screen.paused, quiet.call_count) == (100, True, 1)
 
 
 def test_speed_and_stillness_at_the_start() -> None:

@@ -161,6 +161,14 @@ def test_the_mouse_puts_the_cursor_drags_and_selects_words(at: Writer, monkeypat
     monkeypatch.setattr(pygame.key, "get_mods", lambda: SHIFT)
     at.post_button(down, at.place(2))
     assert at.field.edited.selected == "e two-t"
+    at.key("end")
+    pygame.event.post(pygame.Event(pygame.TEXTINPUT, text="!"))
+    at.frames()
+    for passed in (2000, 200):
+        now[0] += passed
+        at.post_button(down, at.place(14))
+        at.post_button(up, at.place(14))
+    assert at.field.edited.selected == "!", "two clicks behind the end take what is before it"
 
 
 def test_a_key_that_is_held_repeats(at: Writer) -> None:

@@ -120,6 +120,8 @@ def test_text_of_the_start_covers_what_is_solid_and_no_way() -> None:
     for thing in ((x + 10, y + 10, MUST), (x + 350, y - 8, MUST)):
         left, top, *_ = solid_place(block, 360.0, 59.0, (thing,))
         assert not (left < thing[0] < left + 360 and top < thing[1] < top + 59), "a thing is never covered"
+    left, top, *_ = solid_place((1,) * 713, 120.0, 60.0, about=(600.0, 300.0))
+    assert hypot(left + 60 - 600, top + 30 - 300) < 40, "of equal places the nearest"
 
 
 def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: MenuDriver) -> None:

@@ -130,6 +130,20 @@ def test_a_click_below_the_last_whole_line_chooses_nothing(driver: MenuDriver) -
     assert chosen == [3]
 
 
+def test_all_of_a_cell_is_clicked_and_only_a_drag_at_the_bar_scrolls() -> None:
+    cells = ListView((0, 0, 700, 60), 20, lambda *_: None, list[int]().append)
+    cells.columns = 6
+    cells.fill(range(30))
+    x, _, width, _ = cells.row_area(4)
+    for place in (x + 0.1, x + width - 0.1):
+        cells.click(300, 30)
+        assert cells.click(place, 10)
+        assert cells.index == 4
+    assert not cells.drag(300, 60)
+    assert cells.drag(699, 60)
+    assert cells.first == 2
+
+
 def test_a_second_click_counts_while_more_rows_come_and_not_where_another_row_is() -> None:
     one, other, chosen = object(), object(), list[int]()
     shown = ListView((0, 0, 100, 80), 20, lambda *_: None, chosen.append, opens=True)

@@ -104,6 +104,8 @@ def test_only_a_click_on_a_slot_waits_for_a_press(driver: MenuDriver, screen: Se
     driver.mouse(x + 10, y + 2.5 * ROW)
     assert driver.top() is screen
     assert screen.tables["keys"].index == 2
+    driver.mouse(x + width - 12, y + 2.5 * ROW)
+    assert screen.tables["keys"].slot == 0, "the bar begins where the slots end"
     driver.mouse(x + width / 2, y + 2.5 * ROW)
     assert driver.shown(Capture)
 

@@ -11,8 +11,10 @@ import pytest
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import LayoutPreferences, tas_canvas, tas_layout
-from ninja_game.tas_editor.roll.facts import changed_ticks, row_facts, row_text
+from ninja_game.tas_editor.roll.facts import RowFacts, changed_ticks, row_facts, row_text
 from ninja_game.tas_editor.roll.rows import COLUMNS, RowSheet, layout_of, shortened
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import CLASSIC, Area, Theme
 from tests.support.tas_driver import TasDriver
 
 CTRL, SHIFT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT
@@ -88,11 +90,25 @@ def test_rows_know_what_is_simulated_and_where_the_run_ends(at: TasDriver) -> No
     assert "not simulated" in row_text(rows[-1], numbers=True)
 
 
+def roll_of(size: tuple[int, int]) -> tuple[Canvas, Area]:
+    canvas = tas_canvas(size)
+    return canvas, tas_layout((size[0] / canvas.scale, size[1] / canvas.scale), LayoutPreferences()).roll
+
+
+@pytest.mark.parametrize("size", [(600, 450), (1000, 1000)])
+def test_a_killers_name_takes_the_room_of_its_column(size: tuple[int, int]) -> None:
+    canvas, area = roll_of(size)
+    layout, surface = layout_of(canvas, area, ()), pygame.Surface(size)
+    row = RowFacts(0, 0, 0, 0, None, "died", "homing launcher 12", None, "", *[False] * 5)
+    RowSheet(Theme(CLASSIC, canvas), layout, CLASSIC.accent).draw(surface, [row])
+    column, y = layout.places[-1], layout.body.top + 1
+    chip = [x for x in range(column.left, column.left + column.width) if surface.get_at((x, y)) == CLASSIC.bad]
+    assert chip[-1] - chip[0] > 0.85 * column.width
+
+
 @pytest.mark.parametrize("size", [(792, 600), (1188, 900), (1584, 1200), (1000, 1000), (3000, 700), (200, 150)])
 def test_columns_lie_side_by_side_in_any_window(size: tuple[int, int]) -> None:
-    canvas = tas_canvas(size)
-    area = tas_layout((size[0] / canvas.scale, size[1] / canvas.scale), LayoutPreferences()).roll
-    layout = layout_of(canvas, area, ())
+    layout = layout_of(*roll_of(size), ())
     assert [place.column.name for place in layout.places] == [column.name for column in COLUMNS]
     edges = np.array([[place.left, place.left + place.width] for place in layout.places])
     assert (edges[1:, 0] == edges[:-1, 1]).all()
