@@ -182,7 +182,8 @@ def test_security_page_states_the_limits_that_hold() -> None:
 
 
 @pytest.mark.parametrize("module", [ninja_game, ninja_game.learn])
-def test_every_public_name_has_a_docstring(module: ModuleType) -> None:
+def test_every_public_name_is_listed_and_has_a_docstring(module: ModuleType) -> None:
+    assert {*module.__all__} <= {*dir(module)}
     public = {name: getattr(module, name) for name in module.__all__ if name != "__version__"}
     members = {
         f"{name}.{key}": member

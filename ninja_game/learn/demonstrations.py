@@ -192,7 +192,7 @@ def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: An
     ]
     longest = max(LIFETIME, *(len(episode.rewards) for episode in episodes))
     own = {"level": list(levels.values()), "body": bodies.pop(), "frame_skip": 1, "time_limit": longest}
-    env = gymnasium.make("ninja_game:Ninja-v0", **{**own, **settings})
+    env = gymnasium.make("ninja_game.learn:Ninja-v0", **{**own, **settings})
     try:
         with env, warnings.catch_warnings():
             # Minari warns about a missing address of the author, link and scores, which recordings do not have.

@@ -35,7 +35,7 @@ def env() -> Iterator[NinjaEnv]:
 
 
 def made(name: str, **settings: Any) -> NinjaEnv:
-    env = gymnasium.make(f"ninja_game:{name}", memory="plain", **settings).unwrapped
+    env = gymnasium.make(f"ninja_game.learn:{name}", memory="plain", **settings).unwrapped
     assert isinstance(env, NinjaEnv)
     return env
 
