@@ -15,7 +15,7 @@ import ninja_game
 import ninja_game.learn
 from ninja_game.files.reading import MAX_BYTES
 from ninja_game.sim.inputs import MAX_TICKS
-from ninja_game.sim.memory.schema import CAPACITY
+from ninja_game.sim.schema.world_fields import CAPACITY
 from ninja_game.ui.input.bindings import TAP_SECONDS
 from ninja_game.web.pages import documents
 

@@ -25,8 +25,7 @@ from ninja_game.backend.self_test import check_self_test
 from ninja_game.backend.worlds import MemoryName, Worlds
 from ninja_game.budget import NO_LIMIT, PAGE_TICK_COST, PLAIN_WORK, tick_cost
 from ninja_game.errors import ArgumentError, LevelError, NinjaGameError
-from ninja_game.files.user_folder import install_hint
-from ninja_game.runtime import in_page_or_not
+from ninja_game.runtime import in_page_or_not, install_hint
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
 

@@ -91,7 +91,7 @@ def _object_counts(level: NamedLevel) -> Counter[str]:
     """
     from ninja_game.formats.ascii.writer import best_form
     from ninja_game.sim.kinds import KIND_NAMES
-    from ninja_game.sim.memory.schema import CAPACITY
+    from ninja_game.sim.schema.world_fields import CAPACITY
 
     specs = list(filter(makes_object, level.level.objects))
     if len(specs) >= CAPACITY:

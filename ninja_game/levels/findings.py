@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from ninja_game.files.user_folder import asset_text
+from ninja_game.files.bundled import asset_text
 from ninja_game.formats.ascii.places import Cell
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Header
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, GRID_COLUMNS, GRID_ROWS, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Header
+from ninja_game.sim.schema.world_fields import World
+
+Point = tuple[float, float]  # x and y: px of the world or of a screen, or parts of cells
 
 
 @fast

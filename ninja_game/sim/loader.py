@@ -10,10 +10,10 @@ from ninja_game.sim.collision.tiles import ODD_HALF_ID, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import EXIT, INERT, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import COLUMNS, ROWS, Level, check_level, makes_object
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import CAPACITY, Ninja, TileMap, World
 from ninja_game.sim.objects.dispatch import create
 from ninja_game.sim.rules import DEFAULT_SPAWN_X, DEFAULT_SPAWN_Y, DRAG, GRAVITY, GRID_COLUMNS, GRID_ROWS, STRIDE
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import CAPACITY, Ninja, TileMap, World
 
 
 def grid_tiles(data: Level) -> list[int]:

@@ -279,7 +279,7 @@ def test_one_compiles_at_a_time_and_a_dead_one_keeps_nobody(tmp_path: Path) -> N
 SMALL = """
 import sys
 from ninja_game.backend import kernel_cache, memories
-from ninja_game.sim.memory.declare import kernel
+from ninja_game.sim.schema.declare import kernel
 import numpy as np
 @kernel
 def doubled(numbers: object) -> int:

@@ -22,7 +22,7 @@ from ninja_game import __version__
 from ninja_game.editor.certify import Certification, TestMap
 from ninja_game.editor.files import Source, draft_of
 from ninja_game.editor.stamp import Stamp, put
-from ninja_game.files.user_folder import CHECKOUT, bundled_replays
+from ninja_game.files.bundled import CHECKOUT, bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.named_level import parse_levels
 from ninja_game.play.editor.screen import EditorScreen

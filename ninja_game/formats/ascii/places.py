@@ -13,8 +13,6 @@ from ninja_game.sim.rules import CELL, HALF
 Cell = tuple[int, int]
 """Column 1…31, row 1…23; 0 and 32, 24 are the border."""
 
-Point = tuple[float, float]  # x and y: px of the world or of a screen, or parts of cells
-
 _NUMBER = re.compile(r"[+-]?(\d++(\.\d*+)?|\.\d++)(e[+-]?\d++)?|nan|[+-]?inf", re.ASCII)
 _MAX_SHOWN = 40
 

@@ -23,7 +23,7 @@ from ninja_game.play.editor.commands import TABLE
 from ninja_game.play.editor.palette_view import PaletteView, live_changes
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
-from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow, ask_text
+from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow, ask_text
 from ninja_game.play.workspace import Pane
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.rules import CELL

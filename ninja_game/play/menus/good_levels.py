@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.formats.ascii.places import middle_of
 from ninja_game.formats.load import load_levels
 from ninja_game.levels.episodes import GAME, Entry

@@ -27,7 +27,7 @@ from ninja_game.formats.replay.text import Replay, parse_replay
 from ninja_game.levels.findings import level_finding
 from ninja_game.play.editor.session import _examine
 from ninja_game.play.editor.sheet import _rects
-from ninja_game.play.menus.menu_screen import Menu
+from ninja_game.play.menu_screen import Menu
 from ninja_game.runs.packs import lint, make_pars
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, Task
