@@ -1,5 +1,4 @@
-"""A short life of a player, played by a script, that shows every screen of the game: for the contact sheet and for
-the recorded screens of the tests."""
+"""A short life of a player, played by a script, that shows every screen of the game: for the recorded screens."""
 
 from __future__ import annotations
 
