@@ -56,7 +56,7 @@ def own_fields_only() -> Iterator[None]:
         patch.object(plain, "_get_object", lambda o: tuple(slot.__get__(o) for slot in slots)),
         patch.object(plain, "_set_object", write_all),
         patch.object(layout, "_set_object", write_all),
-        patch.object(memories, "_KERNELS", Interpreted()),
+        patch.object(memories._PROCESS, "kernels", Interpreted()),
     ):
         yield
 
