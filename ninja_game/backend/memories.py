@@ -56,15 +56,11 @@ PLAIN, CHECKED, CHECKED_LATER = Plan("plain", "plain"), Plan("compiled", "compil
 
 @dataclass
 class _Process:
-    """What this process has made and done.
+    """What this process has made and done."""
 
-    ``kernels``: compiled twins, by kernel and ``checked``. ``failures``: why the compiled memory cannot be used; empty
-    before the first try. ``short_work``: of all runs that were short enough for the plain memory; at most PLAIN_WORK.
-    """
-
-    kernels: dict[tuple[Callable[..., Any], bool], Any] = field(default_factory=dict)
-    failures: list[str] = field(default_factory=list)
-    short_work: int = 0
+    kernels: dict[tuple[Callable[..., Any], bool], Any] = field(default_factory=dict)  #: by kernel and ``checked``
+    failures: list[str] = field(default_factory=list)  #: why the compiled memory cannot be used
+    short_work: int = 0  #: of the runs that were short enough for the plain memory; at most PLAIN_WORK
 
 
 _PROCESS = _Process()
@@ -141,24 +137,17 @@ def open_worlds(
 
 def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False) -> bool:
     """Tell whether a run begins on the plain memory: it is little ``work``, or kernels are not compiled yet."""
-    return _has_choice(memory, checked=checked) and (_is_little(work) or not _kernels_ready(checked=checked))
+    little = _PROCESS.short_work + work <= PLAIN_WORK
+    return _has_choice(memory, checked=checked) and (little or not _kernels_ready(checked=checked))
 
 
 def register_run(memory: str, work: int, *, checked: bool = False) -> bool:
-    """Count the work of a run that begins now, or let a background process compile its kernels if they are missing.
-
-    Gives what ``prefers_plain`` does.
-    """
+    """Count a run that begins now, or let a process compile its missing kernels; gives what ``prefers_plain`` does."""
     if not _has_choice(memory, checked=checked):
         return False
-    little, ready = _is_little(work), _kernels_ready(checked=checked)
-    if not ready:
-        from ninja_game.backend import background_compiler
-
-        background_compiler.start()
-    elif little:
-        _PROCESS.short_work += work
-    return little or not ready
+    little, missing = _PROCESS.short_work + work <= PLAIN_WORK, warm_up(checked=checked)
+    _PROCESS.short_work += work if little and not missing else 0
+    return little or missing
 
 
 def _has_choice(memory: str, *, checked: bool) -> bool:
@@ -170,14 +159,9 @@ def _has_choice(memory: str, *, checked: bool) -> bool:
     return background_compiler.is_enabled() and (load_world, checked or _ALL_CHECKED) not in _PROCESS.kernels
 
 
-def _is_little(work: int) -> bool:
-    """Tell whether the plain memory is done with this work, and with that of all short runs, before Numba is loaded."""
-    return _PROCESS.short_work + work <= PLAIN_WORK
-
-
-def warm_up() -> bool:
-    """Let a background process compile the kernels of a run, if they are not compiled yet."""
-    if missing := compiled_available() and not _kernels_ready(checked=False):
+def warm_up(*, checked: bool = False) -> bool:
+    """Let a background process compile the kernels of a run; gives whether they were not compiled yet."""
+    if missing := compiled_available() and not _kernels_ready(checked=checked):
         from ninja_game.backend import background_compiler
 
         background_compiler.start()
