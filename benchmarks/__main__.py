@@ -29,7 +29,7 @@ from typing import Any
 from benchmarks import measure_grids, measure_worlds
 from benchmarks.charts import Chart
 from benchmarks.speed import run_benchmark
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.runtime import cores

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ninja_game.sim.memory.declare import fast, kernel
+from ninja_game.sim.schema.declare import fast, kernel
 
 RADIUS = 0.4
 REACH = 0.8

@@ -34,8 +34,10 @@ MANY = 256
 def ours(vector: bool, **settings: Any) -> Callable[[], Any]:
     """What makes an environment of ours."""
     if vector:
-        return lambda: gymnasium.make_vec("ninja_game:Ninja-v0", MANY, level="set", threads=1, copy=False, **settings)
-    return lambda: gymnasium.make("ninja_game:Ninja-v0", disable_env_checker=True, **settings)
+        return lambda: gymnasium.make_vec(
+            "ninja_game.learn:Ninja-v0", MANY, level="set", threads=1, copy=False, **settings
+        )
+    return lambda: gymnasium.make("ninja_game.learn:Ninja-v0", disable_env_checker=True, **settings)
 
 
 def atari() -> Any:

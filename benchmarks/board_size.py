@@ -21,7 +21,7 @@ from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 
-from ninja_game.files.user_folder import bundled_replays, data_folder
+from ninja_game.files.bundled import bundled_replays, data_folder
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay

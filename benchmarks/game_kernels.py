@@ -8,9 +8,9 @@ from ninja_game.sim.collision.ray_shapes import ray_tile
 from ninja_game.sim.collision.rays import cast_ray
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.memory.declare import kernel
 from ninja_game.sim.objects.dispatch import touch, touch_objects
 from ninja_game.sim.rules import DOWN, RIGHT, SOLID, STRIDE
+from ninja_game.sim.schema.declare import kernel
 from ninja_game.sim.world import step
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from benchmarks.arena import RADIUS, REACH, cell_of, link, unlink
-from ninja_game.sim.memory.declare import fast, kernel
+from ninja_game.sim.schema.declare import fast, kernel
 
 
 @fast

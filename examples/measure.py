@@ -35,7 +35,7 @@ from ninja_game.learn.protocol import EVALUATION_SEED, PROTOCOL
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 
-BENCH = "ninja_game:NinjaBench-v1"
+BENCH = "ninja_game.learn:NinjaBench-v1"
 TASKS = {"bench:test": 1, "bench:train:0-999": 1, "transfer": 50}
 """Sources of levels, and how many episodes each level has."""
 DIGESTS = {

@@ -6,8 +6,6 @@ docs/learning.md ``ninja_game.learn``. Every error that is raised on purpose is 
 
 from __future__ import annotations
 
-import sys
-
 # Every import here is time in which the program does not handle signals yet; `typing` is the longest of them.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -78,6 +76,5 @@ def __getattr__(name: str) -> Any:
     return value
 
 
-# `gymnasium.make("ninja_game:Ninja-v0")` imports this module for the ids, which that one registers.
-if sys.modules.get("gymnasium"):
-    __import__("ninja_game.learn")
+def __dir__() -> list[str]:
+    return [*globals(), *_HOMES]

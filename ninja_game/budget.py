@@ -9,7 +9,7 @@ from __future__ import annotations
 from ninja_game.errors import BudgetError
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.kinds import KINDS
-from ninja_game.sim.level import Level, makes_object
+from ninja_game.sim.level import Level, check_level, makes_object
 
 RUN_BUDGET = 320_000_000
 """Work of one run: the longest that N records on the largest level, a million ticks of 310 objects; 5 s compiled."""
@@ -40,8 +40,12 @@ _COSTS = {kind.number: kind.cost for kind in KINDS}
 
 
 def tick_cost(level: Level) -> int:
-    """The most work that a tick of a level can be."""
-    return TICK_COST + sum(_COSTS.get(spec.kind, 1) for spec in level.objects if makes_object(spec))
+    """The most work that a tick of a level can be. Raises LevelError as ``check_level`` does."""
+    try:
+        return TICK_COST + sum(_COSTS.get(spec.kind, 1) for spec in level.objects if makes_object(spec))
+    except (AttributeError, TypeError):
+        check_level(level)  # here, since it takes ten times as long as the sum
+        raise
 
 
 def affordable_ticks(level: Level, budget: int = RUN_BUDGET) -> int:

@@ -1,4 +1,4 @@
-"""Where the program runs: on a desktop, or in a page of a browser; what is done in the background there.
+"""Where the program runs: on a desktop, or in a page of a browser; what it does in the background, what it lacks.
 
 The only module that knows.
 """
@@ -9,6 +9,7 @@ import os
 import sys
 import traceback
 from collections.abc import Callable
+from pathlib import Path
 from threading import Condition, Thread
 from typing import Generic, TypeVar
 
@@ -23,6 +24,8 @@ IN_PAGE = sys.platform == "emscripten"
 
 FOLDER_HANDLES = os.open in os.supports_dir_fd and not IN_PAGE
 """Whether files can be opened below the handle of a folder."""
+
+PACKAGE = Path(__file__).resolve().parent
 
 ONLY_ON_A_DESKTOP = "only the program for the desktop can make that, not a page"
 
@@ -116,3 +119,27 @@ class NewestJob(Generic[Job, Result]):
                 self._busy = False
                 self._news.notify_all()
             return job
+
+
+def install_hint(extra: str) -> str:
+    """How to install an optional part of the program: in a checkout its own tool, else pip of the running Python.
+
+    It names the packages of the part, not this one, which the user's index may not have.
+    """
+    if IN_PAGE:
+        return ONLY_ON_A_DESKTOP
+    # Their import takes as long as all the rest.
+    import shlex
+    from importlib.metadata import PackageNotFoundError, requires
+
+    tool = PACKAGE.parent / "tools" / "dev.py"
+    if tool.is_file():
+        return f"start the command as 'python3 {tool} run ...', which installs what is missing"
+    try:
+        needed = [requirement.partition(";") for requirement in requires("ninja-game") or ()]
+    except PackageNotFoundError:
+        return "this copy of the program cannot be added to; use one that is installed in a Python"
+    packages = [
+        package.strip() for package, _, marker in needed if marker.replace('"', "'").strip() == f"extra == '{extra}'"
+    ]
+    return f"install it: {sys.executable} -m pip install {shlex.join(packages)}"

@@ -32,7 +32,7 @@ from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bit
 from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.level import Body, Level, is_box
-from ninja_game.sim.memory.schema import Event, TileMap, World
+from ninja_game.sim.schema.world_fields import Event, TileMap, World
 from ninja_game.sim.states import CAUSE_NAMES, NO_CAUSE, OUTCOME_NAMES, STATE_NAMES
 
 __all__ = ["EventView", "NinjaView", "ObjectView", "SaveState", "Simulation"]

@@ -15,7 +15,7 @@ import ninja_game
 import ninja_game.learn
 from ninja_game.files.reading import MAX_BYTES
 from ninja_game.sim.inputs import MAX_TICKS
-from ninja_game.sim.memory.schema import CAPACITY
+from ninja_game.sim.schema.world_fields import CAPACITY
 from ninja_game.ui.input.bindings import TAP_SECONDS
 from ninja_game.web.pages import documents
 
@@ -182,7 +182,8 @@ def test_security_page_states_the_limits_that_hold() -> None:
 
 
 @pytest.mark.parametrize("module", [ninja_game, ninja_game.learn])
-def test_every_public_name_has_a_docstring(module: ModuleType) -> None:
+def test_every_public_name_is_listed_and_has_a_docstring(module: ModuleType) -> None:
+    assert {*module.__all__} <= {*dir(module)}
     public = {name: getattr(module, name) for name in module.__all__ if name != "__version__"}
     members = {
         f"{name}.{key}": member

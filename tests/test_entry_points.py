@@ -19,7 +19,7 @@ READS = re.compile(
 """Names of what reads, as sources write them."""
 
 OURS = {
-    "files/user_folder": "tables and texts of the package",
+    "files/bundled": "tables and texts of the package",
     "__main__": "opens what was closed, to lead nowhere", "runtime": "asks what the system can do",
     "cli/machine": "starts programs of the system, and reads nothing of what they say",
     "files/locking": "holds locks", "files/writing": "writes", "ui/audio/player": "silences a library",
@@ -27,7 +27,7 @@ OURS = {
     "play/menus/good_levels": "its own levels",
     "levels/findings": "its own texts",
     "learn/levels/source": "its own levels", "learn/levels/bench": "its own table",
-    "sim/memory/declare": "its own code, made from its own rules",
+    "sim/schema/declare": "its own code, made from its own rules",
     "web/site/compiling": "its own code",
     "web/pages/documents": "its own documents",
 }  # fmt: skip

@@ -17,7 +17,7 @@ from functools import partial
 import numpy as np
 
 from ninja_game.backend.memories import open_worlds
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn.levels.bench import COUNTS, TABLE, TRIES, BenchLevel, bench_level
 from ninja_game.sim.states import OUTCOME_EXIT

@@ -9,7 +9,7 @@ import argparse
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.generator.generate import HARDEST, generate
 from ninja_game.generator.packed import PACKED, PackedLevel, pack
 

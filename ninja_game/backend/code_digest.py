@@ -7,7 +7,7 @@ from hashlib import sha256
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-from ninja_game.sim.memory.declare import REGISTERED
+from ninja_game.sim.schema.declare import REGISTERED
 
 OPTIONS = {"nogil": True, "error_model": "python", "_nrt": False}
 """Options of Numba for every function. ``_nrt``: no reference counts, since no kernel makes an array."""

@@ -23,8 +23,8 @@ from ninja_game.backend.layout import TILE_MAP, Records, bytes_of, new_worlds, p
 from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS, Kernel, MemoryName, R, RunPath, TraceArrays, Worlds
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import ObjectTable, grid_tiles, object_table
-from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, World
+from ninja_game.sim.schema.declare import fields_of
+from ninja_game.sim.schema.world_fields import MAX_EVENTS, Event, Ninja, World
 
 Compile = Callable[[Callable[..., Any]], Callable[..., Any]]
 """Gives the compiled twin of a kernel (``memories.compiled``)."""

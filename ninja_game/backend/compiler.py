@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ninja_game.backend.code_digest import OPTIONS
-from ninja_game.sim.memory.declare import KERNELS, REGISTERED
+from ninja_game.sim.schema.declare import KERNELS, REGISTERED
 
 R = TypeVar("R")
 

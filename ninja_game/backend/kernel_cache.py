@@ -28,8 +28,9 @@ from ninja_game.backend.numba_import import warn_once
 from ninja_game.errors import FileError
 from ninja_game.files.locking import LOCK_SUFFIX, try_lock
 from ninja_game.files.reading import open_regular
-from ninja_game.files.user_folder import PACKAGE, cache_folder, folder_from_variable
+from ninja_game.files.user_folder import cache_folder, folder_from_variable
 from ninja_game.files.writing import replacing
+from ninja_game.runtime import PACKAGE
 
 SHIPPED = PACKAGE / "data" / "kernels"  # machine code of the installation; a checkout has none
 

@@ -14,8 +14,8 @@ from ninja_game.sim.arithmetic import canonical
 from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.death import kill
 from ninja_game.sim.loader import populate
-from ninja_game.sim.memory.declare import kernel
-from ninja_game.sim.memory.schema import MAX_EVENTS, TileMap, World
+from ninja_game.sim.schema.declare import kernel
+from ninja_game.sim.schema.world_fields import MAX_EVENTS, TileMap, World
 from ninja_game.sim.traces import is_switched, place_of, status_of
 from ninja_game.sim.world import step
 

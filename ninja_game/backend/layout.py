@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.sim.kinds import KINDS
-from ninja_game.sim.memory.declare import Field, fields_of, getter_of, scalars_of, setter_of
-from ninja_game.sim.memory.object_fields import Header, Object
-from ninja_game.sim.memory.schema import Event, Ninja, TileMap, World
+from ninja_game.sim.schema.declare import Field, fields_of, getter_of, scalars_of, setter_of
+from ninja_game.sim.schema.object_fields import Header, Object
+from ninja_game.sim.schema.world_fields import Event, Ninja, TileMap, World
 
 _SIZES = {"f8": 8, "f4": 4, "i8": 8, "i4": 4, "i2": 2, "u1": 1}
 _REFUSED = set(dir(np.recarray)) | set(dir(np.record))

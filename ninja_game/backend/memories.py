@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, partial
 from importlib.util import find_spec
 from threading import Lock
@@ -25,8 +25,7 @@ from ninja_game.backend.self_test import check_self_test
 from ninja_game.backend.worlds import MemoryName, Worlds
 from ninja_game.budget import NO_LIMIT, PAGE_TICK_COST, PLAIN_WORK, tick_cost
 from ninja_game.errors import ArgumentError, LevelError, NinjaGameError
-from ninja_game.files.user_folder import install_hint
-from ninja_game.runtime import in_page_or_not
+from ninja_game.runtime import in_page_or_not, install_hint
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
 
@@ -36,9 +35,6 @@ if TYPE_CHECKING:
 R = TypeVar("R")
 
 _LOCK = Lock()  # one thread at a time imports Numba and makes twins
-_KERNELS: dict[tuple[Callable[..., Any], bool], Any] = {}
-_FAILURES: list[str] = []
-"""Why the compiled memory cannot be used in this process; empty before the first try."""
 _MAX_TICK_COST = in_page_or_not(PAGE_TICK_COST, NO_LIMIT)
 _ALL_CHECKED = os.environ.get("NINJA_GAME_CHECKED") == "1"
 
@@ -57,7 +53,17 @@ class Plan:
 
 PLAIN, CHECKED, CHECKED_LATER = Plan("plain", "plain"), Plan("compiled", "compiled"), Plan("plain", "compiled")
 
-_WORK = [0]  # work of all runs of this process that were short enough for the plain memory; at most PLAIN_WORK
+
+@dataclass
+class _Process:
+    """What this process has made and done."""
+
+    kernels: dict[tuple[Callable[..., Any], bool], Any] = field(default_factory=dict)  #: by kernel and ``checked``
+    failures: list[str] = field(default_factory=list)  #: why the compiled memory cannot be used
+    short_work: int = 0  #: of the runs that were short enough for the plain memory; at most PLAIN_WORK
+
+
+_PROCESS = _Process()
 
 _RUN_KERNELS = {
     False: (load_world, run_world, step_world, observe_object, trace_world, kill_ninja),
@@ -72,7 +78,11 @@ class MemoryUnavailableError(NinjaGameError):
 
 def compiled_available() -> bool:
     """Tell whether Numba is installed, with its compiler on. Without it everything works on the plain memory."""
-    return not _FAILURES and find_spec("numba") is not None and os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
+    return (
+        not _PROCESS.failures
+        and find_spec("numba") is not None
+        and os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
+    )
 
 
 def choose_memory(memory: str) -> MemoryName:
@@ -85,7 +95,9 @@ def choose_memory(memory: str) -> MemoryName:
     if memory == "compiled":
         if not compiled_available():
             needs = f"the compiled memory needs Numba; {install_hint('fast')}, unset NUMBA_DISABLE_JIT"
-            raise MemoryUnavailableError(f"{_FAILURES[0] if _FAILURES else needs}, or use the plain memory")
+            raise MemoryUnavailableError(
+                f"{_PROCESS.failures[0] if _PROCESS.failures else needs}, or use the plain memory"
+            )
         return "compiled"
     if memory == "plain":
         return "plain"
@@ -114,7 +126,7 @@ def open_worlds(
     # The first call imports Numba, which must come before NumPy.
     if not isinstance(memory, Plan):
         begins = at_once and memory == "auto"
-        begins = begins and prefers_plain(memory, ticks * max(map(tick_cost, several), default=0), now=True)
+        begins = begins and register_run(memory, ticks * max(map(tick_cost, several), default=0))
         memory = Plan("plain" if begins else _usable_memory(memory), "compiled", checked=False)
     if memory.first == "plain":
         return PlainWorlds(several, count, box=box)
@@ -123,31 +135,33 @@ def open_worlds(
     return CompiledWorlds(partial(compiled, checked=memory.checked), several, count, box=box)
 
 
-def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False, now: bool = False) -> bool:
-    """Tell whether a run begins on the plain memory: it is little ``work``, or kernels are not compiled yet.
+def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False) -> bool:
+    """Tell whether a run begins on the plain memory: it is little ``work``, or kernels are not compiled yet."""
+    little = _PROCESS.short_work + work <= PLAIN_WORK
+    return _has_choice(memory, checked=checked) and (little or not _kernels_ready(checked=checked))
 
-    ``now``: the run begins now: count its work, and let a process compile missing kernels.
-    """
+
+def register_run(memory: str, work: int, *, checked: bool = False) -> bool:
+    """Count a run that begins now, or let a process compile its missing kernels; gives what ``prefers_plain`` does."""
+    if not _has_choice(memory, checked=checked):
+        return False
+    little, missing = _PROCESS.short_work + work <= PLAIN_WORK, warm_up(checked=checked)
+    _PROCESS.short_work += work if little and not missing else 0
+    return little or missing
+
+
+def _has_choice(memory: str, *, checked: bool) -> bool:
+    """Tell whether a run may begin on either memory: by "auto", with kernels that this process has not loaded yet."""
     if memory != "auto" or not compiled_available():
         return False
     from ninja_game.backend import background_compiler
 
-    if not background_compiler.is_enabled() or (load_world, checked or _ALL_CHECKED) in _KERNELS:
-        return False
-    little = _WORK[0] + work <= PLAIN_WORK
-    if little and not now:
-        return True
-    ready = _kernels_ready(checked=checked)
-    if now and not ready:
-        background_compiler.start()
-    elif now and little:
-        _WORK[0] += work
-    return little or not ready
+    return background_compiler.is_enabled() and (load_world, checked or _ALL_CHECKED) not in _PROCESS.kernels
 
 
-def warm_up() -> bool:
-    """Let a background process compile the kernels of a run, if they are not compiled yet."""
-    if missing := compiled_available() and not _kernels_ready(checked=False):
+def warm_up(*, checked: bool = False) -> bool:
+    """Let a background process compile the kernels of a run; gives whether they were not compiled yet."""
+    if missing := compiled_available() and not _kernels_ready(checked=checked):
         from ninja_game.backend import background_compiler
 
         background_compiler.start()
@@ -159,7 +173,7 @@ def _kernels_ready(*, checked: bool) -> bool:
     from ninja_game.backend.kernel_cache import are_cached
 
     checked = _ALL_CHECKED or checked
-    missing = [entry for entry in _RUN_KERNELS[checked] if (entry, checked) not in _KERNELS]
+    missing = [entry for entry in _RUN_KERNELS[checked] if (entry, checked) not in _PROCESS.kernels]
     return not missing or are_cached(missing, checked)
 
 
@@ -204,7 +218,7 @@ def proven_memory(memory: str, work: int = NO_LIMIT) -> Plan:
 
     Raises SelfTestError if it does not pass, and what ``choose_memory`` raises.
     """
-    begins = prefers_plain(memory, work, checked=True, now=True)
+    begins = register_run(memory, work, checked=True)
     if not begins and _usable_memory(memory, checked=True) == "compiled":
         return CHECKED
     _prove_plain()
@@ -223,11 +237,11 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
     compiled worlds compute something else.
     """
     checked = checked or _ALL_CHECKED
-    kernel: Callable[..., R] | None = _KERNELS.get((entry, checked))
+    kernel: Callable[..., R] | None = _PROCESS.kernels.get((entry, checked))
     if kernel is None:
         with _LOCK:
             make = _compiler(checked)
-            if entry is load_world and (entry, checked) not in _KERNELS:
+            if entry is load_world and (entry, checked) not in _PROCESS.kernels:
                 from ninja_game.backend.compiled import CompiledWorlds
 
                 try:
@@ -236,13 +250,13 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
                     raise
                 except Exception as error:
                     raise _unusable("compile the rules", error) from error
-            kernel = _KERNELS[entry, checked] = make(entry)
+            kernel = _PROCESS.kernels[entry, checked] = make(entry)
     return kernel
 
 
 def is_compiled(entry: Callable[..., Any]) -> bool:
     """Tell whether this process has made the compiled twin of a kernel."""
-    return (entry, _ALL_CHECKED) in _KERNELS
+    return (entry, _ALL_CHECKED) in _PROCESS.kernels
 
 
 def compiled_if_possible(entry: Callable[..., R]) -> Callable[..., R]:
@@ -268,5 +282,5 @@ def _compiler(checked: bool) -> Compiler:
 
 def _unusable(what: str, error: Exception) -> MemoryUnavailableError:
     """Make the error for a failure of Numba; the compiled memory is not tried again."""
-    _FAILURES.append(f"Numba cannot {what} ({type(error).__name__}: {error!s:.200}); install another version")
-    return MemoryUnavailableError(f"{_FAILURES[-1]}, or use the plain memory")
+    _PROCESS.failures.append(f"Numba cannot {what} ({type(error).__name__}: {error!s:.200}); install another version")
+    return MemoryUnavailableError(f"{_PROCESS.failures[-1]}, or use the plain memory")

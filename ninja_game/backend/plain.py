@@ -11,9 +11,9 @@ from ninja_game.backend.kernels import kill_ninja, load_world, observe_object, r
 from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS, Kernel, MemoryName, R, RunPath, TraceArrays, Worlds
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles, object_table
-from ninja_game.sim.memory.declare import fields_of, getter_of, scalars_of, setter_of
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, TileMap, World
+from ninja_game.sim.schema.declare import fields_of, getter_of, scalars_of, setter_of
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import MAX_EVENTS, Event, Ninja, TileMap, World
 from ninja_game.sim.world import step
 
 PlainState = tuple[tuple[Any, ...], tuple[Any, ...], list[int], list[int], list[tuple[Any, ...]]]

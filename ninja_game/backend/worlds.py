@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.world_fields import World
 
 R = TypeVar("R")
 Kernel: TypeAlias = Callable[..., R]

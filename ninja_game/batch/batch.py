@@ -35,8 +35,8 @@ from ninja_game.sim.digest import state_digest, world_digest
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, JUMP_PRESSED, KEYS_DOWN
 from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Body, Level, is_box
-from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.declare import fields_of
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import OUTCOME_NAMES
 
 Keys = NDArray[np.uint8]  # keys that are down, one byte per tick or choice: a sum of left, right and jump

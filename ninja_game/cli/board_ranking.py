@@ -13,8 +13,9 @@ import click
 
 from ninja_game.cli.options import OLD_FILE, InputPath
 from ninja_game.errors import FileError
+from ninja_game.files.bundled import data_folder
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.user_folder import cache_folder, data_folder
+from ninja_game.files.user_folder import cache_folder
 
 if TYPE_CHECKING:
     from ninja_game.web.board.ranking import Ranking

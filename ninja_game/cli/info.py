@@ -89,7 +89,7 @@ def _object_counts(level: NamedLevel) -> Counter[str]:
     If there are more objects than can be played, which take long, the number of each kind.
     """
     from ninja_game.formats.ascii.writer import best_form
-    from ninja_game.sim.memory.schema import CAPACITY
+    from ninja_game.sim.schema.world_fields import CAPACITY
 
     specs = list(filter(makes_object, level.level.objects))
     if len(specs) >= CAPACITY:

@@ -116,7 +116,8 @@ def program_words() -> list[str]:
 
 def desktop_files(folder: Path, program: list[str]) -> dict[Path, str | bytes]:
     """The files below a folder of data such as ~/.local/share, with their contents."""
-    from ninja_game.play.window import icon, png_of
+    from ninja_game.ui.canvas import png_of
+    from ninja_game.view.ninja.figure import icon
 
     command = " ".join(map(_quoted, program))
     files: dict[Path, str | bytes] = {

@@ -13,7 +13,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.files.user_folder import own_levels
+from ninja_game.files.bundled import own_levels
 from ninja_game.runtime import cores
 
 if TYPE_CHECKING:

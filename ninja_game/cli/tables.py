@@ -105,7 +105,7 @@ def draw(picture: Path, level: Level, paths: Sequence[tuple[str, Any]], keep: Se
     use_dummy_video()
     from ninja_game.files.writing import write_atomically
     from ninja_game.play.replay.paths import paths_picture
-    from ninja_game.play.window import png_of
+    from ninja_game.ui.canvas import png_of
     from ninja_game.ui.theme import PALETTES
 
     surface = paths_picture(level, paths, PALETTES["classic"], 1584)

@@ -13,7 +13,8 @@ from ninja_game.cli.board_ask import ask
 from ninja_game.cli.board_ranking import levels_option, memo_of, ranking_of, rules_option
 from ninja_game.cli.commands import FAILED
 from ninja_game.cli.options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, jobs_option
-from ninja_game.files.user_folder import cache_folder, data_folder
+from ninja_game.files.bundled import data_folder
+from ninja_game.files.user_folder import cache_folder
 
 
 def _address(_ctx: click.Context, _param: click.Parameter, value: str) -> str:

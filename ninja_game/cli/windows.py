@@ -91,7 +91,7 @@ def edit(level: Path | None, record: int | None, **window: Any) -> int:
       ninja-game edit userlevels.txt --record 17
     """
     from ninja_game.editor.files import Source, open_source
-    from ninja_game.files.user_folder import is_bundled
+    from ninja_game.files.bundled import is_bundled
 
     source = open_source(level, record or 0) if level is not None else None
     if source is not None and source.path is not None and is_bundled(source.path):

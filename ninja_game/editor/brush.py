@@ -9,8 +9,8 @@ from ninja_game.editor.motion import TILE_IDS, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, settled, with_word, word
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.object_lines import SIDES, ListedObject, natural_offset, read_object_line
-from ninja_game.formats.ascii.places import Cell, cell_of, middle_of
 from ninja_game.sim import kinds
+from ninja_game.sim.grid import Cell, cell_of, middle_of
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, HALF
 

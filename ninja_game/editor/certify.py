@@ -19,15 +19,14 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import object_type_name
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
-from ninja_game.files.user_folder import install_hint
-from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
 from ninja_game.formats.messages import NEAR
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.levels.lint import object_name
 from ninja_game.runs.run import RunResult, run_level
-from ninja_game.runtime import NewestJob
+from ninja_game.runtime import NewestJob, install_hint
 from ninja_game.sim.events import LOCK_OPENED
+from ninja_game.sim.grid import Cell, cell_of, is_inside, middle_of
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import MOVING_ENEMIES
 from ninja_game.sim.level import Level, makes_object

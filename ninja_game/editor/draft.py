@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ninja_game.formats.ascii.places import Cell, is_inside
+from ninja_game.sim.grid import Cell, is_inside
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 
 Tiles = dict[Cell, int]

@@ -6,11 +6,11 @@ from functools import cache
 from itertools import product
 from typing import NamedTuple
 
-from ninja_game.formats.ascii.places import Cell, cell_of
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import UNIT_X, UNIT_Y
-from ninja_game.sim.memory.schema import TileMap
+from ninja_game.sim.grid import Cell, cell_of
 from ninja_game.sim.rules import CELL, HALF, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.schema.world_fields import TileMap
 
 TILE_IDS = range(34)
 

@@ -23,7 +23,7 @@ from ninja_game.errors import LinkError, NinjaGameError, PackError
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.shown_text import counted, file_stem, name_problem, shown_text
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import free_path, install_hint
+from ninja_game.files.user_folder import free_path
 from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MAX_COLUMNS, parse_index
@@ -32,6 +32,7 @@ from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.episodes import episode_set
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.runs.packs import KINDS, findings, has_gold_out_of_reach, is_certified, level_of, make_pars
+from ninja_game.runtime import install_hint
 from ninja_game.sim.level import Level
 
 if TYPE_CHECKING:

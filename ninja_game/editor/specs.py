@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ninja_game.editor.motion import Motion
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, WEAPONS
 from ninja_game.formats.ascii.object_lines import DOORS, MOVEMENTS, SIDES, door_middle
-from ninja_game.formats.ascii.places import Point, cell_of
+from ninja_game.sim.grid import Point, cell_of
 from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KIND_NAMES, LAUNCH_PAD, ONE_WAY, THWUMP
 from ninja_game.sim.level import ObjectSpec, makes_object, well_formed
 from ninja_game.sim.rules import CELL, HALF

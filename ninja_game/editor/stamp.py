@@ -14,7 +14,7 @@ from ninja_game.editor.brush import EMPTY, FAMILIES, FULL, QUARTERS, cells_betwe
 from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import FLIP, MIRROR, Motion
 from ninja_game.editor.specs import carried, points
-from ninja_game.formats.ascii.places import Cell, Point, cell_of, is_inside
+from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
 from ninja_game.sim.rules import CELL, HALF

@@ -16,8 +16,8 @@ from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, has_switch, points, properties, with_word, word
 from ninja_game.formats.ascii.object_lines import SIDES
-from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
 from ninja_game.formats.messages import parse_messages, with_message_moved
+from ninja_game.sim.grid import Cell, cell_of, is_inside, middle_of
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, LAUNCH_PAD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, WORLD_HEIGHT, WORLD_WIDTH

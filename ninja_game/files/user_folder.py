@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import os
-import shlex
-import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from itertools import count
 from pathlib import Path
 
 from ninja_game.errors import FileError
 from ninja_game.files.shown_text import file_stem, name_key
-from ninja_game.runtime import IN_PAGE, ONLY_ON_A_DESKTOP
 
 HOME_VARIABLE = "NINJA_GAME_HOME"  # environment variable that moves the folder
 
@@ -114,76 +111,3 @@ def export_path(folder: Path, title: str, suffix: str) -> Path:
     exports = folder / EXPORTS
     exports.mkdir(parents=True, exist_ok=True)
     return free_path(exports, file_stem(title, "replay"), suffix, first=0)
-
-
-PACKAGE = Path(__file__).resolve().parent.parent
-CHECKOUT = {name: PACKAGE.parent / name for name in ("levels", "assets", "docs")}
-"""The folders of a checkout that an installed package has in ``data``."""
-
-
-def data_folder(name: str) -> Path:
-    """The folder of the bundled ``levels``, ``assets`` or ``docs``."""
-    inside = PACKAGE / "data" / name
-    return inside if inside.is_dir() else CHECKOUT[name]
-
-
-def asset_text(name: str) -> str:
-    """The text of a bundled file of ``assets``."""
-    return (data_folder("assets") / name).read_text("utf-8")
-
-
-def asset_lines(name: str) -> Iterator[str]:
-    """The lines of such a file, without comments (``# ...``) and empty ones."""
-    return (line for line in asset_text(name).splitlines() if line and not line.startswith("# "))
-
-
-def asset_rows(name: str) -> Iterator[list[str]]:
-    """The cells of those lines, between bars."""
-    return ([cell.strip() for cell in line.split("|")] for line in asset_lines(name))
-
-
-def is_bundled(path: Path) -> bool:
-    """Whether a file is one of the game's own, in its folder of levels, by any path."""
-    return path.resolve().is_relative_to(data_folder("levels").resolve())
-
-
-def bundled_levels() -> list[Path]:
-    """The files of the game's own levels, in playing order.
-
-    >>> all(path.suffix == ".txt" for path in bundled_levels())
-    True
-    """
-    return sorted(data_folder("levels").glob("*.txt"))
-
-
-def own_levels() -> dict[str, Path]:
-    """The game's level files by their names without a suffix, for commands and agents."""
-    return {path.stem: path for path in bundled_levels()}
-
-
-def bundled_replays() -> list[Path]:
-    """The certificates of the game's own levels, replays that pass them, in the levels' order."""
-    return sorted(data_folder("levels").glob(f"certificates/*{REPLAY_SUFFIX}"))
-
-
-def install_hint(extra: str) -> str:
-    """How to install an optional part of the program: in a checkout its own tool, else pip of the running Python.
-
-    It names the packages of the part, not this one, which the user's index may not have.
-    """
-    if IN_PAGE:
-        return ONLY_ON_A_DESKTOP
-    # Its import takes as long as all the rest.
-    from importlib.metadata import PackageNotFoundError, requires
-
-    tool = PACKAGE.parent / "tools" / "dev.py"
-    if tool.is_file():
-        return f"start the command as 'python3 {tool} run ...', which installs what is missing"
-    try:
-        needed = [requirement.partition(";") for requirement in requires("ninja-game") or ()]
-    except PackageNotFoundError:
-        return "this copy of the program cannot be added to; use one that is installed in a Python"
-    packages = [
-        package.strip() for package, _, marker in needed if marker.replace('"', "'").strip() == f"extra == '{extra}'"
-    ]
-    return f"install it: {sys.executable} -m pip install {shlex.join(packages)}"

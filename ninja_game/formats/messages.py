@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.places import middle_of
+from ninja_game.sim.grid import middle_of
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 

@@ -8,7 +8,6 @@ from itertools import pairwise
 from math import dist
 from random import Random
 
-from ninja_game.formats.ascii.places import Cell
 from ninja_game.generator.gold import lay_gold
 from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.obstacles import MAX_OBJECTS, fill_voids, place_enemies, place_fixtures, place_mines
@@ -16,6 +15,7 @@ from ninja_game.generator.scene import RockBoard, Scene, flood, mirrored, object
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.lint import level_findings
 from ninja_game.runs.run import run_level
+from ninja_game.sim.grid import Cell
 from ninja_game.sim.inputs import Input
 from ninja_game.sim.level import TILES, Level
 from ninja_game.sim.rules import TICKS_PER_SECOND

@@ -11,9 +11,10 @@ from datetime import date
 from pathlib import Path
 from threading import Event
 
+from ninja_game.files.bundled import data_folder
 from ninja_game.files.reading import read_text
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import DAILY, data_folder
+from ninja_game.files.user_folder import DAILY
 from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel

@@ -11,7 +11,6 @@ from random import Random
 from threading import Event
 
 from ninja_game.batch.difficulty import TRIES, difficulty
-from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.replay.text import Replay
 from ninja_game.generator.compose import compose
@@ -25,6 +24,7 @@ from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import UnverifiedRunError, verified_run
 from ninja_game.search.solve import solve
 from ninja_game.search.task import Task
+from ninja_game.sim.grid import Point
 from ninja_game.sim.level import Level
 
 # Difficulties that can be asked for.

@@ -7,8 +7,8 @@ from itertools import pairwise
 from math import cos, dist, sin, tau
 from random import Random
 
-from ninja_game.formats.ascii.places import Point, cell_of, middle_of
 from ninja_game.generator.scene import Scene, object_of
+from ninja_game.sim.grid import Point, cell_of, middle_of
 from ninja_game.sim.rules import CELL
 
 MIN_PIECES = 26  # least pieces in a level

@@ -10,10 +10,10 @@ from random import Random
 import numpy as np
 
 from ninja_game.formats.ascii.legend import WEAPONS
-from ninja_game.formats.ascii.places import Cell, Point, middle_of
 from ninja_game.generator.gold import along, lay_about
 from ninja_game.generator.scene import MIDDLE, Scene, mirrored, object_of, places
 from ninja_game.sim import kinds
+from ninja_game.sim.grid import Cell, Point, middle_of
 from ninja_game.sim.kinds import ENEMIES
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, PAD_RADIUS

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game.errors import FileError
+from ninja_game.files.bundled import data_folder
 from ninja_game.files.reading import read_bytes
-from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.replay.input_text import read_inputs

@@ -14,9 +14,9 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from ninja_game.formats.ascii.legend import TILE_OF_CHAR
 from ninja_game.formats.ascii.object_lines import ListedObject, read_object_line
-from ninja_game.formats.ascii.places import Cell, Point, cell_of, is_inside, middle_of
 from ninja_game.generator.shaping import FINE, Ink
 from ninja_game.sim import kinds
+from ninja_game.sim.grid import Cell, Point, cell_of, is_inside, middle_of
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.rules import CELL
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.level import COLUMNS, ROWS
-from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import CELL, STRIDE
+from ninja_game.sim.schema.world_fields import TileMap
 
 FINE = 8  # samples per cell, across and down
 FULL = TILE_CHARS.index("#")

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from ninja_game.errors import MissingExtraError
-from ninja_game.files.user_folder import install_hint
+from ninja_game.runtime import install_hint
 
 try:
     from gymnasium.envs import registration

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 
 from ninja_game.budget import DATASET_MIB
 from ninja_game.errors import ArgumentError, BudgetError, MissingExtraError, NinjaGameError
-from ninja_game.files.user_folder import install_hint
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.n14.level_string import level_digest, write_level_string
 from ninja_game.formats.recording import Recording
@@ -30,6 +29,7 @@ from ninja_game.learn.observations.observation import Observed
 from ninja_game.learn.single import NinjaEnv
 from ninja_game.learn.worlds import TaskSettings
 from ninja_game.runs.run import run_level
+from ninja_game.runtime import install_hint
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, KEYS_DOWN
 from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import LIFETIME
@@ -192,7 +192,7 @@ def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: An
     ]
     longest = max(LIFETIME, *(len(episode.rewards) for episode in episodes))
     own = {"level": list(levels.values()), "body": bodies.pop(), "frame_skip": 1, "time_limit": longest}
-    env = gymnasium.make("ninja_game:Ninja-v0", **{**own, **settings})
+    env = gymnasium.make("ninja_game.learn:Ninja-v0", **{**own, **settings})
     try:
         with env, warnings.catch_warnings():
             # Minari warns about a missing address of the author, link and scores, which recordings do not have.

@@ -16,8 +16,8 @@ from ninja_game.batch.batch import Indices
 from ninja_game.learn.observations.part import PartContext, clamp
 from ninja_game.search.heuristics import FARTHEST, POINTS, Heuristics, open_bits, point_at
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.declare import fast, kernel
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.schema.declare import fast, kernel
 
 SPARE_FIELDS = 1024  # fields that are kept although no world is in their state; 53 KB each
 

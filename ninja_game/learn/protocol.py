@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.schema.declare import fast
 
 REPEAT = 0.25
 """Chance that a step repeats the keys of the previous step instead of the chosen ones."""

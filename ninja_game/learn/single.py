@@ -1,7 +1,7 @@
 """One world as a Gymnasium environment.
 
 >>> import gymnasium
->>> env = gymnasium.make("ninja_game:Ninja-v0", level="00-0-first-steps")
+>>> env = gymnasium.make("ninja_game.learn:Ninja-v0", level="00-0-first-steps")
 >>> observation, info = env.reset(seed=0)
 >>> observation, reward, terminated, truncated, info = env.step(5)
 >>> env.action_space, observation.shape, reward, info["outcome"], info["ticks"]

@@ -36,9 +36,9 @@ from ninja_game.sim.digest import world_digest
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, MINE_EXPLODED
 from ninja_game.sim.inputs import with_press_bit
 from ninja_game.sim.level import Body, is_box
-from ninja_game.sim.memory.declare import kernel
-from ninja_game.sim.memory.schema import MAX_EVENTS, World
 from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.schema.declare import kernel
+from ninja_game.sim.schema.world_fields import MAX_EVENTS, World
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 from ninja_game.sim.world import step
 from ninja_game.simulation import SaveState, Simulation
@@ -235,7 +235,7 @@ class EnvWorlds:
             raise ArgumentError("the solver's field is not made for levels without end; take others, such as 'packed'")
         self.goal = GoalDistance(self.levels, context) if needs_goal else None
         self._shaping = Shaping(shaping, self.goal) if self.goal and shaping else None
-        self.observations = self.observation.memory(count)
+        self.observations = self.observation.buffers(count)
         self._context = replace(context, goal=self.goal)
         self._writers = self.observation.writers(self.observations, self._context)
         self._advance = self._worlds.kernel(advance_worlds)

@@ -6,8 +6,8 @@ import tomllib
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from ninja_game.files.user_folder import asset_text
-from ninja_game.formats.ascii.places import Cell
+from ninja_game.files.bundled import asset_text
+from ninja_game.sim.grid import Cell
 
 
 class Wording(NamedTuple):

@@ -20,9 +20,9 @@ from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.grid import cell_at, grid_remove
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, makes_object, well_formed
 from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import CAPACITY, TileMap, World
 from ninja_game.sim.objects.door import create_door
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import CAPACITY, TileMap, World
 from ninja_game.sim.states import LOCKED, TRAP
 
 Squares = dict[tuple[float, float], set[tuple[float, float]]]

@@ -13,8 +13,8 @@ from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import CELL, HALF
+from ninja_game.sim.schema.world_fields import TileMap
 
 COLOURS = dict.fromkeys((kind.number for kind in kinds.KINDS if kind.killer), "bright_red") | {
     kinds.GOLD: "bright_yellow",

@@ -11,8 +11,9 @@ from pathlib import Path
 import pygame
 
 from ninja_game.errors import NinjaGameError, reason
+from ninja_game.files.bundled import data_folder
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.user_folder import data_folder, export_path, short_path
+from ninja_game.files.user_folder import export_path, short_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.episodes import Mood

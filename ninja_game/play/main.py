@@ -10,7 +10,7 @@ import pygame
 
 from ninja_game.backend.memories import warm_up
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.formats.links import is_link, read_link, recordings_of
 from ninja_game.formats.load import load_level, load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel

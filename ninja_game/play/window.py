@@ -1,8 +1,7 @@
-"""The window: opening, full screen and back, the game's icon and name."""
+"""The window: opening, full screen and back, the game's name."""
 
 from __future__ import annotations
 
-import io
 import os
 import warnings
 from functools import cache, partial
@@ -14,8 +13,9 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import SETTINGS, user_folder
 from ninja_game.files.writing import write_atomically
 from ninja_game.player.settings import Settings, read_usable_settings
-from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.ui.theme import PALETTES, Theme, palette_named
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, png_of
+from ninja_game.ui.theme import Theme, palette_named
+from ninja_game.view.ninja.figure import icon
 
 TITLE = "ninja-game"
 LOGO = "NINJA"
@@ -120,12 +120,6 @@ def save_picture(surface: pygame.Surface, path: Path) -> None:
     write_atomically(path, png_of(surface))
 
 
-def png_of(surface: pygame.Surface) -> bytes:
-    png = io.BytesIO()
-    pygame.image.save(surface, png, "picture.png")
-    return png.getvalue()
-
-
 def prepare_sdl() -> None:
     """Set the variables that SDL reads when it starts."""
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
@@ -173,19 +167,6 @@ def fitting_size(wished: tuple[int, int] = (0, 0), *, wide: bool = False) -> tup
         return max(WIDTH, min(width - 40, WIDEST[0])), max(HEIGHT, min(height - 100, WIDEST[1]))
     halves = max(2, min(2 * (width - 20) // WIDTH, 2 * (height - 80) // HEIGHT))
     return WIDTH * halves // 2, HEIGHT * halves // 2
-
-
-def icon(size: int, *, corner: float = 1 / 6) -> pygame.Surface:
-    """The game's icon, the running ninja. ``size``: px; ``corner``: radius of the corners, as a share of it."""
-    from ninja_game.view.ninja.figure import ninja_sprite, run_pose
-
-    palette = PALETTES["classic"]
-    picture = pygame.Surface((size, size), pygame.SRCALPHA)
-    pygame.draw.rect(picture, palette.background, picture.get_rect(), border_radius=int(size * corner))
-    scale = size / 28 if corner else size / 40
-    sprite = ninja_sprite(scale, palette, run_pose(0.1, 5.0), 1, (5, 0), colour=palette.ninja)
-    sprite.blit(picture, (size // 2, size // 2))
-    return picture
 
 
 WIPE_MS = 300

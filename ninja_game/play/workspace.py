@@ -11,9 +11,9 @@ import pygame
 
 from ninja_game.document import OccupiedError
 from ninja_game.errors import NinjaGameError, reason
-from ninja_game.files.user_folder import asset_rows
+from ninja_game.files.bundled import asset_rows
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import CANCEL, MOUSE, Action, Menu, MenuRow, MenuScreen, nothing
+from ninja_game.play.menu_screen import CANCEL, MOUSE, Action, Menu, MenuRow, MenuScreen, nothing
 from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.input.bindings import ACTIONS, InputEvent
 from ninja_game.ui.input.gamepad import Gamepads

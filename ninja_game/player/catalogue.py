@@ -12,8 +12,8 @@ from functools import cached_property
 from pathlib import Path
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.bundled import data_folder
 from ninja_game.files.reading import Skipped, files_below, files_in, stamp_of
-from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.index import PackIndex
 from ninja_game.formats.pack.pack import CERTIFICATES, Pack, PackFiles, certificate_name, is_pack

@@ -1,7 +1,7 @@
 """Archives: any number of recordings verified or traced, on all cores or a cluster, in order, in constant memory.
 
 >>> from pathlib import Path
->>> from ninja_game.files.user_folder import data_folder
+>>> from ninja_game.files.bundled import data_folder
 >>> totals = Totals()
 >>> for result in verify_all([data_folder("levels") / "certificates"], jobs=2):
 ...     totals.add(result)
@@ -26,7 +26,7 @@ from typing import IO, Any, TypeAlias
 from ninja_game.backend.memories import choose_memory
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.user_folder import bundled_levels, data_folder
+from ninja_game.files.bundled import bundled_levels, data_folder
 from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import episodes_of

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import prefers_plain
+from ninja_game.backend.memories import register_run
 from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget, tick_cost
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
@@ -103,7 +103,7 @@ def run_splits(
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
     when its ``budget`` of work is.
     """
-    if prefers_plain(memory, recording.ticks * tick_cost(recording.level), now=True):
+    if register_run(memory, recording.ticks * tick_cost(recording.level)):
         memory = "plain"
     with named_errors(recording):
         run = Simulation(recording.level, body=recording.body, memory=memory)

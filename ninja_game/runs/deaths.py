@@ -8,8 +8,8 @@ from typing import Any
 from ninja_game.formats.ascii.legend import WEAPONS
 from ninja_game.sim.events import DIED
 from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import FATAL_IMPACT, FLOOR_ALLOWANCE
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import CAUSE_NAMES, FALL, NO_CAUSE
 
 SELF = "player"  # falls, being crushed, suicide, time

@@ -26,7 +26,7 @@ from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import MAX_TICKS, check_inputs
 from ninja_game.sim.kinds import KIND_NAMES, KIND_OF
 from ninja_game.sim.level import Body, Level, is_box
-from ninja_game.sim.memory.schema import MAX_EVENTS
+from ninja_game.sim.schema.world_fields import MAX_EVENTS
 
 Records: TypeAlias = NDArray[np.void]  # an array of NINJA_RECORD or OBJECT_RECORD
 

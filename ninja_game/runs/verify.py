@@ -12,7 +12,7 @@ from typing import Any
 
 from ninja_game.backend.memories import proven_memory
 from ninja_game.budget import RUN_BUDGET, affordable_ticks, tick_cost
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
@@ -112,7 +112,7 @@ def verify_recording(
 
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
     when its ``budget`` of work is (``ninja_game.budget``), OutOfRangeError for a run that leads out of its world,
-    SelfTestError where no run can be judged.
+    SelfTestError where no run can be judged, ArgumentError for anything but a recording.
     """
     return run_to_completion(verify_in_slices(recording, memory, counting, budget))
 
@@ -125,6 +125,8 @@ def verify_in_slices(
     slice_work: int = RUN_BUDGET,
 ) -> Generator[None, None, Verdict]:
     """As ``verify_recording``, but a generator: it pauses after each ``slice_work``, its value is the verdict."""
+    if not isinstance(recording, Recording):
+        raise ArgumentError(f"recording is {recording!r:.60}; expected a Recording: load_replays(path) reads them")
     claimed = None if recording.replay.unclaimed else recording.replay
     verdict = Verdict(
         recording.file, recording.record, recording.name, recording.author, level_digest(recording.level),

@@ -23,7 +23,7 @@ from multiprocessing import get_context, parent_process
 from typing import Any, TypeAlias, TypeVar
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.user_folder import install_hint
+from ninja_game.runtime import install_hint
 from ninja_game.signals import signals_deferred
 
 J = TypeVar("J")

@@ -41,9 +41,9 @@ from ninja_game.search.nodes import (
     random_below,
 )
 from ninja_game.search.states import Goal, estimate, find_entry, gold_hash, is_done, is_new, key_of, switch_state_of
-from ninja_game.sim.memory.declare import fast, kernel
-from ninja_game.sim.memory.schema import Ninja
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
+from ninja_game.sim.schema.declare import fast, kernel
+from ninja_game.sim.schema.world_fields import Ninja
 from ninja_game.sim.states import JUMPING, OUTCOME_DEAD, OUTCOME_EXIT, OUTCOME_RUNNING
 
 CHOICES = 10

@@ -29,7 +29,7 @@ from ninja_game.search.legs import (
 from ninja_game.search.nodes import PASSES, Resolution, Start
 from ninja_game.search.searching import Search
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bit
-from ninja_game.sim.memory.declare import kernel
+from ninja_game.sim.schema.declare import kernel
 from ninja_game.sim.world import step
 
 BEAM_LEGS = (

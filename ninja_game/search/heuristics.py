@@ -16,9 +16,9 @@ from ninja_game.backend.memories import compiled_if_possible
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.memory.declare import fast, kernel
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.schema.declare import fast, kernel
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import AUTOMATIC, LOCKED
 from ninja_game.sim.traces import is_open
 

@@ -16,8 +16,8 @@ from ninja_game.batch.batch import Keys
 from ninja_game.search.heuristics import UNREACHED, open_mask
 from ninja_game.search.nodes import Start, copy_words
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bit
-from ninja_game.sim.memory.declare import fast, kernel
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.declare import fast, kernel
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import OUTCOME_RUNNING
 from ninja_game.sim.world import step
 

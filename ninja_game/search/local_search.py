@@ -19,8 +19,8 @@ from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.nodes import MUTATIONS, RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.memory.declare import f8, fast, i8, kernel, struct
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.declare import f8, fast, i8, kernel, struct
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 from ninja_game.sim.world import step
 

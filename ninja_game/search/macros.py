@@ -11,8 +11,8 @@ from functools import cache
 
 from ninja_game.batch.batch import Keys
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bit
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.world import step
 
 RELEASED, PRESSED, PRESSED_AGAIN = 0, 1, 2

@@ -19,7 +19,7 @@ from ninja_game.backend.layout import STATE_START, Records, dtype_of, new_worlds
 from ninja_game.backend.memories import compiled
 from ninja_game.search.heuristics import UNREACHED
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.declare import f4, fast, i4, i8, kernel, struct, struct_base
+from ninja_game.sim.schema.declare import f4, fast, i4, i8, kernel, struct, struct_base
 
 StateWords = NDArray[np.int64]
 Int32s = NDArray[np.int32]

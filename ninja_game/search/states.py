@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from ninja_game.search.heuristics import open_mask
 from ninja_game.search.nodes import Counters, Resolution, TableEntry
 from ninja_game.sim.kinds import GOLD, LAUNCHER
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
 from ninja_game.sim.traces import is_open
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.rules import INF, NAN
+from ninja_game.sim.schema.declare import fast
 
 
 @fast

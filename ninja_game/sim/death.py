@@ -11,12 +11,12 @@ from math import sqrt
 from ninja_game.sim import kinds
 from ninja_game.sim.events import WON, emit, emit_death
 from ninja_game.sim.grid import grid_remove
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Header
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.objects.drone import stop_firing
 from ninja_game.sim.rules import RADIUS, ZAP_IMPULSE
 from ninja_game.sim.schedule import end_think, end_update
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Header
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import (
     CELEBRATING,
     DEAD,

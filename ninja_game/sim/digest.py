@@ -15,10 +15,10 @@ from operator import attrgetter
 from typing import Any
 
 from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
-from ninja_game.sim.memory.declare import fields_of, scalars_of
-from ninja_game.sim.memory.object_fields import Drone, Object
-from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.rules import NAN
+from ninja_game.sim.schema.declare import fields_of, scalars_of
+from ninja_game.sim.schema.object_fields import Drone, Object
+from ninja_game.sim.schema.world_fields import Ninja, World
 from ninja_game.sim.states import JUMPING, PSEUDO_RANDOM
 from ninja_game.sim.traces import is_traced, place_of, status_of
 

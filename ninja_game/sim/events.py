@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import MAX_EVENTS, World
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import MAX_EVENTS, World
 from ninja_game.sim.states import NO_CAUSE
 
 # Per event: whose it is (``slot``, 0: the ninja's), where it is (x, y, px) and what its vector (dx, dy) means:

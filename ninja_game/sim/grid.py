@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Header
-from ninja_game.sim.memory.schema import World
-from ninja_game.sim.rules import CELL, GRID_COLUMNS, GRID_ROWS, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.sim.rules import CELL, GRID_COLUMNS, GRID_ROWS, HALF, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Header
+from ninja_game.sim.schema.world_fields import World
+
+Point = tuple[float, float]  # x and y: px of the world or of a screen, or parts of cells
+
+Cell = tuple[int, int]
+"""Column 1…31, row 1…23; 0 and 32, 24 are the border."""
 
 
 @fast
@@ -86,3 +92,22 @@ def grid_move(w: World, o: Header) -> int:
     unlink(w, o)
     link(w, o, cell)
     return 1
+
+
+def is_inside(cell: Cell) -> bool:
+    """Tell whether a cell belongs to the level; border cells do not."""
+    return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS
+
+
+def cell_of(x: float, y: float) -> Cell:
+    """Column and row of the cell that holds a point, px.
+
+    >>> cell_of(24, 47.5)
+    (1, 1)
+    """
+    return int(x // CELL), int(y // CELL)
+
+
+def middle_of(cell: Cell) -> tuple[float, float]:
+    """A cell's middle, px."""
+    return CELL * cell[0] + HALF, CELL * cell[1] + HALF

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from enum import IntFlag
 
 from ninja_game.errors import DemoError
-from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.schema.declare import fast
 
 
 class Input(IntFlag):

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ninja_game.sim import rules
-from ninja_game.sim.memory import object_fields as fields
+from ninja_game.sim.schema import object_fields as fields
 
 GOLD, BOUNCE_BLOCK, LAUNCH_PAD, TURRET, FLOOR_GUARD, NINJA, DRONE = range(7)
 ONE_WAY, THWUMP, DOOR, LAUNCHER, EXIT, MINE = range(7, 13)

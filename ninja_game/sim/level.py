@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
-from ninja_game.errors import ArgumentError
+from ninja_game.errors import ArgumentError, LevelError
 from ninja_game.sim.kinds import GOLD, VALUE_COUNTS
 
 COLUMNS = 31
@@ -82,3 +82,22 @@ class Level:
     def tile(self, column: int, row: int) -> int:
         """Give the tile id at interior cell ``column`` 1…31, ``row`` 1…23 (indices of the full 33 x 25 grid)."""
         return self.tiles[(column - 1) * ROWS + (row - 1)]
+
+
+def check_level(data: object) -> None:
+    """Raise LevelError for anything but a level: 713 whole numbers and records of numbers."""
+    if not isinstance(data, Level):
+        hint = "load_level(path) and parse_level(text) read one"
+        raise LevelError("this is not a level", found=repr(data)[:40], expected="a Level", hint=hint)
+    if len(data.tiles) != TILES or not all(issubclass(kind, int) for kind in set(map(type, data.tiles))):
+        raise LevelError("not the tiles of a level", expected=f"{TILES} whole numbers")
+    for number, spec in enumerate(data.objects):
+        try:
+            good = isinstance(spec.kind, int) and all(isinstance(float(value), float) for value in spec.values)
+        except (TypeError, ValueError, OverflowError, AttributeError):
+            good = False
+        if not good:
+            expected = "a whole number as its kind, and float64 numbers"
+            raise LevelError(
+                f"object {number} of the level is not an ObjectSpec", found=repr(spec)[:60], expected=expected
+            )

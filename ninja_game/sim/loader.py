@@ -9,11 +9,11 @@ from ninja_game.errors import LevelError
 from ninja_game.sim.collision.tiles import ODD_HALF_ID, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import EXIT, INERT, NINJA, VALUE_COUNTS
-from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level, makes_object
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import CAPACITY, Ninja, TileMap, World
+from ninja_game.sim.level import COLUMNS, ROWS, Level, check_level, makes_object
 from ninja_game.sim.objects.dispatch import create
 from ninja_game.sim.rules import DEFAULT_SPAWN_X, DEFAULT_SPAWN_Y, DRAG, GRAVITY, GRID_COLUMNS, GRID_ROWS, STRIDE
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import CAPACITY, Ninja, TileMap, World
 
 
 def grid_tiles(data: Level) -> list[int]:
@@ -43,7 +43,7 @@ def object_table(data: Level) -> ObjectTable:
     The rules can rely on what passes. A record of an unknown kind creates nothing (objects.md §2.1). Raises LevelError
     for an argument that is not a level, and for a level without a ninja or with too many objects.
     """
-    _check(data)
+    check_level(data)
     specs = list(filter(makes_object, data.objects))
     kinds = [int(spec.kind) for spec in specs]
     if NINJA not in kinds:
@@ -58,25 +58,6 @@ def object_table(data: Level) -> ObjectTable:
             expected=f"at most {CAPACITY - 1}",
         )
     return ObjectTable(kinds, counts, values, slots)
-
-
-def _check(data: object) -> None:
-    """Raise LevelError for anything but a level: 713 whole numbers and records of numbers."""
-    if not isinstance(data, Level):
-        hint = "load_level(path) and parse_level(text) read one"
-        raise LevelError("this is not a level", found=repr(data)[:40], expected="a Level", hint=hint)
-    if len(data.tiles) != TILES or not all(issubclass(kind, int) for kind in set(map(type, data.tiles))):
-        raise LevelError("not the tiles of a level", expected=f"{TILES} whole numbers")
-    for number, spec in enumerate(data.objects):
-        try:
-            good = isinstance(spec.kind, int) and all(isinstance(float(value), float) for value in spec.values)
-        except (TypeError, ValueError, OverflowError, AttributeError):
-            good = False
-        if not good:
-            expected = "a whole number as its kind, and float64 numbers"
-            raise LevelError(
-                f"object {number} of the level is not an ObjectSpec", found=repr(spec)[:60], expected=expected
-            )
 
 
 @fast

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Header
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Header
+from ninja_game.sim.schema.world_fields import World
 
 
 @fast

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import DRAG, GRAVITY
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import World
 
 # The ninja (ninja.md §2; the order matters: 0-2 are ground states, 3-5 air states).
 STANDING, RUNNING, SKIDDING, JUMPING, FALLING, SLIDING, DEAD, CELEBRATING = range(8)

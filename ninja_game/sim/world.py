@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.ninja.tick import tick_ninja
 from ninja_game.sim.objects.dispatch import think, update_objects
 from ninja_game.sim.rules import THINK_PAUSE
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import DEAD
 
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 from ninja_game.document import check_free, digest_of_file
 from ninja_game.errors import DAMAGED, LevelError, NinjaGameError, ReplayError
+from ninja_game.files.bundled import is_bundled
 from ninja_game.files.reading import digest_of, read_bytes, read_utf8
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import is_bundled
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.links import is_link

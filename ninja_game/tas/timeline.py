@@ -24,8 +24,8 @@ from ninja_game.sim.digest import differences, state_digest
 from ninja_game.sim.inputs import MAX_TICKS, fit_inputs
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Body, Level, is_box
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_NAMES
 from ninja_game.simulation import SaveState, Simulation
 from ninja_game.tas.tracks import first_difference

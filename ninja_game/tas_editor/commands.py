@@ -11,14 +11,15 @@ from itertools import islice
 from pathlib import Path
 from time import localtime, strftime
 
+from ninja_game.files.bundled import is_bundled
 from ninja_game.files.locking import remove_abandoned
 from ninja_game.files.shown_text import counted, file_stem
-from ninja_game.files.user_folder import REPLAY_SUFFIX, REPLAYS, free_path, is_bundled, short_path
+from ninja_game.files.user_folder import REPLAY_SUFFIX, REPLAYS, free_path, short_path
 from ninja_game.formats.links import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
+from ninja_game.play.menu_screen import Action, FormPanel, Menu, MenuRow, nothing
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.menu_screen import Action, FormPanel, Menu, MenuRow, nothing
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.workspace import CommandMenu, Commands, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.player_data import keep_replay

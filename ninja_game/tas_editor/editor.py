@@ -12,9 +12,9 @@ from weakref import WeakKeyDictionary
 import pygame
 
 from ninja_game.errors import NinjaGameError, reason
-from ninja_game.formats.ascii.places import Point
 from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, Pane
+from ninja_game.sim.grid import Point
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.journal import BesideRun
 from ninja_game.tas.session import Session

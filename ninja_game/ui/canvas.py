@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from io import BytesIO
 from math import log
 
 import pygame
 
-from ninja_game.formats.ascii.places import Point
+from ninja_game.sim.grid import Point
 
 WIDTH, HEIGHT = 792, 600
 """Logical size of the stage, px."""
@@ -232,3 +233,9 @@ def _origin(window: int, length: float, centre: float, scale: float) -> int:
     if whole <= window:
         return (window - whole) // 2
     return min(0, max(window - whole, round(window / 2 - centre * scale)))
+
+
+def png_of(surface: pygame.Surface) -> bytes:
+    png = BytesIO()
+    pygame.image.save(surface, png, "picture.png")
+    return png.getvalue()

@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import pygame
 
+from ninja_game.files.bundled import asset_lines
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.user_folder import asset_lines
-from ninja_game.formats.ascii.places import Point
+from ninja_game.sim.grid import Point
 from ninja_game.ui.canvas import Canvas, Colour, draw_limb
 
 _KEPT = 400  # cached texts; a running clock adds one per picture

@@ -8,7 +8,7 @@ from math import cos, pi, sin
 
 import pygame
 
-from ninja_game.formats.ascii.places import Point
+from ninja_game.sim.grid import Point
 from ninja_game.ui.canvas import Colour
 from ninja_game.ui.theme import GROUND_ROLES, Palette, mixed
 

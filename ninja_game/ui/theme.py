@@ -13,7 +13,7 @@ from typing import Any
 
 import pygame
 
-from ninja_game.files.user_folder import asset_lines
+from ninja_game.files.bundled import asset_lines
 from ninja_game.ui.canvas import Canvas, Colour
 from ninja_game.ui.lettering import HEIGHT, Lettering
 

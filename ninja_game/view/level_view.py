@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Protocol
 
 import pygame
 
-from ninja_game.formats.ascii.places import Point
 from ninja_game.player.settings import Settings
 from ninja_game.sim.events import DIED, MINE_EXPLODED, ROCKET_EXPLODED
+from ninja_game.sim.grid import Point
 from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.player import AudioOutput

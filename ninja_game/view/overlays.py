@@ -12,10 +12,10 @@ from ninja_game.sim import rules
 from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
 from ninja_game.sim.kinds import DOOR, DRONE, KIND_OF, LAUNCHER, SWITCH, TURRET
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.objects.dispatch import NINE_CELLS
 from ninja_game.sim.rules import CELL, HALF, INTERESTING, OFF, RADIUS, STRIDE
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import AUTOMATIC, WEAPON_ZAP
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas

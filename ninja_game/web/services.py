@@ -112,7 +112,7 @@ class PageServices:
         """
         from tempfile import TemporaryDirectory
 
-        from ninja_game.files.user_folder import bundled_levels
+        from ninja_game.files.bundled import bundled_levels
         from ninja_game.formats.load import load_levels
         from ninja_game.formats.n14.level_string import level_digest
         from ninja_game.runs.recording_reader import Unreadable, recordings_in

@@ -23,7 +23,7 @@ from ninja_game.backend.memories import (
     switch_to_compiled,
 )
 from ninja_game.backend.self_test import RUNS, known_keys, known_level
-from ninja_game.budget import PLAIN_WORK, tick_cost
+from ninja_game.budget import NO_LIMIT, PLAIN_WORK, tick_cost
 from ninja_game.errors import FileError
 from ninja_game.formats.load import load_replays
 from ninja_game.runs.run import run_level
@@ -46,7 +46,7 @@ class Compiler:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.asked, self.ready_after = 0, 10**9
-        monkeypatch.setattr(memories, "prefers_plain", lambda memory, *_, **__: memory == "auto")
+        monkeypatch.setattr(memories, "register_run", lambda memory, *_, **__: memory == "auto")
         monkeypatch.setattr(memories, "_kernels_ready", self.are_there)
         monkeypatch.setattr(background_compiler, "is_compiling", lambda: True)
         for module in ("backend.memories", "runs.run", "runs.trace"):
@@ -112,8 +112,8 @@ def test_a_verdict_is_the_same_wherever_the_run_goes_over(compiler: Compiler) ->
 def test_a_few_short_runs_are_not_worth_loading_numba(monkeypatch: pytest.MonkeyPatch) -> None:
     run = load_replays(PACK / "certificates" / "00-4-locksmith.exit.replay.txt")[0]
     work = tick_cost(run.level) * run.ticks
-    monkeypatch.setattr(memories, "_KERNELS", {})
-    monkeypatch.setattr(memories, "_WORK", [PLAIN_WORK - 3 * work])
+    monkeypatch.setattr(memories._PROCESS, "kernels", {})
+    monkeypatch.setattr(memories._PROCESS, "short_work", PLAIN_WORK - 3 * work)
     monkeypatch.setattr(memories, "_kernels_ready", lambda *, checked: True)
     monkeypatch.setenv(background_compiler.VARIABLE, "1")
     assert proven_memory("auto", work) == CHECKED_LATER
@@ -170,7 +170,7 @@ def started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[tuple[list[
     monkeypatch.setattr(subprocess, "Popen", Started)
     monkeypatch.setattr(Started, "commands", [])
     monkeypatch.setattr(background_compiler, "_STARTED", [])
-    monkeypatch.setattr(memories, "_KERNELS", {})
+    monkeypatch.setattr(memories._PROCESS, "kernels", {})
     for module in ("kernel_cache", "background_compiler"):
         monkeypatch.setattr(f"ninja_game.backend.{module}.code_folder", lambda: tmp_path / "cache")
     monkeypatch.setenv(background_compiler.VARIABLE, "1")
@@ -194,7 +194,7 @@ def test_the_first_run_on_a_machine_starts_one_process_that_compiles(
 def test_who_names_a_memory_gets_it_and_starts_nothing(
     memory: str, started: list[tuple[list[str], dict[str, Any]]]
 ) -> None:
-    assert not memories.prefers_plain(memory, 0, now=True)
+    assert not memories.register_run(memory, 0)
     assert not started
 
 
@@ -212,7 +212,7 @@ def test_a_run_that_begins_now_looks_for_its_kernels_once(
 ) -> None:
     asked: list[bool] = []
     monkeypatch.setattr(memories, "_kernels_ready", lambda *, checked: asked.append(checked))
-    assert memories.prefers_plain(now=True)
+    assert memories.register_run("auto", NO_LIMIT)
     assert (asked, len(started)) == ([False], 1)
 
 
@@ -220,7 +220,7 @@ def test_switched_off_it_is_not_started(
     started: list[tuple[list[str], dict[str, Any]]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(background_compiler.VARIABLE, "0")
-    assert not memories.prefers_plain("auto", 0, now=True)
+    assert not memories.register_run("auto", 0)
     memories.warm_up()
     background_compiler.start()
     assert not started
@@ -279,7 +279,7 @@ def test_one_compiles_at_a_time_and_a_dead_one_keeps_nobody(tmp_path: Path) -> N
 SMALL = """
 import sys
 from ninja_game.backend import kernel_cache, memories
-from ninja_game.sim.memory.declare import kernel
+from ninja_game.sim.schema.declare import kernel
 import numpy as np
 @kernel
 def doubled(numbers: object) -> int:

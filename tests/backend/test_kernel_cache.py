@@ -28,8 +28,8 @@ PROGRAM = """
 {first}
 from ninja_game.backend import kernel_cache, memories
 from ninja_game.backend.compiled import load_worlds
-from ninja_game.sim.memory.declare import kernel, fast
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.declare import kernel, fast
+from ninja_game.sim.schema.world_fields import World
 import numpy as np
 FACTOR = {factor}
 @fast

@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.levels.picture import level_picture
 from tests.support.samples import NO_NINJA, SPIKED, WALK, running, write_records

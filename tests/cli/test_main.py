@@ -14,7 +14,7 @@ from click.testing import CliRunner
 from ninja_game.cli.commands import COMMANDS
 from ninja_game.cli.main import cli
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.user_folder import bundled_levels, data_folder
+from ninja_game.files.bundled import bundled_levels, data_folder
 from ninja_game.signals import Terminated
 from tests.support.samples import WALK, replay_of_walk, running, write_records
 

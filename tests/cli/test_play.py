@@ -14,7 +14,7 @@ from click.testing import CliRunner, Result
 
 from ninja_game.cli import windows
 from ninja_game.cli.main import cli
-from ninja_game.files.user_folder import bundled_levels
+from ninja_game.files.bundled import bundled_levels
 from ninja_game.play.lab.screen import FIGURES
 from ninja_game.tas_editor.opening import open_tas_editor
 

@@ -28,7 +28,8 @@ from ninja_game.editor.files import (
 from ninja_game.editor.motion import Motion
 from ninja_game.editor.stamp import Selection, Stamp, everything, moved, put, removed
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.user_folder import EDITING, bundled_levels, free_path
+from ninja_game.files.bundled import bundled_levels
+from ninja_game.files.user_folder import EDITING, free_path
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import parse_levels

@@ -26,9 +26,9 @@ from ninja_game.editor.specs import points, word
 from ninja_game.editor.stamp import Selection, chosen_in, covered, rounded
 from ninja_game.editor.tools import EditorTools
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.formats.ascii.places import cell_of, is_inside
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.sim import kinds
+from ninja_game.sim.grid import cell_of, is_inside
 from ninja_game.sim.level import Level
 
 

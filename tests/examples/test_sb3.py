@@ -58,4 +58,4 @@ def test_its_checker_takes_every_environment(name: str) -> None:
     import gymnasium
     from stable_baselines3.common.env_checker import check_env
 
-    check_env(gymnasium.make(f"ninja_game:{name}", memory="plain", time_limit=40).unwrapped)
+    check_env(gymnasium.make(f"ninja_game.learn:{name}", memory="plain", time_limit=40).unwrapped)

@@ -16,11 +16,13 @@ from unittest.mock import Mock
 
 import pytest
 
+from ninja_game import runtime
 from ninja_game.errors import FileError
-from ninja_game.files import user_folder as folders, writing
+from ninja_game.files import writing
+from ninja_game.files.bundled import data_folder
 from ninja_game.files.locking import locked, read_abandoned, remove_abandoned, try_lock
 from ninja_game.files.reading import Skipped, files_below, read_bytes, read_text, read_utf8, text_files
-from ninja_game.files.user_folder import data_folder, user_folder
+from ninja_game.files.user_folder import user_folder
 from ninja_game.files.writing import open_atomically, remove_leftovers, write_atomically
 
 
@@ -290,12 +292,12 @@ def test_home_of_an_unknown_user_is_an_error_of_ours(monkeypatch: pytest.MonkeyP
 
 
 def test_what_is_missing_is_installed_as_the_place_has_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert "tools/dev.py run" in folders.install_hint("fast")
-    monkeypatch.setattr(folders, "PACKAGE", tmp_path / "site-packages" / "ninja_game")
+    assert "tools/dev.py run" in runtime.install_hint("fast")
+    monkeypatch.setattr(runtime, "PACKAGE", tmp_path / "site-packages" / "ninja_game")
     install = f"install it: {sys.executable} -m pip install "
-    assert folders.install_hint("learn").startswith(f"{install}'gymnasium>=")
+    assert runtime.install_hint("learn").startswith(f"{install}'gymnasium>=")
     for extra in ("fast", "cluster", "plots", "film", "learn", "minari", "train"):
-        told = folders.install_hint(extra).removeprefix(install)
+        told = runtime.install_hint(extra).removeprefix(install)
         assert told
         assert "ninja-game" not in told, "nobody knows whether it can be had there"
 
@@ -303,4 +305,4 @@ def test_what_is_missing_is_installed_as_the_place_has_it(tmp_path: Path, monkey
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr("importlib.metadata.requires", refuse)
-    assert folders.install_hint("fast").startswith("this copy of the program cannot be added to")
+    assert runtime.install_hint("fast").startswith("this copy of the program cannot be added to")

@@ -19,7 +19,7 @@ from hypothesis import given, strategies as st
 from ninja_game.cli.convert import link_of
 from ninja_game.errors import FormatError, LinkError, NinjaGameError
 from ninja_game.files import reading
-from ninja_game.files.user_folder import bundled_levels, bundled_replays, data_folder
+from ninja_game.files.bundled import bundled_levels, bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.links import (
     MAX_BYTES,

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from ninja_game.errors import FileError
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.generator import packed
 from ninja_game.generator.packed import PACKED, generated_levels, pack, read_line

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from ninja_game import Recording, load_replays
 from ninja_game.cli.main import cli
 from ninja_game.errors import ArgumentError
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import demo_replay, recording_of

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from ninja_game import load_replays
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.learn.evaluation import Evaluation, evaluate
 from ninja_game.learn.levels.source import LevelSource

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from examples import bench_report, evaluate, measure, ppo
 from examples.agents import LEARNED
 from ninja_game.cli.main import cli
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.learn import ENVIRONMENTS
 from ninja_game.learn.observations.observation import PARTS
 from ninja_game.learn.rewards import REWARD_TERMS

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ninja_game import Level, LevelError, load_level, load_levels
 from ninja_game.errors import ArgumentError
-from ninja_game.files.user_folder import bundled_levels
+from ninja_game.files.bundled import bundled_levels
 from ninja_game.learn.levels.origins import Origin, generated_levels, level_source
 from ninja_game.learn.levels.source import Curriculum, LevelSource
 

@@ -92,7 +92,7 @@ def test_an_evaluation_is_of_episodes_that_anybody_can_play() -> None:
             return np.full(self.count, 2)
 
     (row,) = evaluate(Runner(), LEVELS[1], episodes=6, memory="plain").results
-    env = gymnasium.make("ninja_game:NinjaBench-v1", level=LEVELS[1], memory="plain")
+    env = gymnasium.make("ninja_game.learn:NinjaBench-v1", level=LEVELS[1], memory="plain")
     golds = []
     for number in range(6):
         _, info = env.reset(seed=first_seed(LEVELS[1]) + number)
@@ -105,7 +105,7 @@ def test_an_evaluation_is_of_episodes_that_anybody_can_play() -> None:
 
 @pytest.mark.parametrize("name", BENCH)
 def test_no_environment_of_the_benchmark_shows_the_solvers_field(name: str) -> None:
-    env: Any = gymnasium.make(f"ninja_game:{name}", memory="plain", level=LEVELS[0]).unwrapped
+    env: Any = gymnasium.make(f"ninja_game.learn:{name}", memory="plain", level=LEVELS[0]).unwrapped
     assert env.worlds.goal is None
     assert not any(isinstance(part, Guide) for part in env.worlds.observation.parts)
     assert not any(isinstance(term, DistanceShaping) for term in env.worlds.terms)
@@ -135,7 +135,7 @@ def test_what_the_benchmark_shows_is_frozen(name: str) -> None:
     digests = []
     ways: list[dict[str, Any]] = [{"memory": FAST}, {"memory": "plain", "vectorization_mode": "sync"}]
     for how in ways:
-        envs: Any = gymnasium.make_vec(f"ninja_game:{name}", 3, level=LEVELS, time_limit=300, **how)
+        envs: Any = gymnasium.make_vec(f"ninja_game.learn:{name}", 3, level=LEVELS, time_limit=300, **how)
         assert isinstance(envs, NinjaVectorEnv) == ("vectorization_mode" not in how)
         shown, actions = hashlib.sha256(), np.random.default_rng(0)
         answer: tuple[Any, ...] = envs.reset(seed=7)

@@ -20,21 +20,32 @@ def printed(code: str) -> str:
 @pytest.mark.parametrize(
     "imports",
     [
+        "import gymnasium",
         "import gymnasium, ninja_game",
+        "import ninja_game, gymnasium",
+        "import gymnasium, ninja_game.learn",
         "import ninja_game.learn, gymnasium",
-        "import ninja_game, ninja_game.learn, gymnasium",
     ],
 )
-def test_an_import_registers_the_ids(imports: str) -> None:
-    code = f"{imports}; import sys; print(*(k for k in gymnasium.registry if k.startswith('Ninja')))"
-    assert printed(code).split() == list(ENVIRONMENTS)
+def test_an_id_with_its_module_needs_no_order_of_imports(imports: str) -> None:
+    code = f"""
+{imports}
+print(gymnasium.make("ninja_game.learn:Ninja-v0", memory="plain").spec.id)
+print(*(name for name in gymnasium.registry if name.startswith("Ninja")))
+"""
+    assert printed(code).split() == ["Ninja-v0", *ENVIRONMENTS]
 
 
-def test_an_id_with_the_module_imports_the_module() -> None:
-    assert (
-        printed("import gymnasium; print(gymnasium.envs.registration._find_spec('ninja_game:Ninja-v0').id)")
-        == "Ninja-v0"
-    )
+def test_an_id_with_another_module_is_refused_in_any_order_of_imports() -> None:
+    code = """
+import gymnasium, ninja_game
+try:
+    gymnasium.make("ninja_game:Ninja-v0")
+except gymnasium.error.NameNotFound as error:
+    print(error)
+"""
+    assert printed(code) == "Environment `Ninja` doesn't exist."
+    assert printed(code.replace("gymnasium, ninja_game", "ninja_game, gymnasium")) == printed(code)
 
 
 def test_the_package_is_imported_without_gymnasium() -> None:

@@ -14,7 +14,7 @@ from gymnasium.utils.env_checker import check_env
 
 from ninja_game import load_level, record_replay
 from ninja_game.errors import ArgumentError
-from ninja_game.files.user_folder import bundled_levels
+from ninja_game.files.bundled import bundled_levels
 from ninja_game.learn import ENVIRONMENTS
 from ninja_game.learn.observations.observation import PARTS
 from ninja_game.learn.observations.surroundings import LocalTiles
@@ -35,7 +35,7 @@ def env() -> Iterator[NinjaEnv]:
 
 
 def made(name: str, **settings: Any) -> NinjaEnv:
-    env = gymnasium.make(f"ninja_game:{name}", memory="plain", **settings).unwrapped
+    env = gymnasium.make(f"ninja_game.learn:{name}", memory="plain", **settings).unwrapped
     assert isinstance(env, NinjaEnv)
     return env
 

@@ -207,7 +207,7 @@ def test_spaces_are_those_of_one_world_batched(mode: str) -> None:
 
 @pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
 def test_gymnasiums_vector_wrappers_take_it(mode: str) -> None:
-    made = gym.make_vec("ninja_game:Ninja-v0", num_envs=4, level=LEVELS, autoreset_mode=mode, time_limit=40)
+    made = gym.make_vec("ninja_game.learn:Ninja-v0", num_envs=4, level=LEVELS, autoreset_mode=mode, time_limit=40)
     assert made.spec is not None
     envs: Any = wrappers.RecordEpisodeStatistics(made)
     if mode == "NextStep":  # those of observations refuse the other
@@ -229,7 +229,7 @@ def test_gymnasiums_vector_wrappers_take_it(mode: str) -> None:
 def test_a_picture_of_each_world_is_that_of_a_single_environment(memory: str) -> None:
     settings: dict[str, Any] = {"level": LEVELS, "memory": memory, "render_mode": "rgb_array"}
     settings["render_size"], seed = (132, 100), 1
-    envs = gym.make_vec("ninja_game:Ninja-v0", 3, **settings)
+    envs = gym.make_vec("ninja_game.learn:Ninja-v0", 3, **settings)
     with pytest.raises(ResetNeeded):
         envs.render()
     envs.reset(seed=seed)
@@ -239,7 +239,7 @@ def test_a_picture_of_each_world_is_that_of_a_single_environment(memory: str) ->
     assert frames is not None
     assert [np.asarray(frame).shape for frame in frames] == [(100, 132, 3)] * 3
     for world, action in enumerate((0, 4, 3)):
-        env = gym.make("ninja_game:Ninja-v0", **settings)
+        env = gym.make("ninja_game.learn:Ninja-v0", **settings)
         env.reset(seed=seed + world)
         for _ in range(3):
             env.step(action)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_replays

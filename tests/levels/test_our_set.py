@@ -11,7 +11,7 @@ from statistics import median
 
 import pytest
 
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.runs.archive import Totals, verify_all
 from ninja_game.runs.packs import lint

@@ -9,7 +9,7 @@ import pytest
 from ninja_game.sim import events
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import Level, ObjectSpec
-from ninja_game.sim.memory.schema import Event
+from ninja_game.sim.schema.world_fields import Event
 from ninja_game.simulation import Simulation
 from ninja_game.view.effects.effects import REACTIONS, Effects
 from ninja_game.view.effects.particles import Particles

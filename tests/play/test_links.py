@@ -10,7 +10,7 @@ import pytest
 
 from ninja_game.editor.files import new_source, open_source
 from ninja_game.errors import ReplayError
-from ninja_game.files.user_folder import bundled_levels, bundled_replays
+from ninja_game.files.bundled import bundled_levels, bundled_replays
 from ninja_game.formats.links import level_link, recording_link
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.pack.pack import Pack, PackFiles

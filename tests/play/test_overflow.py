@@ -11,7 +11,7 @@ from unittest.mock import patch
 import pygame
 import pytest
 
-from ninja_game.files.user_folder import CHECKOUT
+from ninja_game.files.bundled import CHECKOUT
 from ninja_game.ui.theme import TEXT_SIZES
 from ninja_game.view.level_view import LevelView
 from tests.support.game_screens import Tour, run_tour, tour

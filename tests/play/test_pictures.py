@@ -26,10 +26,10 @@ from ninja_game.view import level_view
 from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays, thinkers
 from ninja_game.view.sprites.thumbnail import thumbnail
+from tests.support.drawings import paint_things
 from tests.support.own_pack import PACK
 from tests.support.recorded import ACCEPT
 from tools.draw import how_it_works, screens
-from tools.draw.contact_sheet import THINGS, paint_things
 
 HERE = Path(__file__).parent
 GOLDEN = HERE / "golden"
@@ -100,7 +100,7 @@ SCENES = {
     "death-explosive": lambda: scene(0, 60, fatal=EXPLOSIVE),
     "death-electric": lambda: scene(0, 60, fatal=ELECTRIC),
     "death-without-gore": lambda: scene(0, 60, Settings(reduced_gore=True, reduced_motion=True), fatal=EXPLOSIVE),
-    "drawings": lambda: paint_things(PALETTES["classic"], THINGS),
+    "drawings": lambda: paint_things(PALETTES["classic"]),
     "thumbnail": lambda: thumbnail(load_levels(PACK / "01-2-the-works.txt")[0].level, PALETTES["classic"], 264),
 }
 

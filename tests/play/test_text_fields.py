@@ -8,7 +8,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from ninja_game.play.menus.menu_screen import FormPanel
+from ninja_game.play.menu_screen import FormPanel
 from ninja_game.ui.input.keys import SCANCODES, key_name
 from ninja_game.ui.text_entry import EditedText, TextEntry
 from tests.support.menu_driver import MenuDriver

@@ -6,7 +6,7 @@ import os
 import shutil
 from pathlib import Path
 
-from ninja_game.files.user_folder import bundled_levels
+from ninja_game.files.bundled import bundled_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.pack.pack import certificate_name
 from ninja_game.player.catalogue import Catalogue

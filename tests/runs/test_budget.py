@@ -19,7 +19,7 @@ from ninja_game.backend.worlds import Worlds
 from ninja_game.budget import PAGE_BUDGET, PAGE_TICK_COST, RUN_BUDGET, TURN_WORK, affordable_ticks, tick_cost
 from ninja_game.cli.main import cli
 from ninja_game.errors import BudgetError, LevelError
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.load import load_replays, parse_level
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_string import write_level_string

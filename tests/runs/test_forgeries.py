@@ -99,7 +99,7 @@ def test_an_honest_run_is_believed(text: str, tmp_path: Path, counting: list[Nam
 
 
 def test_without_level_the_games_own_levels_count(tmp_path: Path) -> None:
-    from ninja_game.files.user_folder import bundled_replays
+    from ninja_game.files.bundled import bundled_replays
 
     results = list(verify_all(bundled_replays(), memory="plain", jobs=1, processes=False, strict=True))
     assert list(told(results)) == []

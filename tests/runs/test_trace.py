@@ -31,7 +31,7 @@ from ninja_game.runs.trace import (
 )
 from ninja_game.runs.trace_files import COLUMNS, MAX_BYTES, FiledTrace, read_csv, read_traces, write_csv, write_npz
 from ninja_game.sim.inputs import MAX_TICKS
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.schema.world_fields import TileMap, World
 from tests.support.reference import scene_traces, scenes
 from tests.support.samples import WALK
 

@@ -6,7 +6,16 @@ from dataclasses import replace
 
 import pytest
 
-from ninja_game import Level, Replay, ReplayError, parse_replay, record_replay, verify_recording, write_replay
+from ninja_game import (
+    ArgumentError,
+    Level,
+    Replay,
+    ReplayError,
+    parse_replay,
+    record_replay,
+    verify_recording,
+    write_replay,
+)
 from ninja_game.formats.recording import parse_replays
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import ObjectSpec
@@ -59,3 +68,8 @@ def test_a_broken_waypoint_is_named_with_its_line(line: str, message: str) -> No
     with pytest.raises(ReplayError, match=message) as caught:
         parse_replay(text)
     assert caught.value.line > 0
+
+
+def test_only_a_recording_is_verified() -> None:
+    with pytest.raises(ArgumentError, match="recording is 'x'; expected a Recording"):
+        verify_recording("x")  # type: ignore[arg-type]

@@ -10,7 +10,7 @@ from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.simulation import Simulation
 
 EMPTY = "0" * 713

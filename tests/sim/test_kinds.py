@@ -30,9 +30,9 @@ from ninja_game.sim.death import idle_event
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.kinds import INERT, KINDS, NINJA, NO_KIND, Kind
 from ninja_game.sim.level import Level, ObjectSpec
-from ninja_game.sim.memory.object_fields import Header, Object
 from ninja_game.sim.objects import dispatch
 from ninja_game.sim.rules import RADIUS
+from ninja_game.sim.schema.object_fields import Header, Object
 from ninja_game.sim.traces import is_traced, status_of
 from ninja_game.ui.audio.music import affects_music
 from ninja_game.ui.audio.table import BY_DEATH, BY_EVENT, OTHER_DEATH, warning_of

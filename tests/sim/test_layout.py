@@ -12,9 +12,9 @@ from ninja_game.backend.layout import OBJECT, STATE_START, TILE_MAP, WORLD, byte
 from ninja_game.backend.memories import compiled_available
 from ninja_game.backend.numba_import import import_numba, make_pipeline
 from ninja_game.sim.events import emit
-from ninja_game.sim.memory.declare import KERNELS, REGISTERED, f8, fields_of, kernel, struct_base
-from ninja_game.sim.memory.object_fields import Header, Object
-from ninja_game.sim.memory.schema import CAPACITY
+from ninja_game.sim.schema.declare import KERNELS, REGISTERED, f8, fields_of, kernel, struct_base
+from ninja_game.sim.schema.object_fields import Header, Object
+from ninja_game.sim.schema.world_fields import CAPACITY
 from tests.support.crowded import crowded_inputs, crowded_level
 
 needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")

@@ -9,7 +9,7 @@ from functools import cache
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from ninja_game import parse_level, run_level
+from ninja_game import parse_level, run_level, trace_level
 from ninja_game.backend.compiled import CompiledWorlds
 from ninja_game.backend.compiler import Compiler
 from ninja_game.backend.memories import compiled_available
@@ -52,6 +52,7 @@ def test_an_odd_type_number_in_a_level_file_harms_nobody(kind: str, memory: str)
         (Level(objects=(NINJA_SPEC, ObjectSpec(0, ("x", 2.0)))), "object 1 of the level is not an ObjectSpec"),  # type: ignore[arg-type]
         (Level(objects=(NINJA_SPEC, ObjectSpec(0, (10**400, 2.0)))), "object 1 of the level is not an ObjectSpec"),
         (Level(objects=(ObjectSpec(0.5, (1.0, 2.0)), NINJA_SPEC)), "object 0 of the level is not an ObjectSpec"),  # type: ignore[arg-type]
+        (Level(objects=(ObjectSpec("0", (1.0, 2.0)), NINJA_SPEC)), "object 0 of the level is not an ObjectSpec"),  # type: ignore[arg-type]
         (Level(objects=(GOLD_SPEC,)), "it has no ninja"),
         (Level(objects=(NINJA_SPEC,) * 13_000), "too many objects"),
     ],
@@ -59,6 +60,10 @@ def test_an_odd_type_number_in_a_level_file_harms_nobody(kind: str, memory: str)
 def test_what_is_no_level_is_refused(level: Level, message: str, memory: str) -> None:
     with pytest.raises(LevelError, match=message):
         Simulation(level, memory=memory)
+    for run in (run_level, trace_level):
+        for choice in (memory, "auto"):
+            with pytest.raises(LevelError, match=message):
+                run(level, bytes(9), memory=choice)
 
 
 @cache

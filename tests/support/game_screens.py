@@ -1,5 +1,4 @@
-"""A short life of a player, played by a script, that shows every screen of the game: for the contact sheet and for
-the recorded screens of the tests."""
+"""A short life of a player, played by a script, that shows every screen of the game: for the recorded screens."""
 
 from __future__ import annotations
 
@@ -22,7 +21,7 @@ from ninja_game import __version__
 from ninja_game.editor.certify import Certification, TestMap
 from ninja_game.editor.files import Source, draft_of
 from ninja_game.editor.stamp import Stamp, put
-from ninja_game.files.user_folder import CHECKOUT, bundled_replays
+from ninja_game.files.bundled import CHECKOUT, bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.named_level import parse_levels
 from ninja_game.play.editor.screen import EditorScreen

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ninja_game.sim.kinds import BOUNCE_BLOCK, NINJA
 from ninja_game.sim.level import TILES, Level, ObjectSpec
-from ninja_game.sim.memory.schema import CAPACITY
+from ninja_game.sim.schema.world_fields import CAPACITY
 
 START = 396.0, 566.0
 

@@ -12,7 +12,7 @@ from unittest.mock import patch
 import pygame
 
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menu_screen import MenuScreen
 from ninja_game.tas_editor.tabs.tab import Rows
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.lettering import Lettering, StrokeFont

@@ -10,12 +10,12 @@ from unittest.mock import patch
 
 import pygame
 
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.app import build_app
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menu_screen import FormPanel
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.menu_screen import FormPanel
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.screen import Screen
 from ninja_game.player.player_data import PlayerData

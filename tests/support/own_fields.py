@@ -19,8 +19,8 @@ import numpy as np
 from ninja_game.backend import layout, memories, plain
 from ninja_game.backend.layout import OBJECT, WORLD
 from ninja_game.sim.kinds import KIND_OF, KINDS
-from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.schema.declare import fields_of
+from ninja_game.sim.schema.object_fields import Object
 
 FIELDS = [field.name for field in fields_of(Object)]
 OWN = {kind.number: {field.name for field in fields_of(kind.fields)} for kind in KINDS}
@@ -56,7 +56,7 @@ def own_fields_only() -> Iterator[None]:
         patch.object(plain, "_get_object", lambda o: tuple(slot.__get__(o) for slot in slots)),
         patch.object(plain, "_set_object", write_all),
         patch.object(layout, "_set_object", write_all),
-        patch.object(memories, "_KERNELS", Interpreted()),
+        patch.object(memories._PROCESS, "kernels", Interpreted()),
     ):
         yield
 

@@ -6,7 +6,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from unittest.mock import patch
 
-from ninja_game.files.user_folder import CHECKOUT
+from ninja_game.files.bundled import CHECKOUT
 
 PACK = Path(__file__).resolve().parent.parent / "pack"
 

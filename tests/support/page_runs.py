@@ -9,7 +9,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import write_level_string
 from tests.support.golden_runs import AFTERMATH, GoldenRun, crowded_runs, replay_runs, scene_runs

@@ -9,7 +9,7 @@ from random import Random
 from typing import Any
 
 from ninja_game.editor.files import draft_of, new_source
-from ninja_game.files.user_folder import bundled_levels, bundled_replays
+from ninja_game.files.bundled import bundled_levels, bundled_replays
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.levels.episodes import Entry

@@ -18,7 +18,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError
-from ninja_game.files.user_folder import bundled_replays, data_folder
+from ninja_game.files.bundled import bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string

@@ -20,7 +20,7 @@ import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
-from ninja_game.files.user_folder import bundled_replays, data_folder
+from ninja_game.files.bundled import bundled_replays, data_folder
 from ninja_game.formats.lines import MAX_NAME
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.provenance import Provenance

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from ninja_game.backend.kernel_cache import code_folder
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.bundled import bundled_replays
 
 TEMPLATE = Path("docs/board-template")
 FIRST_LEVEL = "00-0"

@@ -31,7 +31,7 @@ def daily():
     frames()
     return app.top.message
 def film():
-    from ninja_game.files.user_folder import bundled_replays
+    from ninja_game.files.bundled import bundled_replays
     from ninja_game.formats.load import load_replays
     from ninja_game.play.replay.screen import ReplayScreen
     app.push(ReplayScreen(app, load_replays(bundled_replays()[0])))

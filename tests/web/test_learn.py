@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.play.lab.figure import FIGURE, Figure
 from ninja_game.play.lab.screen import FIGURES
 from ninja_game.sim.collision.tiles import EDGE_OF_FACES

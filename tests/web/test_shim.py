@@ -246,4 +246,4 @@ def test_every_screen_draws_over_it_what_it_draws_over_pygame(tmp_path: Path) ->
 def test_only_one_module_knows_that_it_runs_in_a_page() -> None:
     files = [path for path in (ROOT / "ninja_game").rglob("*.py") if not {"cli", "web"} & {*path.parts}]
     knowing = [path.name for path in files if re.search(r"IN_PAGE|emscripten|pyodide", path.read_text("utf-8"))]
-    assert sorted(knowing) == ["runtime.py", "user_folder.py"]  # one tells how to install what is missing
+    assert knowing == ["runtime.py"]

@@ -22,8 +22,9 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError, NinjaGameError
+from ninja_game.files.bundled import bundled_replays, data_folder
 from ninja_game.files.reading import digest_of
-from ninja_game.files.user_folder import PACKAGE, bundled_replays, data_folder
+from ninja_game.runtime import PACKAGE
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.site import build, game_archive
 from ninja_game.web.site.build import site_server

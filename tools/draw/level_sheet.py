@@ -21,11 +21,11 @@ from ninja_game.play.replay.paths import draw_path
 from ninja_game.runs.run import run_level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.canvas import WIDTH, Canvas
-from ninja_game.ui.theme import PALETTES
+from ninja_game.ui.theme import PALETTES, Palette, Theme
 from ninja_game.view.sprites.thumbnail import thumbnail
-from tools.draw.contact_sheet import MARGIN, grid
 
 COLUMNS = 2
+MARGIN = 24
 ROUTES = {"exit": pygame.Color(220, 40, 40), "gold": pygame.Color(235, 180, 0)}
 
 
@@ -51,6 +51,21 @@ def draw_level(named: NamedLevel, certificates: Path | None) -> tuple[pygame.Sur
         if len(positions):
             words.append(f"{name} {len(positions) / TICKS_PER_SECOND:.1f} s")
     return picture, ", ".join(words) if words or not certificates else "no certificates"
+
+
+def grid(pictures: list[tuple[str, pygame.Surface]], width: int, palette: Palette, columns: int = 3) -> pygame.Surface:
+    """Labelled pictures of one size side by side."""
+    theme = Theme(palette, Canvas((1188, 900)))
+    w = (width - MARGIN * (columns + 1)) // columns
+    h = w * 25 // 33
+    rows = -(-len(pictures) // columns)
+    sheet = pygame.Surface((width, rows * (h + 44) + MARGIN))
+    sheet.fill(palette.background)
+    for k, (label, picture) in enumerate(pictures):
+        x, y = MARGIN + k % columns * (w + MARGIN), MARGIN + k // columns * (h + 44)
+        sheet.blit(pygame.transform.smoothscale(picture, (w, h)), (x, y))
+        sheet.blit(theme.lettering.rendered(label, 9, palette.faint), (x, y + h + 4), (0, 0, w, 44))
+    return sheet
 
 
 def main(argv: list[str]) -> int:

@@ -13,7 +13,8 @@ from typing import NamedTuple
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import ODD_TILE, SYMBOL_OF_CHAR, TILE_CHARS, TILE_OF_CHAR, Symbol, visible_glyphs
 from ninja_game.formats.ascii.object_lines import ListedObject, OddTile
-from ninja_game.formats.ascii.places import Cell, middle_of, shown
+from ninja_game.formats.ascii.places import shown
+from ninja_game.sim.grid import Cell, middle_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 

@@ -7,13 +7,9 @@ import re
 import struct
 
 from ninja_game.errors import LevelError
+from ninja_game.sim.grid import Cell
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL, HALF
-
-Cell = tuple[int, int]
-"""Column 1…31, row 1…23; 0 and 32, 24 are the border."""
-
-Point = tuple[float, float]  # x and y: px of the world or of a screen, or parts of cells
 
 _NUMBER = re.compile(r"[+-]?(\d++(\.\d*+)?|\.\d++)(e[+-]?\d++)?|nan|[+-]?inf", re.ASCII)
 _MAX_SHOWN = 40
@@ -27,25 +23,6 @@ def shown(text: str) -> str:
 def same_bits(a: float, b: float) -> bool:
     """Tell whether two float64 are equal to the last bit: -0.0 differs from 0.0; all NaNs are equal."""
     return struct.pack("<d", a) == struct.pack("<d", b) or (math.isnan(a) and math.isnan(b))
-
-
-def is_inside(cell: Cell) -> bool:
-    """Tell whether a cell belongs to the level; border cells do not."""
-    return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS
-
-
-def cell_of(x: float, y: float) -> Cell:
-    """Column and row of the cell that holds a point, px.
-
-    >>> cell_of(24, 47.5)
-    (1, 1)
-    """
-    return int(x // CELL), int(y // CELL)
-
-
-def middle_of(cell: Cell) -> tuple[float, float]:
-    """A cell's middle, px."""
-    return CELL * cell[0] + HALF, CELL * cell[1] + HALF
 
 
 def number_text(value: float) -> str:

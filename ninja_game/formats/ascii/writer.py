@@ -30,9 +30,10 @@ from ninja_game.formats.ascii.object_lines import (
     read_object_line,
 )
 from ninja_game.formats.ascii.picture import FRAME, point_of
-from ninja_game.formats.ascii.places import Cell, number_text, place_text, read_cell, same_bits
+from ninja_game.formats.ascii.places import number_text, place_text, read_cell, same_bits
 from ninja_game.formats.lines import header_text
 from ninja_game.sim import kinds
+from ninja_game.sim.grid import Cell
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
 

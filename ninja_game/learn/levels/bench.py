@@ -25,8 +25,8 @@ from ninja_game.backend.memories import open_worlds
 from ninja_game.editor.motion import SYMMETRIES
 from ninja_game.editor.specs import carried
 from ninja_game.errors import ArgumentError
+from ninja_game.files.bundled import data_folder
 from ninja_game.files.reading import read_bytes
-from ninja_game.files.user_folder import data_folder
 from ninja_game.generator.packed import FROZEN, MAX_BYTES, frozen_level
 from ninja_game.learn.levels.source import LevelSource, draws
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, with_press_bit

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from ninja_game.errors import ArgumentError
-from ninja_game.files.user_folder import own_levels
+from ninja_game.files.bundled import own_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.formats.pack.index import LEVELS_PER_EPISODE

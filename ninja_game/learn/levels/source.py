@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from ninja_game.batch.batch import Indices
 from ninja_game.batch.thread_pool import whole_number
 from ninja_game.errors import ArgumentError
+from ninja_game.files.bundled import data_folder
 from ninja_game.files.reading import read_text
-from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import PARS
 from ninja_game.formats.pack.pars import DIGITS, parse_pars

@@ -17,10 +17,10 @@ from ninja_game.sim.collision.tiles import COLUMN as GRID_COLUMN, ROW as GRID_RO
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import EXIT, INERT, KINDS, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, TILES
-from ninja_game.sim.memory.declare import fast, kernel
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CHASE_PACE, GRID_COLUMNS, GRID_ROWS, GUARD_SPEED, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.schema.declare import fast, kernel
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import DRONE_MOVE, GUARD_CHASE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, THWUMP_MOVE, TRAP
 from ninja_game.sim.traces import contact_place_of
 

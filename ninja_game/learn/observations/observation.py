@@ -1,4 +1,4 @@
-"""Parts of an observation combined: one space, memory that is reused, one call for many worlds.
+"""Parts of an observation combined: one space, arrays that are reused, one call for many worlds.
 
 >>> from ninja_game.learn.observations.vectors import StateVector
 >>> Observation(StateVector()).space.shape
@@ -69,17 +69,17 @@ class Observation:
         elif len(boxes) == 1:
             (self.space,) = boxes.values()
 
-    def memory(self, count: int) -> Observed:
-        """Zeroed memory for the observations of ``count`` worlds."""
+    def buffers(self, count: int) -> Observed:
+        """Zeroed arrays for the observations of ``count`` worlds."""
         if isinstance(self.space, Dict):
             return {name: _zeros(box, count) for name, box in self.space.items()}
         return _zeros(self.space, count)
 
-    def writers(self, memory: Observed, context: PartContext) -> list[Writer]:
-        """Give the writers of the parts to ``memory``: the kernel of a part and its last arguments."""
+    def writers(self, buffers: Observed, context: PartContext) -> list[Writer]:
+        """Give the writers of the parts to ``buffers``: the kernel of a part and its last arguments."""
         writers, offset = [], 0
         for part in self.parts:
-            array = memory[part.name] if isinstance(memory, dict) else memory
+            array = buffers[part.name] if isinstance(buffers, dict) else buffers
             kernel, *tables = part.tables(context)
             writers.append((context.worlds.kernel(kernel), (array.reshape(len(array), -1), offset, *tables)))
             offset += part.length if self.flat else 0

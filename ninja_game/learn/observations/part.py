@@ -20,8 +20,8 @@ from ninja_game.backend.worlds import Worlds
 from ninja_game.batch.batch import Indices
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import World
 
 Array = NDArray[Any]
 

@@ -16,10 +16,10 @@ from ninja_game.learn.observations.part import Part, PartContext, clamp, copy_va
 from ninja_game.learn.observations.surroundings import cached_by_tiles, solidity
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, UNIT_X, UNIT_Y
-from ninja_game.sim.memory.declare import fast, kernel
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, HALF, RADIUS, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.schema.declare import fast, kernel
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import DRONE_FIRING, WEAPON_LASER
 from ninja_game.sim.traces import contact_place_of
 

@@ -19,8 +19,6 @@ from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, FULL, SHAPE
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import DOOR
-from ninja_game.sim.memory.declare import fast, kernel
-from ninja_game.sim.memory.schema import EDGE_STATES
 from ninja_game.sim.rules import (
     CELL,
     DOWN,
@@ -38,6 +36,8 @@ from ninja_game.sim.rules import (
     WORLD_HEIGHT,
     WORLD_WIDTH,
 )
+from ninja_game.sim.schema.declare import fast, kernel
+from ninja_game.sim.schema.world_fields import EDGE_STATES
 
 FINE = 8
 """Points across a cell for measuring distances: the error is below 3 px, the distance of the points."""

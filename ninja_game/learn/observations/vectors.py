@@ -14,9 +14,9 @@ from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import EXIT, GOLD
-from ninja_game.sim.memory.declare import fast, kernel
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, HALF, MAX_JUMP_TICKS, ROOT2, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.schema.declare import fast, kernel
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import JUMPING, STATE_NAMES
 
 MAX_SPEED = 24.0  # px/tick; a ninja is seldom faster than 10

@@ -15,7 +15,6 @@ from ninja_game.editor.tools import TAKES, TOOLS
 from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
-from ninja_game.formats.ascii.places import Cell, Point, cell_of
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.named_level import NamedLevel
@@ -29,13 +28,14 @@ from ninja_game.play.editor.session import UNREACHABLE, EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menu_screen import CANCEL, Action, FormPanel, Menu, MenuRow, ask_text, nothing
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, MenuRow, ask_text, nothing
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
+from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.ui.audio.music import SILENCE

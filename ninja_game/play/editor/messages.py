@@ -13,7 +13,6 @@ import pygame
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import BODY, SWITCH, object_type_name, points
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.places import Cell, Point, cell_of, is_inside
 from ninja_game.formats.messages import (
     BAR,
     KEYS,
@@ -34,10 +33,11 @@ from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
 from ninja_game.play.level.messages import shown_ticks
 from ninja_game.play.level.places import Things
-from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow, MenuScreen, ask_to_keep
+from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow, MenuScreen, ask_to_keep
+from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, LIFETIME, TICKS_PER_SECOND
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.input.bindings import InputEvent

@@ -14,8 +14,8 @@ from ninja_game.editor.motion import TILE_IDS
 from ninja_game.editor.specs import BODY, points, properties, word
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.places import Cell, Point, cell_of
 from ninja_game.sim import kinds
+from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
 from ninja_game.sim.rules import CELL
 from ninja_game.sim.states import TRAP

@@ -15,7 +15,7 @@ from ninja_game.editor.tools import CURVES, NEAREST, OTHER_KINDS, SPACINGS, TAKE
 from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted
 from ninja_game.files.user_folder import short_path
-from ninja_game.formats.ascii.places import cell_of, place_text, read_place
+from ninja_game.formats.ascii.places import place_text, read_place
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.formats.messages import parse_messages
 from ninja_game.levels.findings import Finding
@@ -23,8 +23,9 @@ from ninja_game.play.editor.commands import TABLE
 from ninja_game.play.editor.palette_view import PaletteView, live_changes
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
-from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow, ask_text
+from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow, ask_text
 from ninja_game.play.workspace import Pane
+from ninja_game.sim.grid import cell_of
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.rules import CELL
 from ninja_game.ui.list_view import ListView

@@ -16,7 +16,7 @@ from ninja_game.play.editor.palette_view import PaletteView, entry_of_key, live_
 from ninja_game.play.editor.parts import FilePart, Findings, ObjectList, PalettePart, Properties, StatusLine, Toolbar
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
-from ninja_game.play.menus.menu_screen import DIRECTIONS
+from ninja_game.play.menu_screen import DIRECTIONS
 from ninja_game.play.workspace import Pane, WorkspaceScreen
 from ninja_game.ui.canvas import HEIGHT
 from ninja_game.ui.input.bindings import InputEvent

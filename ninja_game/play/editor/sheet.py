@@ -16,11 +16,11 @@ import pygame
 from ninja_game.editor.certify import PathPoints, TestMap
 from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
-from ninja_game.formats.ascii.places import Cell, Point, middle_of
 from ninja_game.formats.messages import parse_messages
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
+from ninja_game.sim.grid import Cell, Point, middle_of
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.rules import CELL, STRIDE

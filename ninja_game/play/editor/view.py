@@ -13,7 +13,6 @@ from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, Stamp, area_between, nearest
 from ninja_game.editor.tools import PICK_REACH, EditorTools, said_cells
-from ninja_game.formats.ascii.places import Cell, Point, is_inside
 from ninja_game.play.app import App
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.session import EditorSession
@@ -28,6 +27,7 @@ from ninja_game.play.editor.sheet import (
     said_places,
 )
 from ninja_game.play.workspace import Pane
+from ninja_game.sim.grid import Cell, Point, is_inside
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL

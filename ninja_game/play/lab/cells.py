@@ -6,12 +6,11 @@ from collections.abc import Sequence
 from math import dist, floor
 
 from ninja_game.backend.plain import restore_plain, save_plain
-from ninja_game.formats.ascii.places import Point
 from ninja_game.play.lab.figure import CORNER, Control, Figure, Sheet, View, room_world, values_of, watch
 from ninja_game.sim.collision.rays import cast_ray, ray_circle, ray_tiles, sees
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.grid import cell_at
+from ninja_game.sim.grid import Point, cell_at
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.objects.dispatch import NINE_CELLS, touch_objects
 from ninja_game.sim.rules import CELL, GOLD_RADIUS, GRID_COLUMNS, GRID_ROWS, RADIUS, STRIDE

@@ -8,17 +8,16 @@ from math import sin
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS, TILE_CHARS
 from ninja_game.formats.ascii.object_lines import MOVEMENTS
-from ninja_game.formats.ascii.places import Point
 from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, FigureSetting, Sheet, Stage, room_world
 from ninja_game.play.lab.projection import Push, pushed
 from ninja_game.sim.collision import tiles
 from ninja_game.sim.collision.rays import ray_tiles, sees
-from ninja_game.sim.grid import cell_at
+from ninja_game.sim.grid import Point, cell_at
 from ninja_game.sim.kinds import DOOR, DRONE
-from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.objects.door import write_edges
 from ninja_game.sim.objects.drone import ROTATIONS, first_open
 from ninja_game.sim.rules import DRONE_RADIUS, RADIUS
+from ninja_game.sim.schema.object_fields import Object
 
 FACES = ("none", "partial", "full")
 DIRECTIONS = tuple(DIRECTION_WORDS)

@@ -16,13 +16,13 @@ import pygame
 
 from ninja_game import sim
 from ninja_game.backend.plain import load_plain
-from ninja_game.files.user_folder import data_folder
-from ninja_game.formats.ascii.places import Point
+from ninja_game.files.bundled import data_folder
 from ninja_game.play.rooms import room_level
 from ninja_game.player.settings import Settings
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, UNIT_X, UNIT_Y
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.grid import Point
 from ninja_game.sim.rules import CELL, HALF, INTERESTING, OFF
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Colour, Lens
 from ninja_game.ui.theme import Area, Palette, Theme

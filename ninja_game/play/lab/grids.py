@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 from ninja_game.play.lab.figure import FIELD, FIGURE, Control, Figure, FigureSetting, Sheet
 from ninja_game.sim.grid import cell_at, grid_insert, grid_move
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.objects.dispatch import NINE_CELLS
 from ninja_game.sim.rules import STRIDE
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import World
 
 LEFT, TOP = FIELD.left, FIELD.top
 RIGHT, BOTTOM = LEFT + FIGURE[2] / FIELD.zoom, TOP + FIGURE[3] / FIELD.zoom

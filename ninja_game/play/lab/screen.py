@@ -15,7 +15,7 @@ from ninja_game.play.lab.figure import FIGURE, Figure
 from ninja_game.play.lab.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.one_tick import OneTick
 from ninja_game.play.lab.projection import Bodies, Projection, Response
-from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
+from ninja_game.play.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.replay.film import write_gif
 from ninja_game.play.replay.playback import RunClock
 from ninja_game.play.window import save_picture

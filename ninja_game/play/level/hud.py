@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.run_time import rounded_text
 from ninja_game.play.level.places import MUST, TAG_ROOM, Things, away_from, hidden_by, solid_place, tag_top
+from ninja_game.sim.grid import Point
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL, LIFETIME

@@ -18,8 +18,8 @@ from ninja_game.player.progress import NO_MEDAL, Mark, next_par
 from ninja_game.runs.deaths import SELF
 from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.kinds import EXIT, SWITCH
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.schema.world_fields import World
 
 FADE_TICKS = 8  # until the panel of an ended run is solid
 SHINE_TICKS = 20  # for which light moves over its medal

@@ -17,8 +17,8 @@ from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.progress import HELPED
 from ninja_game.runs.deaths import cause_of
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import CRUSHED
 from ninja_game.simulation import Simulation
 from ninja_game.view.level_view import LevelView

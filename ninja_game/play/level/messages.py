@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import hypot
 
-from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.messages import NEAR, LevelMessage, arrow_targets
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.grid import Point
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import SLIDING
 
 SHOWN_TICKS = 240  # for which a text is shown after its event

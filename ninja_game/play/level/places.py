@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from functools import lru_cache
 from math import hypot
 
-from ninja_game.formats.ascii.places import Point
 from ninja_game.sim.collision.tiles import FULL, SHAPE
+from ninja_game.sim.grid import Point
 from ninja_game.sim.kinds import EXIT, GOLD, SWITCH
 from ninja_game.sim.level import ROWS
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.ui.canvas import WIDTH
 
 _BESIDE = 36.0  # px from a place to the panel of its message: far enough not to fade while the ninja is there

@@ -17,8 +17,8 @@ from ninja_game.play.clipboard import copy_level_link, copy_link
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, LATE_JUMP, STUCK_AFTER, LevelPlay, Phase
+from ninja_game.play.menu_screen import Menu, MenuRow, Panel, nothing
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.menu_screen import Menu, MenuRow, Panel, nothing
 from ninja_game.play.menus.passed import EpisodePassed
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import SettingsScreen

@@ -7,7 +7,7 @@ from functools import partial
 import pygame
 
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow
+from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow
 from ninja_game.play.screen import Screen
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, InputEvent, bindable
 from ninja_game.ui.input.gamepad import pad_label

@@ -20,8 +20,8 @@ from ninja_game.levels.episodes import GAME, YOURS, Entry, author_name
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
+from ninja_game.play.menu_screen import Action, ask_received
 from ninja_game.play.menus.episodes import draw_look
-from ninja_game.play.menus.menu_screen import Action, ask_received
 from ninja_game.play.menus.problems import Problem, of_files, problems_button
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT

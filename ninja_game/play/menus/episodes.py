@@ -13,7 +13,7 @@ from ninja_game.levels.episodes import Episode, EpisodeSet
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
-from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow
+from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow
 from ninja_game.play.menus.problems import of_files, problems_button
 from ninja_game.play.menus.settings import PRACTICE_HINT, setting_choice
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text

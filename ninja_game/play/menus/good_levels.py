@@ -8,12 +8,12 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.files.user_folder import data_folder
-from ninja_game.formats.ascii.places import middle_of
+from ninja_game.files.bundled import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.levels.episodes import GAME, Entry
 from ninja_game.play.app import App
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.sim.grid import middle_of
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget

@@ -9,9 +9,8 @@ import pygame
 
 from ninja_game.editor.files import recovered
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.bundled import bundled_replays
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.user_folder import bundled_replays
-from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.episodes import Entry, Mood
@@ -19,11 +18,11 @@ from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menu_screen import Action, MenuScreen, Question
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.menu_screen import Action, MenuScreen, Question
 from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback, RunClock
@@ -31,6 +30,7 @@ from ninja_game.play.screen import Screen
 from ninja_game.play.window import LOGO
 from ninja_game.player.playthrough import EpisodeSession, next_run
 from ninja_game.runtime import in_page_or_not
+from ninja_game.sim.grid import Point
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.canvas import HEIGHT, WIDTH

@@ -17,7 +17,7 @@ from ninja_game.formats.pack.pack import INDEX, Pack
 from ninja_game.levels.episodes import Entry, EpisodeSet
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import ask_received, ask_text
+from ninja_game.play.menu_screen import ask_received, ask_text
 from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Marks, PackCell, Rack, called
 from ninja_game.play.menus.packer import PackStatus, packer_of
 from ninja_game.play.menus.thumbnails import ThumbnailScreen

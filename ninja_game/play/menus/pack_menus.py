@@ -12,8 +12,8 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, EpisodeIndex
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.play.level.screen import play_level
+from ninja_game.play.menu_screen import CANCEL, FormPanel, Menu, MenuRow, Question
 from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
-from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, MenuRow, Question
 from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_shelves import PackCell, called
 from ninja_game.play.menus.replays import watch

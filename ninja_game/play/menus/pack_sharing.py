@@ -17,8 +17,8 @@ from ninja_game.formats.pack.index import NEVER_ACCEPTED
 from ninja_game.formats.pack.pack import INDEX, Pack
 from ninja_game.levels.findings import PackFinding
 from ninja_game.play.clipboard import copy_link, pasted_text
+from ninja_game.play.menu_screen import CANCEL, FormPanel, Menu, MenuRow, ask_text
 from ninja_game.play.menus.episodes import PREVIEW
-from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, MenuRow, ask_text
 from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_menus import pack_form, pack_menu, view
 from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND

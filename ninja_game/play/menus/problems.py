@@ -9,7 +9,7 @@ import pygame
 
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menu_screen import MenuScreen
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Widget

@@ -11,9 +11,10 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.files.bundled import bundled_replays
 from ninja_game.files.reading import Skipped, files_below
 from ninja_game.files.shown_text import files_text
-from ninja_game.files.user_folder import REPLAY_SUFFIX, bundled_replays
+from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links import recording_link, replay_link
 from ninja_game.formats.load import load_replays, texts_of
@@ -23,7 +24,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import author_name
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.menus.menu_screen import MenuScreen, Question
+from ninja_game.play.menu_screen import MenuScreen, Question
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.player_data import forget_replay
 from ninja_game.player.progress import opens_author

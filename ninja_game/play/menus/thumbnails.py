@@ -12,7 +12,7 @@ from ninja_game.formats.pack.pars import MARGINS, Pars
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import GAME, YOURS, Entry
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menu_screen import MenuScreen
 from ninja_game.player.progress import Mark, has_all_gold, medal_of
 from ninja_game.player.records import Played
 from ninja_game.ui.audio.music import MENU

@@ -9,9 +9,9 @@ from random import Random
 import pygame
 
 from ninja_game.budget import TURN_WORK, tick_cost
-from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.save_states import SPACING, SaveStates
+from ninja_game.sim.grid import Point
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import TICK_MS

@@ -25,7 +25,7 @@ from ninja_game.search.formula.task import (
 from ninja_game.search.local_search import mutate
 from ninja_game.search.nodes import RandomState, random_below, zeroed
 from ninja_game.sim.level import Body, Level
-from ninja_game.sim.memory.declare import kernel
+from ninja_game.sim.schema.declare import kernel
 from ninja_game.sim.states import OUTCOME_RUNNING
 
 METHODS = ("local", "beam", "exhaustive")

@@ -25,10 +25,10 @@ from ninja_game.sim.collision.tiles import (
     UNDEFINED,
 )
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.ninja.contact_response import push_from_tile
 from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, SOLID, STRIDE, UP
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import TileMap, World
 
 BOX_HALF = RADIUS
 """Half width and half height of the ninja as a box, px."""

@@ -11,10 +11,10 @@ from ninja_game.sim.collision.circle_neighbours import collide_diagonal, collide
 from ninja_game.sim.collision.circle_own_tile import collide_own_tile
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.ninja.contact_response import push_from_tile
 from ninja_game.sim.rules import DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, ROOT2, SOLID, STRIDE, UP
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import TileMap, World
 
 
 @fast

@@ -10,10 +10,10 @@ from math import sqrt
 
 from ninja_game.sim.arithmetic import ieee_divide
 from ninja_game.sim.collision.tiles import NORMAL_X, NORMAL_Y, S_X, S_Y, SIGN_X, SIGN_Y, T_X, T_Y
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.ninja.contact_response import push_from_tile
 from ninja_game.sim.rules import CELL, HALF, RADIUS, ROOT2
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import World
 
 NO_CONTACT, SIDE_CONTACT, SHAPE_CONTACT = 0, 1, 2
 """Result kinds."""

@@ -29,9 +29,9 @@ from ninja_game.sim.collision.tiles import (
     THIN_67,
     UNDEFINED,
 )
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import HALF, ROOT2
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import World
 
 
 @fast

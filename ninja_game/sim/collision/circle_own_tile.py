@@ -26,10 +26,10 @@ from ninja_game.sim.collision.tiles import (
     THIN_22,
     THIN_67,
 )
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.ninja.contact_response import push_from_tile
 from ninja_game.sim.rules import CELL, HALF, RADIUS
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import World
 
 
 @fast

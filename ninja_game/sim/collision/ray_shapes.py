@@ -22,8 +22,8 @@ from ninja_game.sim.collision.tiles import (
     THIN_67,
     UNDEFINED,
 )
-from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.rules import CELL, HALF, QUARTER
+from ninja_game.sim.schema.declare import fast
 
 
 @fast

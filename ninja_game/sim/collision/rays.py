@@ -23,9 +23,9 @@ from ninja_game.sim.collision.tiles import (
     UNDEFINED,
 )
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, NEVER, OFF, RADIUS, RIGHT, SOLID, STRIDE, UP
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import TileMap, World
 
 
 @fast

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import (
     CELL,
     GRID_CELLS,
@@ -17,6 +15,8 @@ from ninja_game.sim.rules import (
     SOLID,
     STRIDE,
 )
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import TileMap, World
 
 EMPTY, FULL, HALF_TILE, SLOPE_45, CONCAVE, CONVEX, THIN_22, THICK_22, THIN_67, THICK_67, UNDEFINED = range(11)
 """Tile classes. UNDEFINED is a malformed tile: never solid, but not empty for edges (world.md §2.3)."""

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from ninja_game.sim.death import kill
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Header
-from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.rules import CRUSH, RADIUS
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Header
+from ninja_game.sim.schema.world_fields import Ninja, World
 from ninja_game.sim.states import CRUSHED
 
 

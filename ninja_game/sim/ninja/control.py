@@ -6,8 +6,6 @@
 from __future__ import annotations
 
 from ninja_game.sim.events import JUMPED, LANDED, WALL_JUMPED, emit
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.rules import (
     AIR_ACCELERATION,
     CELEBRATION_DRAG,
@@ -27,6 +25,8 @@ from ninja_game.sim.rules import (
     WALL_JUMP_X,
     WALL_JUMP_Y,
 )
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import Ninja, World
 from ninja_game.sim.states import FALLING, JUMPING, RUNNING, SKIDDING, SLIDING, STANDING, enter_state
 
 

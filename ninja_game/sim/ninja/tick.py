@@ -10,11 +10,11 @@ from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.death import kill
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Ninja, TileMap, World
 from ninja_game.sim.ninja.control import celebrate, think_in_air, think_on_ground
 from ninja_game.sim.objects.dispatch import touch_objects
 from ninja_game.sim.rules import FATAL_IMPACT, FLOOR_ALLOWANCE, PARALLEL_FLOORS, WALL_PROBE
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.world_fields import Ninja, TileMap, World
 from ninja_game.sim.states import CELEBRATING, DEAD, FALL
 
 

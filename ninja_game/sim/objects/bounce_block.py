@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from ninja_game.sim.events import BLOCK_WOKEN, emit
 from ninja_game.sim.grid import grid_insert
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import BounceBlock
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.ninja.contact_response import box_contact, push
 from ninja_game.sim.rules import BLOCK_DRAG, BLOCK_HALF, BLOCK_SHARE, BLOCK_SLEEP, BLOCK_SPRING, NINJA_SHARE
 from ninja_game.sim.schedule import end_think, end_update, start_think, start_update
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import BounceBlock
+from ninja_game.sim.schema.world_fields import World
 
 
 @fast

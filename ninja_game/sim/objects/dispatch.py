@@ -23,9 +23,6 @@ from ninja_game.sim.kinds import (
     THWUMP,
     TURRET,
 )
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.objects.bounce_block import create_block, think_block, touch_block, update_block
 from ninja_game.sim.objects.door import create_door, touch_door, update_door
 from ninja_game.sim.objects.drone import create_drone, move_drone
@@ -40,6 +37,9 @@ from ninja_game.sim.objects.one_way import create_one_way, touch_one_way
 from ninja_game.sim.objects.thwump import create_thwump, touch_thwump, update_thwump
 from ninja_game.sim.objects.turret import create_turret, think_turret, update_turret
 from ninja_game.sim.rules import STRIDE
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import DRONE_MOVE
 
 NINE_CELLS = [0, STRIDE, STRIDE + 1, STRIDE - 1, -1, -STRIDE - 1, 1, -STRIDE + 1, -STRIDE]

@@ -9,9 +9,6 @@ from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
 from ninja_game.sim.events import DOOR_CLOSED, DOOR_OPENED, LOCK_OPENED, TRAP_CLOSED, emit
 from ninja_game.sim.grid import cell_index, grid_insert, grid_remove
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Door
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import (
     AUTOMATIC_DOOR_OPEN,
     AUTOMATIC_DOOR_RADIUS,
@@ -26,6 +23,9 @@ from ninja_game.sim.rules import (
     UP,
 )
 from ninja_game.sim.schedule import end_update, start_update
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Door
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import AUTOMATIC, LOCKED, TRAP
 
 

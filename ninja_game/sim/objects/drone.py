@@ -8,9 +8,6 @@ from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, NEIGHBOUR_OFFSET, ROW, UNIT_X, UNIT_Y
 from ninja_game.sim.events import CHAINGUN_OFF, CHASE_STARTED, LASER_OFF, emit
 from ninja_game.sim.grid import cell_at, grid_move, link
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Drone
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import (
     CELL,
     CHAINGUN_PACE,
@@ -23,6 +20,9 @@ from ninja_game.sim.rules import (
     ZAP_PACE,
 )
 from ninja_game.sim.schedule import start_think, start_update
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Drone
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import (
     ALTERNATING,
     DRONE_POST_FIRE,

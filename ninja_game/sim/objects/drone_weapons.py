@@ -8,9 +8,6 @@ from ninja_game.sim.arithmetic import ieee_divide
 from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.death import kill, zap
 from ninja_game.sim.events import CHAINGUN_CHARGING, CHAINGUN_ON, CHAINGUN_SHOT, LASER_CHARGING, LASER_ON, emit
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Drone
-from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.objects.drone import stop_firing
 from ninja_game.sim.rules import (
     BULLET_IMPULSE,
@@ -29,6 +26,9 @@ from ninja_game.sim.rules import (
     RADIUS,
 )
 from ninja_game.sim.schedule import end_think, start_think
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Drone
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import (
     BULLET,
     DRONE_FIRING,

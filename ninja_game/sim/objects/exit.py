@@ -9,10 +9,10 @@ from ninja_game.sim.death import win
 from ninja_game.sim.events import EXIT_OPENED, emit
 from ninja_game.sim.grid import grid_insert
 from ninja_game.sim.kinds import SWITCH
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Exit, Switch
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Exit, Switch
+from ninja_game.sim.schema.world_fields import World
 
 
 @fast

@@ -7,11 +7,11 @@ from ninja_game.sim.death import zap
 from ninja_game.sim.events import GUARD_STARTED, emit
 from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.kinds import INERT
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import FloorGuard
-from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import DOWN, GRID_COLUMNS, GUARD_RADIUS, GUARD_SPEED, HALF, SOLID
 from ninja_game.sim.schedule import start_update
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import FloorGuard
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import GUARD_CHASE, GUARD_IDLE
 
 

@@ -6,10 +6,10 @@ from math import sqrt
 
 from ninja_game.sim.events import GOLD_TAKEN, emit
 from ninja_game.sim.grid import grid_insert, grid_remove
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Gold
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import GOLD_RADIUS, RADIUS
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Gold
+from ninja_game.sim.schema.world_fields import World
 
 
 @fast

@@ -7,10 +7,10 @@ from math import sqrt
 
 from ninja_game.sim.events import LAUNCHED, emit
 from ninja_game.sim.grid import grid_insert
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import LaunchPad
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import PAD_RADIUS, PAD_STRENGTH, RADIUS
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import LaunchPad
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import FALLING, enter_state
 
 

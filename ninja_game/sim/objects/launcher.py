@@ -10,9 +10,6 @@ from ninja_game.sim.collision.tiles import NEIGHBOUR_OFFSET
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import ROCKET_EXPLODED, ROCKET_LAUNCHED, emit
 from ninja_game.sim.grid import grid_insert, grid_move, grid_remove
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Launcher
-from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import (
     OFF,
     RADIUS,
@@ -27,6 +24,9 @@ from ninja_game.sim.rules import (
     SOLID,
 )
 from ninja_game.sim.schedule import end_think, end_update, start_think, start_update
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Launcher
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import EXPLOSIVE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, LAUNCHER_PREPARE
 
 

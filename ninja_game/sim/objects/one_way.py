@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from ninja_game.sim.collision.tiles import UNIT_X, UNIT_Y
 from ninja_game.sim.grid import grid_insert
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import OneWay
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.ninja.contact_response import box_contact, push
 from ninja_game.sim.rules import ONE_WAY_HALF, RADIUS
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import OneWay
+from ninja_game.sim.schema.world_fields import World
 
 
 @fast

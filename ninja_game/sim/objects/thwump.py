@@ -6,9 +6,6 @@ from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, N
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import THWUMP_FELL, THWUMP_LANDED, emit
 from ninja_game.sim.grid import cell_at, grid_insert, grid_move
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Thwump
-from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.ninja.contact_response import box_contact, push
 from ninja_game.sim.rules import (
     CELL,
@@ -23,6 +20,9 @@ from ninja_game.sim.rules import (
     THWUMP_UP_IMPULSE,
 )
 from ninja_game.sim.schedule import start_update
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Thwump
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import ELECTRIC, THWUMP_MOVE, THWUMP_REST
 
 

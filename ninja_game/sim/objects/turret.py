@@ -7,9 +7,6 @@ from math import sqrt
 from ninja_game.sim.collision.rays import sees
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import TURRET_FIRED, TURRET_LOCKED, emit
-from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.object_fields import Turret
-from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import (
     AIM_FAR,
     AIM_FAR_SQUARED,
@@ -27,6 +24,9 @@ from ninja_game.sim.rules import (
     TURRET_SHOT,
 )
 from ninja_game.sim.schedule import end_think, end_update, start_think, start_update
+from ninja_game.sim.schema.declare import fast
+from ninja_game.sim.schema.object_fields import Turret
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import (
     HARD_BULLET,
     TURRET_POST_FIRE,

@@ -13,13 +13,14 @@ import pygame
 
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError, ReplayError
+from ninja_game.files.bundled import bundled_replays
 from ninja_game.files.reading import SUFFIXES, Skipped, files_in
-from ninja_game.files.user_folder import bundled_replays, short_path
+from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import WARNING_MS, App
-from ninja_game.play.menus.menu_screen import Action, MenuScreen
+from ninja_game.play.menu_screen import Action, MenuScreen
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen, result_of
 from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay

@@ -10,10 +10,10 @@ from math import hypot
 import numpy as np
 import pygame
 
-from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.replay.notations import KEY_NAMES
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.workspace import Commands
+from ninja_game.sim.grid import Point
 from ninja_game.sim.kinds import EXIT, KIND_NAMES, SWITCH
 from ninja_game.simulation import ObjectView, Simulation
 from ninja_game.tas_editor.commands import TABLE

@@ -9,9 +9,9 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.replay.notations import Marker
 from ninja_game.play.replay.paths import draw_path
+from ninja_game.sim.grid import Point
 from ninja_game.sim.rules import RADIUS
 from ninja_game.simulation import ObjectView
 from ninja_game.tas.timeline import Trajectory

@@ -6,9 +6,9 @@ from random import Random
 
 import pygame
 
-from ninja_game.formats.ascii.places import Point
+from ninja_game.sim.grid import Point
 from ninja_game.sim.inputs import fit_inputs
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.simulation import SaveState, Simulation
 from ninja_game.tas.timeline import Trajectory
 from ninja_game.tas_editor.editor import TasEditor

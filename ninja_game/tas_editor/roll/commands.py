@@ -10,7 +10,7 @@ from ninja_game.files.shown_text import counted
 from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.formats.replay.notations import Marker, write_inputs
 from ninja_game.play.clipboard import copy_text, pasted_text
-from ninja_game.play.menus.menu_screen import ask_text
+from ninja_game.play.menu_screen import ask_text
 from ninja_game.play.workspace import Commands
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import inputs_of_text

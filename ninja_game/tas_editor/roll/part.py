@@ -6,7 +6,7 @@ from functools import partial
 
 import pygame
 
-from ninja_game.play.menus.menu_screen import Menu, nothing
+from ninja_game.play.menu_screen import Menu, nothing
 from ninja_game.play.workspace import Commands
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import TasEditor, TasPart

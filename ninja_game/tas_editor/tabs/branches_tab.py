@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.play.menus.menu_screen import Question, ask_text
+from ninja_game.play.menu_screen import Question, ask_text
 from ninja_game.play.workspace import Commands
 from ninja_game.tas.tracks import Branch, Branches
 from ninja_game.tas_editor.editor import OtherRun, TasEditor

@@ -9,7 +9,7 @@ import pygame
 
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.formats.recording import Recording
-from ninja_game.play.menus.menu_screen import Menu
+from ninja_game.play.menu_screen import Menu
 from ninja_game.play.workspace import Commands
 from ninja_game.runs.compare import Split, run_splits
 from ninja_game.runtime import NewestJob

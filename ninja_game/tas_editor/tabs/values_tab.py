@@ -11,7 +11,7 @@ import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import MenuScreen, ask_text
+from ninja_game.play.menu_screen import MenuScreen, ask_text
 from ninja_game.play.workspace import Commands
 from ninja_game.runs.compare import SPLIT_EVENTS
 from ninja_game.search.formula.language import Values

@@ -13,8 +13,8 @@ import pygame
 from ninja_game.runtime import run_in_background
 from ninja_game.sim import states
 from ninja_game.sim.kinds import DRONE, EXIT, FLOOR_GUARD, LAUNCHER, TURRET
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.ui.audio.table import warning_of
 
 MENU = "menu"

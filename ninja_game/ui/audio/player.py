@@ -16,9 +16,9 @@ from time import monotonic
 import pygame
 
 from ninja_game.runtime import run_in_background
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.rules import WORLD_WIDTH
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import Ninja, World
 from ninja_game.sim.states import RUNNING
 from ninja_game.ui.audio.music import CALM, LAYERS, Music, affects_music, music_levels
 from ninja_game.ui.audio.table import CORPSE, GOLD, LOOPS, STEPS, Names, by_hardness, event_sound, has_loop, loop_levels

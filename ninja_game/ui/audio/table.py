@@ -8,8 +8,8 @@ from math import floor
 from ninja_game.sim import events, states
 from ninja_game.sim.events import DIED
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER, TURRET
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import Event, Ninja, World
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import Event, Ninja, World
 
 Names = tuple[str, ...]  # variants of a sound, chosen at random, never the same twice in a row
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.files.user_folder import asset_rows
+from ninja_game.files.bundled import asset_rows
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.inputs import JUMP_HELD, MOVES
 from ninja_game.ui.input.gamepad import Gamepads, pad_label

@@ -9,8 +9,8 @@ from random import Random
 from ninja_game.sim import events as ev, states
 from ninja_game.sim.collision.rays import ray_tiles
 from ninja_game.sim.kinds import DRONE, LAUNCHER
-from ninja_game.sim.memory.schema import Event, TileMap, World
 from ninja_game.sim.rules import FATAL_IMPACT, FLOOR_ALLOWANCE
+from ninja_game.sim.schema.world_fields import Event, TileMap, World
 from ninja_game.view.effects.particles import Particle, Particles
 
 CONFETTI_FALL = 90.0  # most px that a paper falls

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.formats.ascii.places import Point
-from ninja_game.ui.theme import Palette, mixed
+from ninja_game.sim.grid import Point
+from ninja_game.ui.theme import PALETTES, Palette, mixed
 from ninja_game.view.sprites.sketch import Sketch, Sprite
 
 FEET = 9.7  # px from the centre down to the floor
@@ -316,3 +316,14 @@ def paint_figure(
     _paint_limbs(s, colour, far, shown, limbs)
     if banded:
         s.stroke(palette.band, *band_ends(shown.head, shown.shoulder), 1.5)
+
+
+def icon(size: int, *, corner: float = 1 / 6) -> pygame.Surface:
+    """The game's icon, the running ninja. ``size``: px; ``corner``: radius of the corners, as a share of it."""
+    palette = PALETTES["classic"]
+    picture = pygame.Surface((size, size), pygame.SRCALPHA)
+    pygame.draw.rect(picture, palette.background, picture.get_rect(), border_radius=int(size * corner))
+    scale = size / 28 if corner else size / 40
+    sprite = ninja_sprite(scale, palette, run_pose(0.1, 5.0), 1, (5, 0), colour=palette.ninja)
+    sprite.blit(picture, (size // 2, size // 2))
+    return picture

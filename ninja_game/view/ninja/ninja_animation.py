@@ -7,9 +7,9 @@ from random import Random
 
 import pygame
 
-from ninja_game.formats.ascii.places import Point
 from ninja_game.sim.events import LANDED
-from ninja_game.sim.memory.schema import Ninja, World
+from ninja_game.sim.grid import Point
+from ninja_game.sim.schema.world_fields import Ninja, World
 from ninja_game.sim.states import CELEBRATING, DEAD, FALLING, JUMPING, RUNNING, SKIDDING, SLIDING
 from ninja_game.ui.theme import mixed
 from ninja_game.view.ninja import figure

@@ -8,14 +8,13 @@ from math import cos, hypot, pi, sin
 from random import Random
 from typing import NamedTuple
 
-from ninja_game.formats.ascii.places import Point
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import cast_ray, solid_at
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
-from ninja_game.sim.grid import cell_at
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.grid import Point, cell_at
 from ninja_game.sim.rules import DOWN, HALF, LEFT, ONE_WAY_HALF, PAD_RADIUS, RIGHT, SOLID, STRIDE, UP
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import EXPLOSIVE, FALL, WEAPON_ZAP
 from ninja_game.view.ninja.figure import Pose
 

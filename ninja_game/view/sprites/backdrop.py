@@ -5,7 +5,7 @@ from __future__ import annotations
 import pygame
 
 from ninja_game.sim.kinds import GOLD, MINE
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import SpriteBook, is_near

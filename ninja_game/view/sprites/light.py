@@ -8,7 +8,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.sim import kinds
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.ui.theme import Palette
 
 

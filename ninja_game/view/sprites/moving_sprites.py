@@ -7,9 +7,9 @@ from math import atan2, cos, degrees, radians, sin
 from typing import NamedTuple
 
 from ninja_game.sim import kinds, states
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import AIM_FAR, AIM_NEAR, CHAINGUN_PREPARE, LASER_BEAM, LASER_PREPARE
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.ui.theme import Palette, mixed
 from ninja_game.view.sprites.drawing import DrawTarget, drawing
 from ninja_game.view.sprites.object_animation import ObjectAnimation

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from math import atan2, pi
 
-from ninja_game.formats.ascii.places import Point
 from ninja_game.sim import kinds
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.grid import Point
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import DRONE_MOVE, LAUNCHER_FLIGHT
 from ninja_game.sim.traces import place_of
 

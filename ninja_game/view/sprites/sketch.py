@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.formats.ascii.places import Point
+from ninja_game.sim.grid import Point
 from ninja_game.ui.canvas import Colour, draw_limb
 
 FINE = 4  # how many times larger the shapes are drawn

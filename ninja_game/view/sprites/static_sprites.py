@@ -9,8 +9,8 @@ from math import atan2, cos, degrees, radians, sin
 
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.schema.object_fields import Object
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import AUTOMATIC, LAUNCHER_PREPARE, TRAP, TURRET_POST_FIRE, TURRET_PRE_FIRE
 from ninja_game.ui.theme import Palette, mixed
 from ninja_game.view.sprites.drawing import SpriteKey, drawing

@@ -8,7 +8,7 @@ from ninja_game.errors import LevelError
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.theme import Palette

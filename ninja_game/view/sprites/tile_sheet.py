@@ -8,9 +8,9 @@ from math import cos, pi, sin
 
 import pygame
 
-from ninja_game.formats.ascii.places import Point
 from ninja_game.sim.collision import tiles
 from ninja_game.sim.collision.tiles import EMPTY, FULL, SHAPE
+from ninja_game.sim.grid import Point
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas
 from ninja_game.view.sprites.sketch import FINE

@@ -22,10 +22,11 @@ from pygments import highlight
 from pygments.formatters import HtmlFormatter
 from pygments.lexers import PythonLexer, TextLexer
 
-from ninja_game.files.user_folder import PACKAGE, data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.play.lab.figure import figure_texts
 from ninja_game.play.lab.screen import FIGURES, figure_picture
-from ninja_game.play.window import png_of
+from ninja_game.runtime import PACKAGE
+from ninja_game.ui.canvas import png_of
 from ninja_game.web.pages import frame
 from ninja_game.web.pages.frame import GAME, HOME, NAVIGATION, SEARCH, Content, Markup, joined, tag
 

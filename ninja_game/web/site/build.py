@@ -12,9 +12,10 @@ from typing import Any
 
 from ninja_game import __version__
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError
+from ninja_game.files.bundled import data_folder
 from ninja_game.files.reading import digest_of, read_utf8
 from ninja_game.files.tree import Tree, leads_below
-from ninja_game.files.user_folder import PACKAGE, data_folder
+from ninja_game.runtime import PACKAGE
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.pages.frame import GAME, MARK as PAGES_MARK, REPLAYS
 from ninja_game.web.pages.gallery import page_name, picture_name, published_levels
@@ -98,7 +99,8 @@ def _page() -> dict[str, bytes]:
 
 
 def _icons() -> dict[str, bytes]:
-    from ninja_game.play.window import icon, png_of
+    from ninja_game.ui.canvas import png_of
+    from ninja_game.view.ninja.figure import icon
 
     sizes = ICONS | {MASKABLE: (512, 0.0)}
     return {name: png_of(icon(size, corner=corner)) for name, (size, corner) in sizes.items()}

@@ -19,9 +19,10 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 import tomlkit
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.bundled import data_folder
 from ninja_game.files.reading import digest_of, read_bytes
-from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.files.writing import write_atomically
+from ninja_game.runtime import PACKAGE
 
 VERSION = "314.0.7"
 

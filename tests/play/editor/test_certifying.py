@@ -20,17 +20,17 @@ from ninja_game.editor.certify import LANDED, Ask, Certification, find_reach, pa
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import open_source
 from ninja_game.editor.specs import BODY, SWITCH, points
-from ninja_game.formats.ascii.places import cell_of, is_inside
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay, parse_replay
 from ninja_game.levels.findings import level_finding
 from ninja_game.play.editor.session import _examine
 from ninja_game.play.editor.sheet import _rects
-from ninja_game.play.menus.menu_screen import Menu
+from ninja_game.play.menu_screen import Menu
 from ninja_game.runs.packs import lint, make_pars
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, Task
+from ninja_game.sim.grid import cell_of, is_inside
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level

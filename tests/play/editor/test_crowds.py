@@ -10,7 +10,7 @@ from ninja_game.editor.files import Source
 from ninja_game.editor.specs import BODY, points
 from ninja_game.editor.stamp import Selection, Stamp, put
 from ninja_game.editor.tools import EditorTools
-from ninja_game.files.user_folder import bundled_levels
+from ninja_game.files.bundled import bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.play.editor import palette_view
 from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites

@@ -16,18 +16,19 @@ import pytest
 
 from ninja_game.cli.main import cli
 from ninja_game.editor.files import Autosave, Source, ascii_text, new_source, open_source, recovered
-from ninja_game.files.user_folder import CHECKOUT, EDITING, bundled_levels
-from ninja_game.formats.ascii.places import is_inside
+from ninja_game.files.bundled import CHECKOUT, bundled_levels
+from ninja_game.files.user_folder import EDITING
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.play.app import App
 from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.menu_screen import FormPanel, Menu
 from ninja_game.play.menus.browser import Browser, LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.menu_screen import FormPanel, Menu
 from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
+from ninja_game.sim.grid import is_inside
 from tests.support.level_maker import ROOM, Maker
 from tests.support.own_pack import PACK
 from tools.draw.screens import written

@@ -22,7 +22,7 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.level.hud import Box, Hud
 from ninja_game.play.level.messages import MessageQueue
-from ninja_game.play.menus.menu_screen import Menu
+from ninja_game.play.menu_screen import Menu
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.search.certificate import verified_run
 from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED

@@ -18,7 +18,7 @@ from ninja_game.files.user_folder import short_path
 from ninja_game.play.editor.commands import IN_MORE, TryScreen
 from ninja_game.play.editor.parts import FilePart, ObjectList
 from ninja_game.play.editor.screen import EditorScreen
-from ninja_game.play.menus.menu_screen import Menu
+from ninja_game.play.menu_screen import Menu
 from ninja_game.ui.widgets import Button
 from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker

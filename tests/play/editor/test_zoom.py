@@ -9,9 +9,9 @@ from ninja_game.editor.files import Source
 from ninja_game.editor.motion import SYMMETRIES
 from ninja_game.editor.specs import BODY, points
 from ninja_game.editor.stamp import Stamp, put
-from ninja_game.formats.ascii.places import Cell, Point, middle_of
 from ninja_game.play.editor.sheet import GRIDS
 from ninja_game.play.editor.view import _AXES
+from ninja_game.sim.grid import Cell, Point, middle_of
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import ObjectSpec
 from tests.support.level_maker import ROOM, Maker

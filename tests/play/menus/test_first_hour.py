@@ -28,9 +28,9 @@ from ninja_game.play.level.messages import (
 )
 from ninja_game.play.level.places import MUST, away_from, solid_place, tag_top
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
+from ninja_game.play.menu_screen import Menu
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.rooms import room_level
 from ninja_game.player.playthrough import EpisodeSession, LevelSession

@@ -27,10 +27,10 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import PackFinding, level_finding, pack_finding
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menu_screen import BACK, FormPanel, MenuScreen
 from ninja_game.play.menus import pack_menus, pack_sharing
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
-from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
 from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.pack_shelves import GAP, PackCell
 from ninja_game.play.menus.packs import PackScreen

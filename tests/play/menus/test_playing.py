@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import lifetimes
 from ninja_game.play.level.level_play import Phase

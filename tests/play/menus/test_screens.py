@@ -7,7 +7,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.pack.pack import Pack
@@ -16,12 +16,12 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
+from ninja_game.play.menu_screen import MenuScreen, Question
 from ninja_game.play.menus.browser import SIDE_WIDTH, TEXT_HIGH, Browser
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.menu_screen import MenuScreen, Question
 from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pygame
 import pytest
 
+from ninja_game.play.menu_screen import Menu
 from ninja_game.play.menus.bindings import LIST, ROW, SLOTS, Capture, clash
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.menus.settings import LEFT, STEP, TOP, SettingsScreen
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, bindable
 from ninja_game.ui.theme import PALETTES

@@ -9,7 +9,7 @@ from shutil import copy
 import pygame
 import pytest
 
-from ninja_game.play.menus.menu_screen import Menu
+from ninja_game.play.menu_screen import Menu
 from ninja_game.player.settings import read_settings
 from ninja_game.tas.files import open_run
 from ninja_game.tas_editor.editor import MIN_ROLL, LayoutPreferences, tas_canvas, tas_layout

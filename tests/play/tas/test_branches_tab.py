@@ -7,7 +7,7 @@ from unittest.mock import patch
 import pygame
 import pytest
 
-from ninja_game.play.menus.menu_screen import Question
+from ninja_game.play.menu_screen import Question
 from ninja_game.sim.inputs import Input
 from ninja_game.tas_editor.tabs.branches_tab import BranchesTab
 from ninja_game.ui.theme import Theme

@@ -11,7 +11,7 @@ from ninja_game import verify_recording
 from ninja_game.errors import ReplayError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
-from ninja_game.play.menus.menu_screen import FormPanel, Menu
+from ninja_game.play.menu_screen import FormPanel, Menu
 from ninja_game.sim.inputs import KEY_RIGHT
 from ninja_game.tas.files import RunFile, open_run
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records

@@ -8,11 +8,11 @@ from unittest.mock import patch
 
 import pygame
 
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.bundled import data_folder
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.provenance import Provenance
+from ninja_game.play.menu_screen import FormPanel, Menu
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.menu_screen import FormPanel, Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.inputs import KEY_LEFT

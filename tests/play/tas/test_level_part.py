@@ -15,12 +15,12 @@ import pytest
 
 from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ReplayError
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import write_demo
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.play.menus.menu_screen import FormPanel
+from ninja_game.play.menu_screen import FormPanel
 from ninja_game.play.replay.screen import SPEEDS, ReplayScreen
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, Demo, with_press_bits
 from ninja_game.tas.files import open_run, runs_of_level

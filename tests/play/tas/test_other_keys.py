@@ -8,7 +8,7 @@ import pygame
 
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import write_level_string
-from ninja_game.play.menus.menu_screen import Menu
+from ninja_game.play.menu_screen import Menu
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen

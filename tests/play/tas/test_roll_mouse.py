@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.replay.notations import Marker
-from ninja_game.play.menus.menu_screen import FormPanel, Menu
+from ninja_game.play.menu_screen import FormPanel, Menu
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.tracks import InputTrack
 from tests.support.tas_driver import TasDriver

@@ -9,7 +9,7 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.play.menus.menu_screen import FormPanel
+from ninja_game.play.menu_screen import FormPanel
 from ninja_game.sim.inputs import Input
 from ninja_game.simulation import Simulation
 from ninja_game.tas.tracks import InputTrack

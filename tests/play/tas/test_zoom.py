@@ -6,7 +6,7 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.formats.ascii.places import Point
+from ninja_game.sim.grid import Point
 from ninja_game.ui.canvas import MAX_SCALE
 from tests.support.tas_driver import TasDriver
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory.declare import f8, i4, struct, struct_base
+from ninja_game.sim.schema.declare import f8, i4, struct, struct_base
 
 
 @struct_base

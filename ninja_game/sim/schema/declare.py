@@ -1,8 +1,9 @@
 """One annotated schema, and the two memories made of it.
 
-The state of the world is described once, by annotated classes (``schema.py``). This module turns such a class into the
-*plain* memory: a Python class with slots, every field zero at first. ``layout.py`` of the backend turns the same class
-into the *compiled* memory: a NumPy record. The rules are ordinary functions that never know which of the two they hold.
+The state of the world is described once, by annotated classes (``world_fields.py``). This module turns such a class
+into the *plain* memory: a Python class with slots, every field zero at first. ``layout.py`` of the backend turns the
+same class into the *compiled* memory: a NumPy record. The rules are ordinary functions that never know which of the
+two they hold.
 
 ``@fast`` only registers a rule; the backend's ``compiler.py`` makes compiled twins of what is registered. Plain play
 imports neither Numba nor NumPy.

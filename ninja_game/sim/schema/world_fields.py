@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from ninja_game.sim.memory.declare import f8, i2, i4, struct, u1
-from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.rules import GRID_CELLS
+from ninja_game.sim.schema.declare import f8, i2, i4, struct, u1
+from ninja_game.sim.schema.object_fields import Object
 
 CAPACITY = 12_288
 """Slots for objects in a compiled world. All levels share it: another capacity would be another type to compile."""

@@ -1,17 +1,14 @@
-"""All drawings and all screens on one picture: `python3 tools/dev.py tool draw.contact_sheet`.
+"""All drawings on one picture, recorded as `tests/play/golden/drawings.png`.
 
 Look at it critically after a change of any drawing: would a player buy this?
 """
 
 from __future__ import annotations
 
-import tempfile
-from pathlib import Path
-
 import pygame
 
 from ninja_game.ui.canvas import Canvas
-from ninja_game.ui.theme import PALETTES, Palette, Theme
+from ninja_game.ui.theme import Palette, Theme
 from ninja_game.view.effects import particles
 from ninja_game.view.ninja.figure import (
     DANCES,
@@ -28,19 +25,11 @@ from ninja_game.view.ninja.figure import (
 )
 from ninja_game.view.sprites import moving_sprites as moving, static_sprites as static
 from ninja_game.view.sprites.drawing import SpriteBook, SpriteKey
-from tests.support.game_screens import run_tour
-from tests.support.menu_driver import MenuDriver
-from tools import ROOT
-
-OUT = ROOT / "docs" / "contact-sheet.png"
 
 SCALE = 3.0
 CELL = 150, 138
 COLUMNS = 12
 MARGIN = 24
-
-SCREEN = 1188, 900
-HELP_PAGES = {"help-slopes", "help-laser-drones", "help-keys"}
 
 Shown = tuple[str, list[tuple[SpriteKey, float, float]]]
 """A label, and drawings with where their points lie, px from the middle of the cell."""
@@ -105,19 +94,19 @@ POSES: list[tuple[str, Pose, float]] = [
 """The ninja's poses, with the speed that makes its band fly."""
 
 
-def paint_things(palette: Palette, shown: list[Shown]) -> pygame.Surface:
+def paint_things(palette: Palette) -> pygame.Surface:
     """The table of things, and below it the ninja."""
-    first = -(-len(shown) // COLUMNS) * COLUMNS
+    first = -(-len(THINGS) // COLUMNS) * COLUMNS
     rows = -(-(first + len(POSES)) // COLUMNS)
     sheet = pygame.Surface((2 * MARGIN + COLUMNS * CELL[0], 2 * MARGIN + rows * CELL[1]))
     sheet.fill(palette.background)
     theme = Theme(palette, Canvas((1188, 900)))
     book = SpriteBook(SCALE, palette)
-    for place in [*range(len(shown)), *range(first, first + len(POSES))]:
+    for place in [*range(len(THINGS)), *range(first, first + len(POSES))]:
         x = MARGIN + place % COLUMNS * CELL[0] + CELL[0] // 2
         y = MARGIN + place // COLUMNS * CELL[1] + CELL[1] // 2 - 12
-        if place < len(shown):
-            label, parts = shown[place]
+        if place < len(THINGS):
+            label, parts = THINGS[place]
             for key, dx, dy in parts:
                 book.sprite(key).blit(sheet, (round(x + dx * SCALE), round(y + dy * SCALE)))
         else:
@@ -126,74 +115,3 @@ def paint_things(palette: Palette, shown: list[Shown]) -> pygame.Surface:
         text = theme.lettering.rendered(label, 9, palette.faint)
         sheet.blit(text, (x - text.get_width() // 2, y + CELL[1] // 2 - 8))
     return sheet
-
-
-def paint_palettes() -> pygame.Surface:
-    """The most telling things in every palette."""
-    wanted = {
-        "gold", "mine", "exit, open", "switch", "trap, closed", "turret", "launcher", "thwump", "guard", "zap drone",
-        "laser, firing", "chaingun drone",
-    }  # fmt: skip
-    shown = [cell for cell in THINGS if cell[0] in wanted]
-    rows = [paint_things(palette, shown) for palette in PALETTES.values()]
-    height = CELL[1] * 2 + MARGIN
-    sheet = pygame.Surface((rows[0].get_width(), height * len(rows)))
-    for k, row in enumerate(rows):
-        sheet.blit(row, (0, k * height), (0, 0, row.get_width(), height))
-    return sheet
-
-
-def stacked(parts: list[pygame.Surface], background: pygame.Color) -> pygame.Surface:
-    """Pictures under each other."""
-    sheet = pygame.Surface((max(part.get_width() for part in parts), sum(part.get_height() for part in parts)))
-    sheet.fill(background)
-    y = 0
-    for part in parts:
-        sheet.blit(part, (0, y))
-        y += part.get_height()
-    return sheet
-
-
-def grid(pictures: list[tuple[str, pygame.Surface]], width: int, palette: Palette, columns: int = 3) -> pygame.Surface:
-    """Labelled pictures of one size side by side."""
-    theme = Theme(palette, Canvas((1188, 900)))
-    w = (width - MARGIN * (columns + 1)) // columns
-    h = w * 25 // 33
-    rows = -(-len(pictures) // columns)
-    sheet = pygame.Surface((width, rows * (h + 44) + MARGIN))
-    sheet.fill(palette.background)
-    for k, (label, picture) in enumerate(pictures):
-        x, y = MARGIN + k % columns * (w + MARGIN), MARGIN + k // columns * (h + 44)
-        sheet.blit(pygame.transform.smoothscale(picture, (w, h)), (x, y))
-        sheet.blit(theme.lettering.rendered(label, 9, palette.faint), (x, y + h + 4), (0, 0, w, 44))
-    return sheet
-
-
-def main() -> None:
-    pygame.display.init()
-    pygame.font.init()
-    pygame.display.set_mode((64, 64))
-    classic = PALETTES["classic"]
-    screens = grid(screen_pictures(), 2 * MARGIN + COLUMNS * CELL[0], classic)
-    sheet = stacked([paint_things(classic, THINGS), paint_palettes(), screens], classic.background)
-    pygame.image.save(sheet, str(OUT))
-    print(f"{OUT}: {sheet.get_width()} x {sheet.get_height()} px")
-
-
-def screen_pictures() -> list[tuple[str, pygame.Surface]]:
-    """Every screen of the game; of the help's pages some."""
-    shown: list[tuple[str, pygame.Surface]] = []
-
-    def show(driver: MenuDriver, name: str) -> None:
-        if not name.startswith("help-") or name in HELP_PAGES:
-            driver.app.stack.redraw_all()
-            driver.app.draw()
-            shown.append((name.replace("-", " "), driver.app.surface.copy()))
-
-    with tempfile.TemporaryDirectory() as folder:
-        run_tour(Path(folder), SCREEN, show)
-    return shown
-
-
-if __name__ == "__main__":
-    main()
