@@ -20,10 +20,10 @@ from ninja_game.errors import ArgumentError
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
+    from ninja_game.board.categories import Category
+    from ninja_game.board.ranking import Ranked, Ranking
     from ninja_game.formats.recording import Recording
     from ninja_game.levels.episodes import Entry
-    from ninja_game.web.board.categories import Category
-    from ninja_game.web.board.ranking import Ranked, Ranking
 
 QUESTIONS = ("rank", "best", "inputs", "splits", "trace", "film")
 MAX_RUNS = 5  # side by side, where no players are named
@@ -71,7 +71,7 @@ def ask(
       ninja-game board ask replays/ splits "First Steps" Ann Bob
       ninja-game board ask replays/ film 00-0 Ann Bob -o both.gif
     """
-    from ninja_game.web.board.runs import ASSISTED, PLAYED
+    from ninja_game.board.runs import ASSISTED, PLAYED
 
     if what in ("trace", "film") and not output:
         raise click.UsageError(f"{what}: name the file with -o")
@@ -176,7 +176,7 @@ def _category(ranking: Ranking, name: str | None) -> Category:
 
 
 def _of_player(table: Sequence[Ranked], player: str) -> Ranked:
-    from ninja_game.web.board.players import folded
+    from ninja_game.board.players import folded
 
     for ranked in table:
         if folded(player) in (folded(ranked.run.player), folded(f"{ranked.run.player}, {ranked.run.ladder}")):

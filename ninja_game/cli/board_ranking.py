@@ -17,9 +17,9 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import cache_folder, data_folder
 
 if TYPE_CHECKING:
-    from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.runs import Ledger, Run
-    from ninja_game.web.pages.memo import Memo
+    from ninja_game.board.memo import Memo
+    from ninja_game.board.ranking import Ranking
+    from ninja_game.board.runs import Ledger, Run
 
 LAST_LEVELS, LAST_LEDGER, LAST_RULES = "/levels", "/ledger", "/rules"  # keys of a memo: no path of a run begins so
 
@@ -47,8 +47,8 @@ def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
     """
     from hashlib import sha256
 
+    from ninja_game.board.memo import Memo
     from ninja_game.web.board.pages import is_in
-    from ninja_game.web.pages.memo import Memo
 
     name = sha256(str(about.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
     path = cache_folder() / "board" / f"{kind}-{name}.json"
@@ -75,12 +75,12 @@ def ranking_of(
     ``same``: ``levels`` and ``rules`` that are not given are those of the folder's last board; so is ``ledger`` where
     nothing is decided.
     """
-    from ninja_game.web.board.categories import USUAL, read_categories
-    from ninja_game.web.board.judge import judge
-    from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import dates_of, read_board, read_dates
-    from ninja_game.web.board.runs import NO_LEDGER
-    from ninja_game.web.pages.gallery import published_levels
+    from ninja_game.board.categories import USUAL, read_categories
+    from ninja_game.board.judge import judge
+    from ninja_game.board.ranking import Ranking
+    from ninja_game.board.report import dates_of, read_board, read_dates
+    from ninja_game.board.runs import NO_LEDGER
+    from ninja_game.levels.published import published_levels
 
     # With many runs, all of which stay in memory, garbage collection took a third of the time.
     gc.set_threshold(20_000)

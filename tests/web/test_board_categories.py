@@ -9,14 +9,15 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from ninja_game.board.categories import FASTEST, MAX_CATEGORIES, NAMES, USUAL, Category, read_categories
+from ninja_game.board.judge import judge
+from ninja_game.board.ranking import Ranking
+from ninja_game.board.runs import ASSISTED, PLAYED
 from ninja_game.cli.main import cli
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.provenance import Provenance
-from ninja_game.web.board.categories import FASTEST, MAX_CATEGORIES, NAMES, USUAL, Category, read_categories
-from ninja_game.web.board.judge import judge
-from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import ASSISTED, PLAYED
-from ninja_game.web.pages.gallery import path_data, published_levels
+from ninja_game.levels.published import published_levels
+from ninja_game.web.pages.gallery import path_data
 from tests.support.board import DIGEST, Tags, board, put, slow_walk
 from tests.support.forgeries import GOLD_LATER, WALKING, replay
 from tests.support.samples import WALK_END

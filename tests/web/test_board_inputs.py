@@ -19,18 +19,18 @@ from unittest.mock import Mock
 import pytest
 from click.testing import CliRunner
 
+from ninja_game.board.copies import ALIGNED, SHIFTED, Course, Courses, _near_to_another, course_of, edit_distance
+from ninja_game.board.judge import judge
+from ninja_game.board.players import Players, folded
 from ninja_game.cli.main import cli
 from ninja_game.files.user_folder import bundled_replays, data_folder
 from ninja_game.formats.lines import MAX_NAME
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import write_replay
+from ninja_game.levels.published import published_levels
 from ninja_game.runs.run import record_replay, run_level
-from ninja_game.web.board.copies import ALIGNED, SHIFTED, Course, Courses, _near_to_another, course_of, edit_distance
-from ninja_game.web.board.judge import judge
 from ninja_game.web.board.pages import check_site
-from ninja_game.web.board.players import Players, folded
-from ninja_game.web.pages.gallery import published_levels
 from tests.support import near_copies
 from tests.support.board import DIGEST, put, slow_walk
 from tests.support.forgeries import WALKING, record, replay
@@ -104,7 +104,7 @@ def test_no_name_outside_the_folder_is_told(tmp_path: Path, levels: Path, runs: 
 
 
 def test_the_board_asks_no_other_program() -> None:
-    found = set().union(*(readers(path.read_text("utf-8")) for path in (PACKAGE / "web" / "board").glob("*.py")))
+    found = set().union(*(readers(path.read_text("utf-8")) for path in PACKAGE.glob("**/board/*.py")))
     assert "read_utf8" in found
     assert not [name for name in found if re.match(r"subprocess|os\.(popen|system|exec|spawn)", name)]
 
@@ -474,7 +474,7 @@ def test_few_of_many_runs_are_aligned(monkeypatch: pytest.MonkeyPatch) -> None:
     inputs = recording.inputs
     course = course_of(inputs, run_level(recording.level, inputs))
     aligned = Mock(return_value=10**6)
-    monkeypatch.setattr("ninja_game.web.board.copies.edit_distance", aligned)
+    monkeypatch.setattr("ninja_game.board.copies.edit_distance", aligned)
     other = replace(course, presses=frozenset(), places=frozenset())
     assert near_copies.near_ones(course, [other] * 500) == []
     assert aligned.call_count == ALIGNED

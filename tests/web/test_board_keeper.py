@@ -11,9 +11,9 @@ from unittest.mock import Mock
 import pytest
 from click.testing import CliRunner
 
+from ninja_game.board import judge
 from ninja_game.cli.main import cli
 from ninja_game.formats.replay.provenance import Provenance
-from ninja_game.web.board import judge
 from tests.support.board import DIGEST, HOSTILE, board, put, slow_walk, taken_in_earlier
 from tests.support.forgeries import WALKING, record, replay
 

@@ -16,17 +16,19 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.board.categories import FASTEST, HIGHEST, Category
+from ninja_game.board.memo import Memo, values_digest
+from ninja_game.board.ranking import Leaderboard, Ranked, Ranking
+from ninja_game.board.runs import PLAYED, Key, Run
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import shared_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, aligned, run_splits, split_table, sum_of_best
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.web.board.categories import FASTEST, HIGHEST, Category
 from ninja_game.web.board.charts import PLACE, lead_chart, paths, signed, speed_and_keys, steps, swatch
-from ninja_game.web.board.ranking import Leaderboard, Ranked, Ranking
-from ninja_game.web.board.runs import PLAYED, Key, Run
 from ninja_game.web.pages.frame import (
     GAME,
     REPLAYS,
@@ -53,10 +55,8 @@ from ninja_game.web.pages.gallery import (
     picture_name,
     place_mark,
     run_page,
-    shared_text,
     watch_address,
 )
-from ninja_game.web.pages.memo import Memo, values_digest
 
 PER_PAGE = 100  # rows of a table on one page: a page has at most 100 KB
 

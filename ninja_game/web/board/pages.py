@@ -12,13 +12,16 @@ from typing import Any
 from uuid import NAMESPACE_OID, uuid5
 from xml.etree import ElementTree as ET
 
+from ninja_game.board.categories import HIGHEST
+from ninja_game.board.ranking import Ranked, Record, Standing
+from ninja_game.board.report import counts, unnamed
+from ninja_game.board.runs import KINDS, Key, Run
 from ninja_game.errors import FileError
 from ninja_game.files.reading import SUFFIXES
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.web.board.categories import HIGHEST
 from ninja_game.web.board.level_pages import (
     EPISODES,
     FIRST,
@@ -32,9 +35,6 @@ from ninja_game.web.board.level_pages import (
     made_text,
     player_page,
 )
-from ninja_game.web.board.ranking import Ranked, Record, Standing
-from ninja_game.web.board.report import counts, unnamed
-from ninja_game.web.board.runs import KINDS, Key, Run
 from ninja_game.web.pages.frame import (
     REPLAYS,
     Content,

@@ -11,11 +11,11 @@ from itertools import zip_longest
 from math import inf
 from operator import itemgetter
 
+from ninja_game.board.categories import USUAL, Category
+from ninja_game.board.runs import PLAYED, Key, Run, ValidatedRuns
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.levels.episodes import Episode
-from ninja_game.web.board.categories import USUAL, Category
-from ninja_game.web.board.runs import PLAYED, Key, Run, ValidatedRuns
-from ninja_game.web.pages.gallery import PublishedLevels
+from ninja_game.levels.published import PublishedLevels
 
 Leaderboard = tuple[str, Category]  # a ladder and a category, within which runs are ranked
 

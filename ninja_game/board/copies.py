@@ -13,11 +13,11 @@ from itertools import groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.board.memo import Memo, program, values_digest
+from ninja_game.board.players import folded
+from ninja_game.board.runs import OWN, Key, Rejected, Rows, Run
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN
-from ninja_game.web.board.players import folded
-from ninja_game.web.board.runs import OWN, Key, Rejected, Rows, Run
-from ninja_game.web.pages.memo import Memo, program, values_digest
 
 MAX_COMPARED = 1000
 """Earlier runs of a level to compare a new one with: the fastest, the likeliest to be copied."""

@@ -7,12 +7,12 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ninja_game.board.collect import RunFolder
+from ninja_game.board.players import folded
 from ninja_game.formats.replay.provenance import names_of_text, parse_provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.run import run_level
-from ninja_game.web.board.collect import RunFolder
-from ninja_game.web.board.players import folded
 
 if TYPE_CHECKING:
     import numpy as np

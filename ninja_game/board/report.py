@@ -10,13 +10,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from ninja_game.errors import ArgumentError, FormatError
-from ninja_game.files.reading import read_utf8
-from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.formats.run_time import seconds_text
-from ninja_game.web.board.players import folded
-from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import (
+from ninja_game.board.players import folded
+from ninja_game.board.ranking import Ranking
+from ninja_game.board.runs import (
     DECISIONS,
     KINDS,
     NO_LEDGER,
@@ -30,6 +26,10 @@ from ninja_game.web.board.runs import (
     Run,
     ValidatedRuns,
 )
+from ninja_game.errors import ArgumentError, FormatError
+from ninja_game.files.reading import read_utf8
+from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.formats.run_time import seconds_text
 
 VERSION = 2
 DATE = "%Y-%m-%dT%H:%M:%SZ"

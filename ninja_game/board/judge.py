@@ -12,26 +12,26 @@ from itertools import compress, count, pairwise, starmap
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
+from ninja_game.board.collect import RunFolder, Sent, SentFile
+from ninja_game.board.copies import without_copies
+from ninja_game.board.memo import Memo, program, values_digest
+from ninja_game.board.players import UNNAMED, Players, folded
+from ninja_game.board.runs import KINDS, NO_LEDGER, OWN, PLAYED, Dates, Judged, Ledger, Rejected, Run, ValidatedRuns
 from ninja_game.budget import RUN_BUDGET, tick_cost
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.lines import MAX_NAME
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.replay.provenance import parse_provenance
-from ninja_game.formats.replay.text import INPUTS_AFTER
+from ninja_game.formats.replay.text import INPUTS_AFTER, shared_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.levels.findings import RunProblem, run_problem
+from ninja_game.levels.published import PublishedLevels
 from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.verify import NOT_RUN, Verdict, not_strict
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, MOVES, fit_demo, with_press_bits
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.web.board.collect import RunFolder, Sent, SentFile
-from ninja_game.web.board.copies import without_copies
-from ninja_game.web.board.players import UNNAMED, Players, folded
-from ninja_game.web.board.runs import KINDS, NO_LEDGER, OWN, PLAYED, Dates, Judged, Ledger, Rejected, Run, ValidatedRuns
-from ninja_game.web.pages.gallery import PublishedLevels, shared_text
-from ninja_game.web.pages.memo import Memo, program, values_digest
 
 _LINE = re.compile(r"^(?=[0-9])")
 

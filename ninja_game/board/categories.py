@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from ninja_game.board.runs import Run
 from ninja_game.errors import FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.untrusted import parse_toml
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_number, parse_truth
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.web.board.runs import Run
 
 NAMES: dict[str, Callable[[Run], float]] = {
     "ticks": lambda run: run.tick, "gold": lambda run: run.gold, "score": lambda run: run.score,
