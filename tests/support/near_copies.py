@@ -30,7 +30,7 @@ def near_ones(course: Course, earlier: Sequence[Course]) -> list[int]:
     courses = Courses(len(earlier))
     for number, other in enumerate(earlier):
         courses.add(number, 0, partial(replace, other))
-    return courses.near(course)(courses.numbers >= 0)[0]
+    return courses.near(course)(courses.numbers >= 0).numbers
 
 
 def every_nth(found: list, count: int) -> list:  # type: ignore[type-arg]

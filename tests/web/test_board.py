@@ -19,6 +19,7 @@ from click.testing import CliRunner
 from ninja_game.board import collect
 from ninja_game.board.categories import FASTEST, HIGHEST, Category
 from ninja_game.board.collect import MAX_RECORDS
+from ninja_game.board.copies import Near
 from ninja_game.board.judge import judge
 from ninja_game.board.ranking import Ranking
 from ninja_game.board.report import DATE, read_board
@@ -88,7 +89,7 @@ def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -
     assert [each.run.score for each in ranking.tables[DIGEST][PLAYED, HIGHEST]] == [
         3600 + 80 - WALK_END - late for late in (0, 2, 5)
     ]
-    assert [(each.run.player, [*each.before.values()]) for each in ranking.records] == [
+    assert [(each.run.player, [*each.gains.values()]) for each in ranking.records] == [
         ("Ann", [5.0, 5.0]), ("Bea", [None, None]),
     ]  # fmt: skip
     assert [(each.player, each.levels, each.ranks) for each in ranking.standings[PLAYED]] == [
@@ -734,7 +735,7 @@ def test_a_run_that_shares_the_path_alone_is_marked_and_keeps_its_place(
 ) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"), day=1)
     put(runs, "b.txt", replay(author="Bea"), day=2)
-    near = 0, "9 of 9 are those of", sure
+    near = Near([0], "9 of 9 are those of", sure)
     monkeypatch.setattr("ninja_game.board.copies._near_to_another", lambda *compared: near if compared[3] else None)
     judged = judged_by_file_dates(runs, levels)
     table = Ranking(judged, published_levels(levels)).tables[DIGEST][PLAYED, FASTEST]

@@ -141,7 +141,7 @@ def test_no_record_depends_on_the_clock(runs: Path, levels: Path, tmp_path: Path
     days = {"ann.txt": "2026-01-02T12:00:00Z", "bea.txt": "2026-01-01T12:00:00Z", "cid.txt": "2025-12-20T12:00:00Z"}
     ranking = Ranking(judge(runs, shown, jobs=1, dates=lambda key, _: days[key[0]]), shown, USUAL)
     assert ranking.level_of_the_week == (DIGEST, 2, 2)
-    assert [(each.run.player, [*each.before.values()]) for each in ranking.records] == [
+    assert [(each.run.player, [*each.gains.values()]) for each in ranking.records] == [
         ("Ann", [5.0, 5.0]), ("Bea", [None, None]), ("Cid", [None, None]),
     ]  # fmt: skip
     assert ranking.contested[0] == DIGEST

@@ -491,8 +491,9 @@ def test_runs_by_two_in_turn_are_compared_once_and_the_fastest_only() -> None:
             courses.add(number, number, partial(replace, course, places=places))
         assert _near_to_another("Ann", course, courses, players, 0) is None
         near = _near_to_another("Cid", course, courses, players, 200)
+        assert near is not None
         said = f"{750 + nearest} of the 1000 places on its way, and 0 of 0 presses and releases, are those of"
-        assert near == (nearest, said, False)
+        assert (near.numbers[0], *near[1:]) == (nearest, said, False)
 
 
 def test_a_slower_run_leaves_for_a_faster_one_with_all_that_it_shares() -> None:
@@ -502,7 +503,7 @@ def test_a_slower_run_leaves_for_a_faster_one_with_all_that_it_shares() -> None:
         courses.add(number, tick, partial(replace, each))
     assert courses.numbers.tolist() == [2]
     every = courses.numbers >= 0
-    assert courses.near(replace(one, presses=frozenset()))(every)[0] == []
+    assert courses.near(replace(one, presses=frozenset()))(every).numbers == []
     moved = replace(one, presses=frozenset(each + 8 * SHIFTED for each in other.presses))
     assert courses.near(moved)(every) == (
         [2],
@@ -510,7 +511,7 @@ def test_a_slower_run_leaves_for_a_faster_one_with_all_that_it_shares() -> None:
         True,
     )
     beyond = replace(one, presses=frozenset(each + 8 for each in moved.presses))
-    assert courses.near(beyond)(every)[0] == []
+    assert courses.near(beyond)(every).numbers == []
 
 
 def test_a_folder_may_have_the_name_of_the_command_below(

@@ -317,7 +317,7 @@ def test_what_no_keyboard_can_do_is_put_on_the_assisted_ladder(runs: Path, level
 def test_a_decision_judges_the_runs_once(
     ledger: Path, runs: Path, levels: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    judged = Mock(side_effect=judge._of_players)
-    monkeypatch.setattr(judge, "_of_players", judged)
+    judged = Mock(side_effect=judge._episodes)
+    monkeypatch.setattr(judge, "_episodes", judged)
     said = board(runs, levels, "--json", str(ledger), "--reject", "ann.txt", "--reason", "spliced")
     assert ("moderated: ann.txt" in said, judged.call_count) == (True, 1)

@@ -210,7 +210,7 @@ class BoardPages(LevelPages):
 
     def _achieved(self, record: Record) -> Iterator[tuple[str, str, str]]:
         """The categories of a record, its result in each, and the gain."""
-        for category, amount in record.before.items():
+        for category, amount in record.gains.items():
             result = category.measured(self.ranking.number(category, record.run))
             gain = "first" if amount is None else f"better by {category.gain(amount)}"
             yield self.leaderboard_name((record.run.ladder, category)), result, gain
