@@ -225,16 +225,12 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
     on_level: dict[str, list[Run]] = defaultdict(list)
     copies: list[Rejected] = []
     ways: dict[tuple[str, str], list[Run]] = defaultdict(list)
-
-    def reject(run: Run, kind: str, why: str, first: Key | None = None) -> None:
-        copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added, first))
-
     for run in runs:
         way = run.level, run.way
         owner = owners.get(way)
         if owner and way not in ways and owner["added"] < run.added:
             why = f"a copy of an earlier run by {owner['player']}, which was withdrawn or does not count any more"
-            reject(run, "copy", why)
+            copies.append(run.rejected("copy", why))
             continue
         same = ways[way]
         if not same or (run.added == same[0].added != "" and run.player not in (copy.player for copy in same)):
@@ -245,7 +241,7 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
-            reject(run, kind, why, first.key)
+            copies.append(run.rejected(kind, why, first.key))
     together: dict[Key, str] = {}
     for same in ways.values():
         for run in same if len(same) > 1 else ():

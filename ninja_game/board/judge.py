@@ -111,9 +111,7 @@ def _dated(run: Run, dates: Dates | None, taken: Dates | None) -> Run:
 def _possible(run: Run, ledger: Ledger) -> Run | Rejected:
     """Returns the run; rejected if no keyboard can do it, unless the keeper has put it on the assisted ladder."""
     decision = ledger.decision(run)
-    if not run.kind or (decision and decision.what != PLAYED):
-        return run
-    return Rejected(*run.key, run.kind, run.why, run.player, run.entry.title, run.way, run.added)
+    return run if not run.kind or (decision and decision.what != PLAYED) else run.rejected(run.kind, run.why)
 
 
 def _first_again(runs: Sequence[Run], owners: Rows) -> Iterator[Run]:
@@ -174,14 +172,9 @@ class _Judging:
         """All files, in order, simulated unless the memo knows them."""
         levels, results = [entry.named for entry in self._shown.entries.values()], list[Result]()
         for result in verify_all(
-            (),
-            chunks=self._chunks(),
-            levels=levels,
-            episodes=self._episodes,
-            strict=True,
-            jobs=jobs,
+            (), chunks=self._chunks(), levels=levels, episodes=self._episodes, strict=True, jobs=jobs,
             budget=self._budget,
-        ):
+        ):  # fmt: skip
             while not self._waiting[0].sent:
                 yield self._waiting.popleft()
             file = self._waiting[0]
@@ -189,10 +182,8 @@ class _Judging:
             if len(results) == len(file.sent):
                 file.rows.extend(starmap(partial(self._row, file), zip(file.sent, results, strict=True)))
                 if not any(isinstance(judged, Lost) for judged in results):
-                    self._memo.note(
-                        file.name,
-                        [self._context, file.stamp, file.digest, [[*vars(row).values()] for row in file.rows]],
-                    )
+                    rows = [[*vars(row).values()] for row in file.rows]
+                    self._memo.note(file.name, [self._context, file.stamp, file.digest, rows])
                 results.clear()
                 yield self._waiting.popleft()
         yield from self._waiting
@@ -270,14 +261,12 @@ def _with_row(run: Run, ledger: Ledger, owner: Mapping[str, Any]) -> Run:
 
 
 def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
-    nameless = not isinstance(result, Unreadable) and folded(result.author) == UNNAMED
-    if not isinstance(result, Unreadable) and (nameless or (not sent.replay and not result.made)):
+    if isinstance(result, Unreadable):
+        return Judged(sent.chunk.first, "unreadable", _without_name(result.message, sent.chunk.file))
+    if folded(result.author) == UNNAMED or (not sent.replay and not result.made):
         # A record of N names the level's author, not the player; a replay of ours also says how it was made.
         place = result.file + (f", record {result.record}" if result.record > 0 and not result.episode else "")
         result = replace(result, author=f"unknown ({place[-MAX_NAME // 2 :]})")
-    if isinstance(result, Unreadable):
-        why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # a board has no such option
-        return Judged(sent.chunk.first, "unreadable", why)
     no_keyboard = not_strict(result, "possible_by_keyboard")
     mark = _impossible(result, sent) if no_keyboard in result.problems else ""
     problems = [_worded(problem, result, sent) for problem in result.problems if problem != no_keyboard]

@@ -177,6 +177,10 @@ class Run(Judged):
         """The ninja after each tick: float64 (ticks, 2), px."""
         return run_level(self.entry.named.level, self.inputs).positions
 
+    def rejected(self, kind: str, why: str, first: Key | None = None) -> Rejected:
+        """Returns it as a run that does not count."""
+        return Rejected(*self.key, kind, why, self.player, self.entry.title, self.way, self.added, first)
+
     def decided(self, decision: Decision | None) -> Run | Rejected:
         """Returns the run after a decision on it, if there is one."""
         if decision is None:
@@ -184,8 +188,7 @@ class Run(Judged):
         reason = f": {decision.reason}" if decision.reason else ""
         source = f"by the keeper on {decision.added[:10]}{reason}"
         if decision.what == REJECTED:
-            way = self.entry.title, self.way, self.added
-            return Rejected(*self.key, "moderated", f"rejected {source}", self.player, *way)
+            return self.rejected("moderated", f"rejected {source}")
         marks = *self.marks, f"moved to {decision.what} {source}"
         return replace(self, kind="", assisted=decision.what == ASSISTED, marks=marks)
 
