@@ -172,9 +172,14 @@ class _Judging:
         """All files, in order, simulated unless the memo knows them."""
         levels, results = [entry.named for entry in self._shown.entries.values()], list[Result]()
         for result in verify_all(
-            (), chunks=self._chunks(), levels=levels, episodes=self._episodes, strict=True, jobs=jobs,
+            (),
+            chunks=self._chunks(),
+            levels=levels,
+            episodes=self._episodes,
+            strict=True,
+            jobs=jobs,
             budget=self._budget,
-        ):  # fmt: skip
+        ):
             while not self._waiting[0].sent:
                 yield self._waiting.popleft()
             file = self._waiting[0]

@@ -289,9 +289,8 @@ def unnamed(judged: ValidatedRuns) -> str:
 
 def counts(judged: ValidatedRuns) -> str:
     players, levels = {run.player for run in judged.runs}, {run.level for run in judged.runs}
-    groups = ("run", judged.runs), ("player", players), ("level", levels)
-    runs, by, on = (counted(len(group), name, f"{name}s") for name, group in groups)
-    return f"{runs} by {by} on {on}"
+    runs = counted(len(judged.runs), "run")
+    return f"{runs} by {counted(len(players), 'player')} on {counted(len(levels), 'level')}"
 
 
 def summary(judged: ValidatedRuns) -> str:

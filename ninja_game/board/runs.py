@@ -117,7 +117,7 @@ class Run(Judged):
     folder: RunFolder = field(repr=False, compare=False)
     marks: tuple[str, ...] = ()  #: remarks for readers
     near: str = ""  #: the run that it nearly copies, a sentence; until it is confirmed it leads no table
-    confirmed: bool = False  #: the keeper says that it is no copy
+    confirmed: bool = False  #: by the keeper, as no copy
     again: bool = False  #: it was withdrawn, and is the first of its moment
     taken: str = ""  #: where ``added`` is that of an older board, when this one took it in
     derived: bool = False  #: near to a run of one of its ``origins``

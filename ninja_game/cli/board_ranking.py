@@ -47,8 +47,8 @@ def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
     """
     from hashlib import sha256
 
+    from ninja_game.board.collect import is_in
     from ninja_game.board.memo import Memo
-    from ninja_game.web.board.pages import is_in
 
     name = sha256(str(about.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
     path = cache_folder() / "board" / f"{kind}-{name}.json"
@@ -105,9 +105,9 @@ def ranking_of(
     added, taken = dates_of(before, now, dates_by_file) if ledger else (None, None)
     deciding = partial(decide, before, now) if decide else None
     judged = judge(folder, shown, dates=added, taken=taken, jobs=jobs, memo=memo, ledger=before, decide=deciding)
-    here = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
+    present = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
     memo.save()
-    if unknown := dates_by_file.keys() - here:
+    if unknown := dates_by_file.keys() - present:
         raise FileError("a file that is not among the runs", str(dates), found=shown_text(min(unknown)))
     return Ranking(judged, shown, categories), before
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -51,10 +52,7 @@ def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:
     certificates = {}
     for kind in KINDS:
         name = pack.certificate(Path(entry.named.file).name, kind)
-        if name is not None:
-            try:
+        with suppress(NinjaGameError):  # `levels lint` reports its problem; the page leaves it out
+            if name is not None:
                 (certificates[kind],) = parse_replays(pack.files.text(name), level=entry.named.level)
-            except NinjaGameError:
-                # `levels lint` reports its problem; the page leaves it out.
-                continue
     return certificates

@@ -184,7 +184,7 @@ def test_the_feed_says_who_a_name_is_not(runs: Path, levels: Path, tmp_path: Pat
 def test_long_lists_go_on_on_other_pages(
     runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ninja_game.web.board.level_pages.PER_PAGE", 3)
+    monkeypatch.setattr("ninja_game.web.board.parts.PER_PAGE", 3)
     for wait in range(3, 10):
         put(runs, f"{wait}.txt", slow_walk(wait, author="Ann"))
     board(runs, levels, "--site", str(tmp_path / "site"))
