@@ -79,8 +79,14 @@ class ReplayError(FormatError):
     """A replay text of ours that cannot be read, or does not fit its level."""
 
 
+@dataclass(eq=False)
 class BudgetError(FormatError):
     """A run that costs more work than its budget."""
+
+    option: str = ""  #: the option of a command that lets it run
+
+    def __str__(self) -> str:
+        return "; ".join(filter(None, (super().__str__(), self.option)))
 
 
 class LinkError(FormatError):

@@ -20,10 +20,10 @@ from ninja_game.errors import ArgumentError
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
+    from ninja_game.board.categories import Category
+    from ninja_game.board.ranking import Ranked, Ranking
     from ninja_game.formats.recording import Recording
     from ninja_game.levels.episodes import Entry
-    from ninja_game.web.board.categories import Category
-    from ninja_game.web.board.ranking import Ranked, Ranking
 
 QUESTIONS = ("rank", "best", "inputs", "splits", "trace", "film")
 MAX_RUNS = 5  # side by side, where no players are named
@@ -71,7 +71,7 @@ def ask(
       ninja-game board ask replays/ splits "First Steps" Ann Bob
       ninja-game board ask replays/ film 00-0 Ann Bob -o both.gif
     """
-    from ninja_game.web.board.runs import ASSISTED, PLAYED
+    from ninja_game.board.runs import ASSISTED, PLAYED
 
     if what in ("trace", "film") and not output:
         raise click.UsageError(f"{what}: name the file with -o")
@@ -102,7 +102,7 @@ def _answer(
     rows: Any = [_row(ranked, category) for ranked in ranks]
     form = RANKED
     ladders = sorted({ranked.run.ladder for ranked in ranks}, reverse=True)
-    names = [ranked.run.player + f", {ranked.run.ladder}" * (len(ladders) > 1) for ranked in ranks]
+    names = [f"{row.run.player}, {row.run.ladder}" if len(ladders) > 1 else row.run.player for row in ranks]
     runs = [
         Recording(ranked.run.entry.named.level, replace(ranked.run.replay, name=name))
         for ranked, name in zip(ranks, names, strict=True)
@@ -119,7 +119,7 @@ def _answer(
     elif output:
         if what == "trace":
             positions = [run_splits(run, memory="auto").positions for run in runs]
-            draw(output, runs[0].level, [(run.name, its) for run, its in zip(runs, positions, strict=True)], keep)
+            draw(output, runs[0].level, list(zip((run.name for run in runs), positions, strict=True)), keep)
         else:
             _film(runs, output)
     if as_data:
@@ -159,7 +159,8 @@ def _level(text: str, entries: Sequence[Entry]) -> Entry:
         raise ArgumentError(f"{text!a} is several levels: {named}")
     titles = {entry.title.casefold(): entry.title for entry in entries}
     near = ", ".join(shown_text(titles[title]) for title in get_close_matches(words, titles, 5))
-    hint = f"do you mean {near}?" if near else f"it has {len(entries)}: {named}{', ...' * (len(entries) > 5)}"
+    more = ", ..." if len(entries) > 5 else ""
+    hint = f"do you mean {near}?" if near else f"it has {len(entries)}: {named}{more}"
     raise ArgumentError(f"{text!a} is no level of the board; {hint}")
 
 
@@ -168,7 +169,7 @@ def _category(ranking: Ranking, name: str | None) -> Category:
     if name is None:
         return ranking.categories[0]
     words, names = name.casefold(), {category.name.casefold(): category for category in ranking.categories}
-    matches = [names[words]] if words in names else [each for known, each in names.items() if words in known]
+    matches = [names[words]] if words in names else [category for known, category in names.items() if words in known]
     if len(matches) == 1:
         return matches[0]
     what = f"{name!a} is several categories:" if matches else f"no category {name!a}; there are"
@@ -176,13 +177,13 @@ def _category(ranking: Ranking, name: str | None) -> Category:
 
 
 def _of_player(table: Sequence[Ranked], player: str) -> Ranked:
-    from ninja_game.web.board.players import folded
+    from ninja_game.board.players import folded
 
     for ranked in table:
         if folded(player) in (folded(ranked.run.player), folded(f"{ranked.run.player}, {ranked.run.ladder}")):
             return ranked
-    there = dict.fromkeys(shown_text(ranked.run.player) for ranked in table)
-    near = get_close_matches(player, there, 5) or [*there][:10]
+    players = dict.fromkeys(shown_text(ranked.run.player) for ranked in table)
+    near = get_close_matches(player, players, 5) or [*players][:10]
     raise ArgumentError(f"{player!a} has no run there; players: {', '.join(near) or 'none'}")
 
 

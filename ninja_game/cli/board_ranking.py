@@ -18,9 +18,9 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import cache_folder
 
 if TYPE_CHECKING:
-    from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.runs import Ledger, Run
-    from ninja_game.web.pages.memo import Memo
+    from ninja_game.board.memo import Memo
+    from ninja_game.board.ranking import Ranking
+    from ninja_game.board.runs import Ledger, Run
 
 LAST_LEVELS, LAST_LEDGER, LAST_RULES = "/levels", "/ledger", "/rules"  # keys of a memo: no path of a run begins so
 
@@ -48,8 +48,8 @@ def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
     """
     from hashlib import sha256
 
-    from ninja_game.web.board.pages import is_in
-    from ninja_game.web.pages.memo import Memo
+    from ninja_game.board.collect import is_in
+    from ninja_game.board.memo import Memo
 
     name = sha256(str(about.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
     path = cache_folder() / "board" / f"{kind}-{name}.json"
@@ -76,12 +76,12 @@ def ranking_of(
     ``same``: ``levels`` and ``rules`` that are not given are those of the folder's last board; so is ``ledger`` where
     nothing is decided.
     """
-    from ninja_game.web.board.categories import USUAL, read_categories
-    from ninja_game.web.board.judge import judge
-    from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import dates_of, read_board, read_dates
-    from ninja_game.web.board.runs import NO_LEDGER
-    from ninja_game.web.pages.gallery import published_levels
+    from ninja_game.board.categories import USUAL, read_categories
+    from ninja_game.board.judge import judge
+    from ninja_game.board.ranking import Ranking
+    from ninja_game.board.report import dates_of, read_board, read_dates
+    from ninja_game.board.runs import NO_LEDGER
+    from ninja_game.levels.published import published_levels
 
     # With many runs, all of which stay in memory, garbage collection took a third of the time.
     gc.set_threshold(20_000)
@@ -106,9 +106,9 @@ def ranking_of(
     added, taken = dates_of(before, now, dates_by_file) if ledger else (None, None)
     deciding = partial(decide, before, now) if decide else None
     judged = judge(folder, shown, dates=added, taken=taken, jobs=jobs, memo=memo, ledger=before, decide=deciding)
-    here = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
+    present = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
     memo.save()
-    if unknown := dates_by_file.keys() - here:
+    if unknown := dates_by_file.keys() - present:
         raise FileError("a file that is not among the runs", str(dates), found=shown_text(min(unknown)))
     return Ranking(judged, shown, categories), before
 

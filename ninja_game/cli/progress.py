@@ -40,7 +40,7 @@ class Readable(Generic[T]):
         for item in self._items:
             if isinstance(item, Unreadable):
                 self.unreadable += 1
-                print_error(item.message)
+                print_error(str(item))
             else:
                 self.count += 1
                 yield item

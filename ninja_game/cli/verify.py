@@ -96,7 +96,7 @@ def verify(
         for result in with_progress(results, "run"):
             totals.add(result)
             if isinstance(result, Unreadable):
-                print_error(result.message)
+                print_error(str(result))
             elif as_json:
                 click.echo(json.dumps(result.as_json()))
             elif not (quiet and result.good):
@@ -125,7 +125,7 @@ def _write_table(results: Iterable[Result], totals: Totals, out: IO[bytes]) -> I
 
     for result in results:
         if isinstance(result, Unreadable):
-            row = f"??   {shown_text(result.message, 1000)}"
+            row = f"??   {shown_text(str(result), 1000)}"
         else:
             row = click.unstyle(_row(result))
         out.write(row.encode() + b"\n")

@@ -59,7 +59,8 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
         raise click.UsageError("name the folder OUT, or give --serve")
     import gzip
 
-    from ninja_game.web.pages.gallery import published_levels, write_gallery
+    from ninja_game.levels.published import published_levels
+    from ninja_game.web.pages.gallery import write_gallery
     from ninja_game.web.site.build import build_site, site_server
 
     folder = out or cache_folder() / "site"
@@ -163,9 +164,9 @@ def board(
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
+    from ninja_game.board.report import board_text, changes, gone, moderate, plain, summary, unnamed
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
-    from ninja_game.web.board.report import board_text, changes, gone, moderate, plain, summary, unnamed
     from ninja_game.web.pages.frame import GAME
 
     keeps = bool(confirm or reject or ladder or dates)

@@ -253,7 +253,7 @@ def write_report(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
     separator = b"\n"
     for result in results:
         totals.add(result)
-        fields = {"unreadable": result.message} if isinstance(result, Unreadable) else result.as_json()
+        fields = {"unreadable": str(result)} if isinstance(result, Unreadable) else result.as_json()
         out.write(separator + json.dumps(fields).encode())
         separator = b",\n"
         yield result

@@ -130,7 +130,9 @@ def _result(recording: Recording | Unreadable, memory: str, counting: Container[
         return recording
     try:
         return verify_recording(recording, memory, counting, budget)
-    except (BudgetError, DemoError, LevelError, OutOfRangeError, ReplayError) as error:
+    except BudgetError as error:
+        return Unreadable(str(replace(error, option="")), error.option)
+    except (DemoError, LevelError, OutOfRangeError, ReplayError) as error:
         # An error of the run; any other one is an error here, and nothing can be judged.
         return Unreadable(str(error))
 
@@ -167,8 +169,9 @@ _TYPES = {name: hint for name, hint in get_type_hints(Verdict).items() if name !
 
 def result_from_data(data: object) -> Result:
     """The inverse of ``asdict``, also after JSON. Raises ValueError for anything else."""
-    if isinstance(data, dict) and data.keys() == {"message"} and isinstance(data["message"], str):
-        return Unreadable(data["message"])
+    texts = isinstance(data, dict) and all(isinstance(value, str) for value in data.values())
+    if isinstance(data, dict) and texts and {"message"} <= data.keys() <= {"message", "option"}:
+        return Unreadable(**data)
     if not isinstance(data, dict) or data.keys() != {*_TYPES, "problems"}:
         raise ValueError("not the fields of a result")
     for name, kind in _TYPES.items():

@@ -27,9 +27,13 @@ _MEANT_AS_DEMO = re.compile(r"[-+]?[0-9.]++\s*+:|(?=\S++\Z)([^|:]*+[|:]|A[A-Za-z
 
 @dataclass(frozen=True)
 class Unreadable:
-    """A file, or a record of one, that cannot be used; ``message`` names it."""
+    """A file, or a record of one, that cannot be used."""
 
-    message: str
+    message: str  #: names it
+    option: str = ""  #: as of BudgetError
+
+    def __str__(self) -> str:
+        return "; ".join(filter(None, (self.message, self.option)))
 
 
 def texts_in(paths: Iterable[Path]) -> Iterator[tuple[str, str, bool] | Unreadable]:

@@ -13,11 +13,11 @@ from dataclasses import replace
 from functools import partial
 from itertools import combinations, islice
 
+from ninja_game.board.copies import Course, Courses, course_of
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
-from ninja_game.web.board.copies import Course, Courses, course_of
 from tests.support.reference import RunRow, positions, recordings
 
 COUNTS = (1, 2, 5, 10, 20, 50, 100, 200)
@@ -30,7 +30,7 @@ def near_ones(course: Course, earlier: Sequence[Course]) -> list[int]:
     courses = Courses(len(earlier))
     for number, other in enumerate(earlier):
         courses.add(number, 0, partial(replace, other))
-    return courses.near(course)(courses.numbers >= 0)[0]
+    return courses.near(course)(courses.numbers >= 0).numbers
 
 
 def every_nth(found: list, count: int) -> list:  # type: ignore[type-arg]

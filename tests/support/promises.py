@@ -11,6 +11,7 @@ from pathlib import Path
 import click
 
 import ninja_game
+from ninja_game.board import report
 from ninja_game.cli import commands
 from ninja_game.cli.main import cli
 from ninja_game.errors import FormatError
@@ -18,7 +19,6 @@ from ninja_game.formats import links
 from ninja_game.formats.ascii import writer
 from ninja_game.formats.replay import text
 from ninja_game.player import schema, settings
-from ninja_game.web.board import report
 from tests.support.samples import WALK
 
 SHORT = ninja_game.parse_level(WALK)

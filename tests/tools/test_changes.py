@@ -56,4 +56,4 @@ def test_a_break_is_tried_on_the_tests_that_execute_its_line_fastest_first(
 
 def test_a_break_is_tried_on_the_tests_of_its_module() -> None:
     assert "tests/learn/test_rewards.py" in breaks.tests_near("ninja_game/learn/rewards.py")
-    assert all(test.startswith("tests/web/") for test in breaks.tests_near("ninja_game/web/board/judge.py")[:3])
+    assert all(test.startswith("tests/web/") for test in breaks.tests_near("ninja_game/board/judge.py")[:3])

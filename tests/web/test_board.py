@@ -16,6 +16,14 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from ninja_game.board import collect
+from ninja_game.board.categories import FASTEST, HIGHEST, Category
+from ninja_game.board.collect import MAX_RECORDS
+from ninja_game.board.copies import Near
+from ninja_game.board.judge import judge
+from ninja_game.board.ranking import Ranking
+from ninja_game.board.report import DATE, read_board
+from ninja_game.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError
 from ninja_game.files.bundled import bundled_replays, data_folder
@@ -24,18 +32,12 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
+from ninja_game.levels.published import published_levels
 from ninja_game.runs.run import record_replay
-from ninja_game.web.board import collect
-from ninja_game.web.board.categories import FASTEST, HIGHEST, Category
 from ninja_game.web.board.charts import paths, speed_and_keys
-from ninja_game.web.board.collect import MAX_RECORDS
-from ninja_game.web.board.judge import judge
 from ninja_game.web.board.pages import BoardPages
-from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.report import DATE, read_board
-from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns
 from ninja_game.web.pages.frame import POLICY, tag
-from ninja_game.web.pages.gallery import page_name, published_levels
+from ninja_game.web.pages.gallery import page_name
 from tests.support.board import DIGEST, HOSTILE, Tags, put, slow_walk, taken_in_earlier, words_of
 from tests.support.forgeries import FORGERIES, GOLD_LATER, PRACTISED, WALKING, record, replay
 from tests.support.own_pack import PACK
@@ -87,7 +89,7 @@ def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -
     assert [each.run.score for each in ranking.tables[DIGEST][PLAYED, HIGHEST]] == [
         3600 + 80 - WALK_END - late for late in (0, 2, 5)
     ]
-    assert [(each.run.player, [*each.before.values()]) for each in ranking.records] == [
+    assert [(each.run.player, [*each.gains.values()]) for each in ranking.records] == [
         ("Ann", [5.0, 5.0]), ("Bea", [None, None]),
     ]  # fmt: skip
     assert [(each.player, each.levels, each.ranks) for each in ranking.standings[PLAYED]] == [
@@ -687,7 +689,7 @@ def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(
 def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(
     runs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ninja_game.web.board.copies._near_to_another", lambda *_: None)
+    monkeypatch.setattr("ninja_game.board.copies._near_to_another", lambda *_: None)
     (recording,) = load_replays(PACK / "certificates" / "00-2-the-chimney.exit.replay.txt")
     for number, inputs in enumerate((b"\0" + recording.inputs, recording.inputs)):
         put(
@@ -733,8 +735,8 @@ def test_a_run_that_shares_the_path_alone_is_marked_and_keeps_its_place(
 ) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"), day=1)
     put(runs, "b.txt", replay(author="Bea"), day=2)
-    near = 0, "9 of 9 are those of", sure
-    monkeypatch.setattr("ninja_game.web.board.copies._near_to_another", lambda *compared: near if compared[3] else None)
+    near = Near([0], "9 of 9 are those of", sure)
+    monkeypatch.setattr("ninja_game.board.copies._near_to_another", lambda *compared: near if compared[3] else None)
     judged = judged_by_file_dates(runs, levels)
     table = Ranking(judged, published_levels(levels)).tables[DIGEST][PLAYED, FASTEST]
     assert [(each.place, each.run.player) for each in table] == (
@@ -1024,7 +1026,7 @@ def test_check_against_something_else_is_an_error(text: str, runs: Path, levels:
 def test_how_a_record_moved_shows_the_ten_newest_steps(
     runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ninja_game.web.board.copies._near_to_another", lambda *_: None)
+    monkeypatch.setattr("ninja_game.board.copies._near_to_another", lambda *_: None)
     for number in range(12):
         put(runs, f"{number}.txt", slow_walk(12 - number, author=f"Ann {number}"), day=1 + number)
     BoardPages(tmp_path / "site", Ranking(judged_by_file_dates(runs, levels), published_levels(levels))).write()

@@ -9,14 +9,15 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from ninja_game.board.categories import FASTEST, MAX_CATEGORIES, NAMES, USUAL, Category, read_categories
+from ninja_game.board.judge import judge
+from ninja_game.board.ranking import Ranking
+from ninja_game.board.runs import ASSISTED, PLAYED
 from ninja_game.cli.main import cli
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.provenance import Provenance
-from ninja_game.web.board.categories import FASTEST, MAX_CATEGORIES, NAMES, USUAL, Category, read_categories
-from ninja_game.web.board.judge import judge
-from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import ASSISTED, PLAYED
-from ninja_game.web.pages.gallery import path_data, published_levels
+from ninja_game.levels.published import published_levels
+from ninja_game.web.pages.gallery import path_data
 from tests.support.board import DIGEST, Tags, board, put, slow_walk
 from tests.support.forgeries import GOLD_LATER, WALKING, replay
 from tests.support.samples import WALK_END
@@ -140,7 +141,7 @@ def test_no_record_depends_on_the_clock(runs: Path, levels: Path, tmp_path: Path
     days = {"ann.txt": "2026-01-02T12:00:00Z", "bea.txt": "2026-01-01T12:00:00Z", "cid.txt": "2025-12-20T12:00:00Z"}
     ranking = Ranking(judge(runs, shown, jobs=1, dates=lambda key, _: days[key[0]]), shown, USUAL)
     assert ranking.level_of_the_week == (DIGEST, 2, 2)
-    assert [(each.run.player, [*each.before.values()]) for each in ranking.records] == [
+    assert [(each.run.player, [*each.gains.values()]) for each in ranking.records] == [
         ("Ann", [5.0, 5.0]), ("Bea", [None, None]), ("Cid", [None, None]),
     ]  # fmt: skip
     assert ranking.contested[0] == DIGEST
@@ -183,7 +184,7 @@ def test_the_feed_says_who_a_name_is_not(runs: Path, levels: Path, tmp_path: Pat
 def test_long_lists_go_on_on_other_pages(
     runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ninja_game.web.board.level_pages.PER_PAGE", 3)
+    monkeypatch.setattr("ninja_game.web.board.parts.PER_PAGE", 3)
     for wait in range(3, 10):
         put(runs, f"{wait}.txt", slow_walk(wait, author="Ann"))
     board(runs, levels, "--site", str(tmp_path / "site"))

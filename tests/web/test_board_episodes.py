@@ -9,17 +9,17 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from ninja_game.board.categories import FASTEST
+from ninja_game.board.judge import judge
+from ninja_game.board.memo import Memo
+from ninja_game.board.ranking import Ranking
+from ninja_game.board.runs import PLAYED, ValidatedRuns
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import write_replay
+from ninja_game.levels.published import published_levels
 from ninja_game.runs.run import record_replay
-from ninja_game.web.board.categories import FASTEST
-from ninja_game.web.board.judge import judge
 from ninja_game.web.board.pages import EPISODE_HEADS
-from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import PLAYED, ValidatedRuns
-from ninja_game.web.pages.gallery import published_levels
-from ninja_game.web.pages.memo import Memo
 from tests.support.board import board
 from tests.support.own_pack import PACK
 

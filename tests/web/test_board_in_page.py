@@ -9,12 +9,13 @@ from typing import Any
 
 import pytest
 
+from ninja_game.board.judge import judge
+from ninja_game.board.ranking import Ranking
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.web.board.judge import judge
+from ninja_game.levels.published import published_levels
 from ninja_game.web.board.pages import BoardPages
-from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.pages.gallery import published_levels, write_gallery
+from ninja_game.web.pages.gallery import write_gallery
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK
 from tests.support.visitor import Visitor

@@ -11,9 +11,9 @@ from unittest.mock import Mock
 import pytest
 from click.testing import CliRunner
 
+from ninja_game.board import judge
 from ninja_game.cli.main import cli
 from ninja_game.formats.replay.provenance import Provenance
-from ninja_game.web.board import judge
 from tests.support.board import DIGEST, HOSTILE, board, put, slow_walk, taken_in_earlier
 from tests.support.forgeries import WALKING, record, replay
 
@@ -317,7 +317,7 @@ def test_what_no_keyboard_can_do_is_put_on_the_assisted_ladder(runs: Path, level
 def test_a_decision_judges_the_runs_once(
     ledger: Path, runs: Path, levels: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    judged = Mock(side_effect=judge._of_players)
-    monkeypatch.setattr(judge, "_of_players", judged)
+    judged = Mock(side_effect=judge._episodes)
+    monkeypatch.setattr(judge, "_episodes", judged)
     said = board(runs, levels, "--json", str(ledger), "--reject", "ann.txt", "--reason", "spliced")
     assert ("moderated: ann.txt" in said, judged.call_count) == (True, 1)

@@ -12,6 +12,9 @@ from unittest.mock import Mock
 import pytest
 from click.testing import CliRunner
 
+from ninja_game.board import collect, copies, judge, memo, runs as board_runs
+from ninja_game.board.collect import RunFolder, Sent, SentFile
+from ninja_game.board.memo import Memo
 from ninja_game.cli.main import cli
 from ninja_game.files.tree import Tree
 from ninja_game.formats.pack.pars import Pars, write_pars
@@ -20,10 +23,6 @@ from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.run import run_level
 from ninja_game.runs.workers import WorkerLostError
-from ninja_game.web.board import collect, copies, judge, runs as board_runs
-from ninja_game.web.board.collect import RunFolder, Sent, SentFile
-from ninja_game.web.pages import memo
-from ninja_game.web.pages.memo import Memo
 from tests.support.board import DIGEST, board, put, slow_walk
 from tests.support.forgeries import WALKING, record, replay
 from tests.support.samples import WALK_END
@@ -304,7 +303,7 @@ def test_a_broken_row_of_a_memo_is_none(
 
 
 def test_all_code_of_the_program_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(memo, "__file__", str(put(tmp_path, "web/pages/memo.py", "")))
+    monkeypatch.setattr(memo, "__file__", str(put(tmp_path, "board/memo.py", "")))
     met = set()
     for name in ("runs/verify.py", "formats/n14/demo.py", "web/pages/style.css", "__init__.py"):
         put(tmp_path, name, "x = 1")

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
+from ninja_game.board.judge import judge
+from ninja_game.board.ranking import Ranking
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import write_replay
+from ninja_game.levels.published import published_levels
 from ninja_game.runs.conversion import recorded_again
-from ninja_game.web.board.judge import judge
 from ninja_game.web.board.pages import BoardPages
-from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.pages.gallery import published_levels
 from tests.support.reference import recordings, require_reference, write_pack
 
 SECONDS = 60

@@ -13,12 +13,13 @@ from typing import Any
 import pytest
 
 from ninja_game.files.bundled import data_folder
+from ninja_game.levels.published import published_levels
 from ninja_game.play.lab.figure import FIGURE, Figure
 from ninja_game.play.lab.screen import FIGURES
 from ninja_game.sim.collision.tiles import EDGE_OF_FACES
 from ninja_game.sim.grid import cell_at
 from ninja_game.view.overlays import touched_cells
-from ninja_game.web.pages.gallery import published_levels, write_gallery
+from ninja_game.web.pages.gallery import write_gallery
 from ninja_game.web.program import MAX_LINES, MAX_SHOWN, run_program
 from tests.support.slow import the_rest_is_slow
 from tests.support.visitor import Visitor, eventually

@@ -9,10 +9,11 @@ import re
 import shutil
 from pathlib import Path
 
-from ninja_game.web.board.judge import judge
+from ninja_game.board.judge import judge
+from ninja_game.board.ranking import Ranking
+from ninja_game.levels.published import published_levels
 from ninja_game.web.board.pages import BoardPages
-from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.pages.gallery import published_levels, write_gallery
+from ninja_game.web.pages.gallery import write_gallery
 from tests.support.own_pack import PACK
 from tests.support.recorded import hold_against
 from tests.support.samples import replay_of_walk

@@ -17,14 +17,15 @@ from typing import Any
 
 import pytest
 
+from ninja_game.board.judge import judge
+from ninja_game.board.ranking import Ranking
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.web.board.judge import judge
+from ninja_game.levels.published import published_levels
 from ninja_game.web.board.pages import BoardPages
-from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.pages.documents import Documents
-from ninja_game.web.pages.gallery import SORT_ORDERS, published_levels, write_gallery
+from ninja_game.web.pages.gallery import SORT_ORDERS, write_gallery
 from tests.support.forgeries import WALKING, replay
 from tests.support.own_pack import PACK
 from tests.support.samples import WALK

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 import pygame
 
+from ninja_game.board.report import read_board
 from ninja_game.editor import files as editor_files
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import draft_of_text
@@ -64,7 +65,6 @@ from ninja_game.tas.session import Session
 from ninja_game.tas.timeline import parse_watch
 from ninja_game.ui.lettering import StrokeFont
 from ninja_game.ui.text_entry import EditedText
-from ninja_game.web.board.report import read_board
 from tests.support.samples import WALK, replay_of_walk
 from tools.soak.mutators import as_text
 

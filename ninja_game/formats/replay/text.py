@@ -265,6 +265,13 @@ def write_replay(replay: Replay) -> str:
     return "\n".join(lines) + "\n"
 
 
+def shared_text(replay: Replay, level: Level) -> str:
+    """A replay for the page: its level inside, no path, no waypoints, no unverified claims."""
+    return write_replay(
+        replace(replay, level=level, level_path="", level_record=0, level_digest="", digest="", waypoints=())
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class _Same:
     """A level that only equals itself: equal levels may still differ in the sign of zeros, so in their text."""

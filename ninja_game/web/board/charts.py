@@ -32,11 +32,11 @@ def steps(
     names: Sequence[str],
     text: Callable[[float], str],
     days: tuple[str, str],
-    said: str,
+    label: str,
 ) -> Markup:
     """A line that keeps each value until the next one: (moment, value) in order, with a label for each point.
 
-    ``text``: of a value; ``days``: of the first and the last moment; ``said``: the line's text for screen readers.
+    ``text``: of a value; ``days``: of the first and the last moment; ``label``: the line's text for screen readers.
     """
     x, y = np.array(points, np.float64).T
     low, high, floor = float(y.min()), float(y.max()), HEIGHT - BELOW
@@ -50,12 +50,12 @@ def steps(
     ]
     ends = zip(days, (BESIDE, RIGHT), ("start", "end"), strict=True)
     dates = (tag("text", day, x=at, y=HEIGHT - 4, text_anchor=anchor) for day, at, anchor in ends)
-    return _chart(said, HEIGHT, *_scale(text, low, high, floor), *dates, line, *dots)
+    return _chart(label, HEIGHT, *_scale(text, low, high, floor), *dates, line, *dots)
 
 
-def _chart(said: str, height: int, *contents: Markup) -> Markup:
-    """A chart; ``said``: its text for screen readers."""
-    return tag("svg", *contents, viewBox=f"0 0 {WIDTH} {height}", class_="chart", role="img", aria_label=said)
+def _chart(label: str, height: int, *contents: Markup) -> Markup:
+    """A chart; ``label``: its text for screen readers."""
+    return tag("svg", *contents, viewBox=f"0 0 {WIDTH} {height}", class_="chart", role="img", aria_label=label)
 
 
 def _scale(
@@ -74,8 +74,8 @@ def _beside(text: str, up: float) -> Markup:
 
 def _seconds(start: int, end: int, wide: float, below: int) -> Iterator[Markup]:
     """The full seconds of these ticks, each ``wide`` px; not more than have room."""
-    every = TICKS_PER_SECOND * -(-2 * (end - start) // ROW_TICKS)
-    for tick in range(-(-start // every) * every, end, every):
+    step = TICKS_PER_SECOND * -(-2 * (end - start) // ROW_TICKS)
+    for tick in range(-(-start // step) * step, end, step):
         left = f"{BESIDE + wide * (tick - start):.0f}"
         yield tag("text", f"{tick // TICKS_PER_SECOND} s", x=left, y=below, text_anchor="middle")
 
@@ -166,20 +166,20 @@ def _numbers(splits: Sequence[int], start: int, end: int, wide: float) -> Iterat
                 yield tag("text", number, x=f"{left:.0f}", y=MARGIN + 6, text_anchor="middle")
 
 
-def lead_chart(ticks: Sequence[int], late: Sequence[tuple[int, Sequence[int | None]]], said: str) -> Markup:
+def lead_chart(ticks: Sequence[int], late: Sequence[tuple[int, Sequence[int | None]]], label: str) -> Markup:
     """Lines of how many ticks runs, by their colours' numbers, are later at these ticks of another one; None: a gap."""
-    known = [0, *(lead for _, its in late for lead in its if lead is not None)]
+    known = [0, *(lead for _, leads in late for lead in leads if lead is not None)]
     low, high, floor = min(known), max(known), HEIGHT - BELOW
     up, wide = (floor - MARGIN) / ((high - low) or 1), (RIGHT - BESIDE) / (ticks[-1] or 1)
     drawn = [
         *_scale(lambda lead: f"{lead / TICKS_PER_SECOND:.2f}", low, high, floor),
         *_seconds(0, ticks[-1], wide, HEIGHT - 6),
     ]
-    for number, its in reversed(late):
+    for number, leads in reversed(late):
         moves, gap = "", True
-        for tick, lead in zip(ticks, its, strict=True):
+        for tick, lead in zip(ticks, leads, strict=True):
             if lead is not None:
                 moves += f"{'M' if gap else 'L'}{BESIDE + wide * tick:.1f} {floor - up * (lead - low):.0f}"
             gap = lead is None
         drawn.append(tag("path", d=moves, class_="way", stroke=css_colour(run_colour(number))))
-    return _chart(said, HEIGHT, *drawn)
+    return _chart(label, HEIGHT, *drawn)

@@ -12,29 +12,31 @@ from typing import Any
 from uuid import NAMESPACE_OID, uuid5
 from xml.etree import ElementTree as ET
 
+from ninja_game.board.categories import HIGHEST
+from ninja_game.board.collect import is_in
+from ninja_game.board.memo import Memo
+from ninja_game.board.ranking import Ranked, Ranking, Record, Standing
+from ninja_game.board.report import counts, unnamed
+from ninja_game.board.runs import KINDS, Key, Run
 from ninja_game.errors import FileError
 from ninja_game.files.reading import SUFFIXES
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.web.board.categories import HIGHEST
-from ninja_game.web.board.level_pages import (
+from ninja_game.web.board.level_pages import FIRST, LevelPages
+from ninja_game.web.board.parts import (
     EPISODES,
-    FIRST,
     HOW_TO_CONFIRM,
     LESSER,
     NEAR,
-    LevelPages,
+    Parts,
     card,
     cards,
     level_link,
     made_text,
     player_page,
 )
-from ninja_game.web.board.ranking import Ranked, Record, Standing
-from ninja_game.web.board.report import counts, unnamed
-from ninja_game.web.board.runs import KINDS, Key, Run
 from ninja_game.web.pages.frame import (
     REPLAYS,
     Content,
@@ -90,12 +92,6 @@ def check_ledger(data: Path, folder: Path) -> None:
         raise FileError("the board would be read as a run", str(data), hint="choose a name that ends in .json")
 
 
-def is_in(path: Path, folder: Path) -> bool:
-    """Whether a path, which need not exist yet, is a folder or leads into it; links are followed."""
-    place = path.resolve()
-    return folder.exists() and any(parent.exists() and parent.samefile(folder) for parent in (place, *place.parents))
-
-
 EPISODE_NUMBERS = (
     "Sum: what ranks the runs, such as their times, added up over the levels. Score: 90 s, and 2 s for each piece of "
     "gold, less the times of all levels, as the clock of an episode runs on; it ranks where there is no sum."
@@ -103,26 +99,31 @@ EPISODE_NUMBERS = (
 EPISODE_HEADS = ("Place", "Player", "Sum", "Score", "Levels", "Watch")
 
 
-class BoardPages(LevelPages):
+class BoardPages:
     """Writes the pages of a ranking into ``out/board/``, and its runs into ``out/replays/``.
 
     ``memo``: of earlier pages in ``out``. Raises FileError if ``out/board`` holds other files.
     """
 
+    def __init__(self, out: Path, ranking: Ranking, memo: Memo | None = None, *, address: str = "") -> None:
+        self.parts, self.ranking = Parts(out, ranking, memo, address=address), ranking
+        self.entries, self.main = ranking.shown.entries, ranking.categories[0]
+
     def write(self) -> None:
+        parts, levels = self.parts, LevelPages(self.parts)
         for entry in self.entries.values():
-            self.write_level(entry)
+            levels.write_level(entry)
         self._players()
         self._levels()
         self._rejected()
         if episodes := self._episodes():
-            self.pages.write(EPISODES[0], page(EPISODES[1], tag("p", EPISODE_NUMBERS), *episodes, links=self.links))
-        self.pages.write("index.html", self._first())
-        self.pages.write(FEED, self._feed())
+            parts.pages.write(EPISODES[0], page(EPISODES[1], tag("p", EPISODE_NUMBERS), *episodes, links=parts.links))
+        parts.pages.write("index.html", self._first())
+        parts.pages.write(FEED, self._feed())
         # Last: if the disk is full, the earlier pages are still complete.
         for folder in ("players", "levels", "pictures"):
-            self.pages.clear(folder)
-        self.pages.finish()
+            parts.pages.clear(folder)
+        parts.pages.finish()
 
     # --- the first page and the feed ---
 
@@ -142,47 +143,44 @@ class BoardPages(LevelPages):
         shown = tag("ul", *newest, class_="cards") if newest else None, older, tag("p", ONE_MOMENT), feed
         news: list[Piece] = [("newest", "Newest records", joined(*shown))] if newest or rows else []
         leaders: list[Piece] = [
-            (
-                ladder,
-                self._players_of(ladder),
-                table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING]), LESSER),
-            )
+            (ladder, self._players_of(ladder), table(BY_LEVELS, self._heads(), map(self._standing, first), LESSER))
             for ladder, standings in self.ranking.standings.items()
-            if standings
+            if (first := standings[:LEADING])
         ]
         lead = tag("p", f"{counts(self.ranking.judged)}.", class_="lead")
-        said = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
+        again = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
         parts = [*self._week(), *news, *self._runs_and_how_to_send(), *self._contested(), *leaders]
         contents = [section(title, content, anchor=anchor) for anchor, title, content in parts]
-        leads = on_this_page([each[:2] for each in parts])
-        return page(f"Board: {self._name}", lead, said, leads, *contents, links=self.links, current="index.html")
+        leads = on_this_page([part[:2] for part in parts])
+        return page(f"Board: {self._name}", lead, again, leads, *contents, links=self.parts.links, current="index.html")
 
     @property
     def _name(self) -> str:
-        """Of what the board is: a pack, or other levels, whose file says nothing to readers."""
+        """Returns the name of the pack, else that of the only level: the name of its file says nothing to readers."""
         titles = [entry.title for entry in self.entries.values()]
         return self.ranking.shown.name if self.ranking.shown.pack else titles[0] if len(titles) == 1 else "own levels"
 
     def _runs_and_how_to_send(self) -> list[Piece]:
+        parts = self.parts
         rows = [
-            (level_link(run.entry), self.watch_link([run], ""), self.player_link(run.player), *times, run.moment)
+            (level_link(run.entry), parts.watch_link([run], ""), parts.player_link(run.player), *times, run.moment)
             for run in self.ranking.judged.runs[: -NEWEST_RUNS - 1 : -1]
-            for times in [(self.run_link(run, "", seconds_text(run.tick)), made_text(run))]
+            for times in [(parts.run_link(run, "", seconds_text(run.tick)), made_text(run))]
         ]
         newest = table("Newest first", ("Level", "Watch", "Player", "Time", "Made", "Date"), rows, LESSER)
         steps = tag("ol", *(tag("li", step) for step in HOW_TO_SEND))
-        play = tag("p", tag("a", "Play", href=self.game, class_="button"))
+        play = tag("p", tag("a", "Play", href=parts.game, class_="button"))
         runs: list[Piece] = [("runs", "Newest runs", newest)] if rows else []
         return [*runs, ("send", "Send a run", joined(steps, play))]
 
     def _newest(self, record: Record) -> Markup:
         """The card of a record with its level."""
-        run, link = record.run, self.player_link(record.run.player)
+        run, link = record.run, self.parts.player_link(record.run.player)
         achieved = (
             joined(tag("span", name), " ", tag("b", result), " ", tag("span", gain))
             for name, result, gain in self._achieved(record)
         )
-        return card(run.entry, joined(link, " ", self.watch_link([run], "")), *achieved, run.moment)
+        return card(run.entry, joined(link, " ", self.parts.watch_link([run], "")), *achieved, run.moment)
 
     def _moments(self) -> Iterator[list[Record]]:
         """The records of each moment, the newest first."""
@@ -191,29 +189,26 @@ class BoardPages(LevelPages):
 
     def _of_a_moment(self, records: Sequence[Record]) -> list[tuple[Content, ...]]:
         """A row for each record of one moment; a single row for many of them."""
-        moment = records[0].run.moment
+        moment, rows = records[0].run.moment, list[tuple[Content, ...]]()
         if len(records) <= MAX_OF_A_MOMENT:
-            return [
-                (
-                    level_link(run.entry),
-                    self.watch_link([run], ""),
-                    self.player_link(run.player),
-                    tag("div", *(tag("div", _said(*each)) for each in self._achieved(record)), class_="places"),
-                    moment,
-                )
-                for record in records
-                for run in [record.run]
-            ]
+            for record in records:
+                links = self.parts.watch_link([record.run], ""), self.parts.player_link(record.run.player)
+                lines = tag("div", *(tag("div", line) for line in self._lines(record)), class_="places")
+                rows.append((level_link(record.run.entry), *links, lines, moment))
+            return rows
         levels, players = ({getattr(record.run, name) for record in records} for name in ("level", "player"))
         where = tag("a", counted(len(levels), "level"), href="levels.html")
         return [(where, "", counted(len(players), "player"), _together(records), moment)]
 
+    def _lines(self, record: Record) -> Iterator[str]:
+        return (f"{name}: {result}, {gain}" for name, result, gain in self._achieved(record))
+
     def _achieved(self, record: Record) -> Iterator[tuple[str, str, str]]:
         """The categories of a record, its result in each, and the gain."""
-        for category, amount in record.before.items():
+        for category, amount in record.gains.items():
             result = category.measured(self.ranking.number(category, record.run))
             gain = "first" if amount is None else f"better by {category.gain(amount)}"
-            yield self.leaderboard_name((record.run.ladder, category)), result, gain
+            yield self.ranking.leaderboard_name((record.run.ladder, category)), result, gain
 
     def _week(self) -> list[Piece]:
         if not (chosen := self.ranking.level_of_the_week):
@@ -225,7 +220,7 @@ class BoardPages(LevelPages):
 
     def _contested(self) -> list[Piece]:
         """The most contested levels; where there are none, those of the newest runs."""
-        found: list[Markup] = []
+        shown: list[Markup] = []
         order = "By how often records were beaten, of all categories and ladders; results are those in"
         if len(self.entries) == 1:
             return []
@@ -238,31 +233,31 @@ class BoardPages(LevelPages):
         for digest in chosen[:CONTESTED]:
             beaten = self.ranking.beaten[digest]
             counts = counted(beaten, "record") + " beaten" if beaten else "", self._counts(digest)
-            about = joined(*(tag("span", each) for each in counts if each))
+            about = joined(*(tag("span", text) for text in counts if text))
             spreads = (self._spread(digest, ladder) for ladder in self.ranking.ladders)
-            found.append(card(self.entries[digest], about, *self._best(digest), *spreads))
+            shown.append(card(self.entries[digest], about, *self._best(digest), *spreads))
         caption = f"{order} {self.main.name}{self._of_both()}"
-        return [("contested", title, cards(caption, found))] if found else []
+        return [("contested", title, cards(caption, shown))] if shown else []
 
     def _spread(self, digest: str, ladder: str) -> str:
         """How far the second and the fifth run of a ladder are behind in the first category."""
         places = zip(("second", "fifth"), self._placed(digest, ladder)[1:5:3], strict=False)
-        spread = ", ".join(f"{place} {self.main.difference(each.behind)} behind" for place, each in places)
-        return f"{ladder}: " * (len(self.ranking.ladders) > 1) + spread if spread else ""
+        spread = ", ".join(f"{place} {self.main.difference(row.behind)} behind" for place, row in places)
+        return f"{ladder}: {spread}" if spread and len(self.ranking.ladders) > 1 else spread
 
     def _of_both(self) -> str:
         """A caption's addition if there are two ladders."""
-        return "; runs and players are those of both ladders" * (len(self.ranking.ladders) > 1)
+        return "; runs and players are those of both ladders" if len(self.ranking.ladders) > 1 else ""
 
     def _best(self, digest: str) -> list[Content]:
         """The best number and its player in the first category of each ladder with runs."""
-        found: list[Content] = []
+        firsts: list[Content] = []
         for ladder in self.ranking.ladders:
             if first := next(iter(self._placed(digest, ladder)), None):
                 name = ladder.capitalize() if len(self.ranking.ladders) > 1 else self.main.name
                 result = tag("b", self.main.measured(first.values[0]))
-                found.append(joined(tag("span", name), " ", result, " ", self.player_link(first.run.player)))
-        return found
+                firsts.append(joined(tag("span", name), " ", result, " ", self.parts.player_link(first.run.player)))
+        return firsts
 
     def _feed(self) -> str:
         """New records as Atom (RFC 4287); dates are those of the ledger."""
@@ -284,9 +279,9 @@ class BoardPages(LevelPages):
                 yield _together(records), date, date, self.ranking.shown.name, "index.html"
             elif date:
                 for record in records:
-                    run, name = record.run, self.shown_name(record.run.player)
-                    title = f"{name}, {run.entry.title}, {'; '.join(_said(*each) for each in self._achieved(record))}"
-                    yield title, self.stems[run.key], date, name, page_name(run.level)
+                    run, name = record.run, self.parts.shown_name(record.run.player)
+                    title = f"{name}, {run.entry.title}, {'; '.join(self._lines(record))}"
+                    yield title, self.parts.stems[run.key], date, name, page_name(run.level)
 
     # --- players ---
 
@@ -299,10 +294,12 @@ class BoardPages(LevelPages):
         return f"Players, {ladder}" if len(self.ranking.ladders) > 1 else "Players"
 
     def _standing(self, row: Standing) -> tuple[Content, ...]:
+        parts = self.parts
         firsts = [row.records[category] for category in self.ranking.categories]
-        return (self.player_link(row.player), row.levels, row.runs, *firsts, *(n or "" for n in row.medals.values()))
+        return (parts.player_link(row.player), row.levels, row.runs, *firsts, *(n or "" for n in row.medals.values()))
 
     def _players(self) -> None:
+        parts = self.parts
         sums: dict[str, list[Content]] = defaultdict(list)
         pages = dict(zip(self.ranking.ladders, ("players", "assisted"), strict=False))
         for ladder, standings in self.ranking.standings.items():
@@ -311,17 +308,17 @@ class BoardPages(LevelPages):
             ]
             leads += filter(None, [unnamed(self.ranking.judged)])
             title, rows = self._players_of(ladder), [*map(self._standing, standings)]
-            self.write_table(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", lead) for lead in leads))
-            for each in standings:
-                sums[each.player].append(_sums(ladder, self.main.name, each))
+            parts.write_table(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", lead) for lead in leads))
+            for standing in standings:
+                sums[standing.player].append(_sums(ladder, self.main.name, standing))
         runs: dict[str, list[Run]] = defaultdict(list)
         for run in self.ranking.judged.runs:
             runs[run.player].append(run)
-        held, lost = self._records()
+        kept, lost = self._records()
         heads = ("Level", "Record", "Result", "Date", "Lost to", "With", "On")
         for player, own in runs.items():
-            name, records = player_page(player), held[player] + lost[player]
-            note = f"Records: {len(held[player])} held, {len(lost[player])} lost"
+            name, records = player_page(player), kept[player] + lost[player]
+            note = f"Records: {len(kept[player])} held, {len(lost[player])} lost"
             link = tag("p", tag("a", note, href=f"{UP}{name}-records.html")) if records else None
             gains = self._gains(own)
             ahead = tag("p", tag("a", f"{GAINS}: {counted(len(gains), 'level')}", href=f"{UP}{name}-gains.html"))
@@ -329,77 +326,82 @@ class BoardPages(LevelPages):
             back = tag("p", tag("a", "All runs of the player", href=f"{UP}{name}.html"))
             if gains:
                 names = ("Level", self.main.unit, "Behind", "Place", "First", "Watch")
-                self.write_table(f"{name}-gains", player, f"{GAINS}, in {self.main.name}", names, gains, back)
+                parts.write_table(f"{name}-gains", player, f"{GAINS}, in {self.main.name}", names, gains, back)
             if records:
-                self.write_table(f"{name}-records", player, "Records held, then those lost", heads, records, back)
+                parts.write_table(f"{name}-records", player, "Records held, then those lost", heads, records, back)
 
     def _gains(self, runs: Sequence[Run]) -> list[tuple[Content, ...]]:
         """Rows of a player's runs that are behind the first of the main category, the farthest first."""
+        parts = self.parts
         gains = []
         for run in runs:
             for part, rows, number in self.ranking.places.get(run.key, ()):
                 row, first = rows[number], rows[0].run
                 if part[1] == self.main and row.place and row.behind and not row.far:
-                    result = self.run_link(run, UP, self.main.text(row.values[0])), self.main.difference(row.behind)
-                    both = self.player_link(first.player, UP), self.watch_link([run, first], UP, "Watch both")
+                    result = parts.run_link(run, UP, self.main.text(row.values[0])), self.main.difference(row.behind)
+                    both = parts.player_link(first.player, UP), parts.watch_link([run, first], UP, "Watch both")
                     gains.append((row.behind, (level_link(run.entry, UP), *result, row.place, *both)))
         return [cells for _, cells in sorted(gains, key=itemgetter(0), reverse=True)]
 
     def _records(self) -> tuple[dict[str, list[tuple[Content, ...]]], dict[str, list[tuple[Content, ...]]]]:
         """By player the rows of records held, and of records lost."""
-        held: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
+        kept: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         lost: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         for (level, part), runs in self.ranking.history.items():
             last = {run.player: number for number, run in enumerate(runs)}
-            results = [self.run_link(run, UP, self.shown_value(part[1], run)) for run in runs]
+            results = [self.parts.run_link(run, UP, self.parts.shown_value(part[1], run)) for run in runs]
             for player, number in last.items():
                 best, by = runs[number], runs[number + 1] if number + 1 < len(runs) else None
-                about = level_link(self.entries[level], UP), self.leaderboard_name(part), results[number], best.day
-                loss = (self.player_link(by.player, UP), results[number + 1], by.day) if by else ("", "", "")
-                (lost if by else held)[player].append((*about, *loss))
-        return held, lost
+                about = (
+                    level_link(self.entries[level], UP),
+                    self.ranking.leaderboard_name(part),
+                    results[number],
+                    best.day,
+                )
+                loss = (self.parts.player_link(by.player, UP), results[number + 1], by.day) if by else ("", "", "")
+                (lost if by else kept)[player].append((*about, *loss))
+        return kept, lost
 
     def _runs_of(self, player: str, runs: Sequence[Run], lead: Sequence[Content]) -> None:
         """A player's page: the sums, and all runs in playing order."""
         order = {level: number for number, level in enumerate(self.entries)}
-        known = {self.stems[run.key]: run for run in runs}
+        known = {self.parts.stems[run.key]: run for run in runs}
 
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
             run = known[row[0]]
             gold = f"{run.gold} of {run.entry.all_gold}"
-            time = self.run_link(run, UP, seconds_text(run.tick))
-            result = time, self.watch_link([run], UP), medal_mark(run.medal), seconds_text(run.score), gold
-            leads = made_text(run), run.day, self.run_link(run, UP)
-            places = tag("div", *(tag("div", each) for each in row[3]), class_="places") if row[3] else ""
+            time = self.parts.run_link(run, UP, seconds_text(run.tick))
+            result = time, self.parts.watch_link([run], UP), medal_mark(run.medal), seconds_text(run.score), gold
+            leads = made_text(run), run.day, self.parts.run_link(run, UP)
+            places = tag("div", *(tag("div", place) for place in row[3]), class_="places") if row[3] else ""
             return (row[1], level_link(run.entry, UP), *result, places, *leads)
 
         rows = [
-            [self.stems[run.key], run.entry.number, run.medal, self._places(run), run.day]
+            [self.parts.stems[run.key], run.entry.number, run.medal, self._places(run), run.day]
             for run in sorted(runs, key=lambda run: (order[run.level], run.added, run.key))
         ]
         heads = ("No.", "Level", "Time", "Watch", "Medal", "Score", "Gold", "Places", "Made", "Date", "File")
-        self.write_table(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
+        self.parts.write_table(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
 
     def _places(self, run: Run) -> list[str]:
         """Its place in each category, and its distance from the first."""
-        places = []
-        for part, rows, number in self.ranking.places.get(run.key, ()):
-            if place := rows[number].place:
-                late = self.behind(part[1], rows[number], rows[0], " behind")
-                places.append(f"{self.leaderboard_name(part)}: {place}" + f", {late}" * bool(late))
-        return places
+        return [
+            f"{self.ranking.leaderboard_name(part)}: {place}"
+            for part, rows, number in self.ranking.places.get(run.key, ())
+            if (place := self.parts.place(part[1], rows[number], rows[0]))
+        ]
 
     # --- levels, episodes, and runs that do not count ---
 
     def _levels(self) -> None:
         rows = [(card(entry, self._counts(digest), *self._best(digest)),) for digest, entry in self.entries.items()]
         caption = f"In playing order; who is first, in {self.main.name}{self._of_both()}"
-        self.write_table("levels", "Levels", caption, (), rows)
+        self.parts.write_table("levels", "Levels", caption, (), rows)
 
     def _placed(self, digest: str, ladder: str) -> list[Ranked]:
         """The runs with a place in the first category of a ladder, except those far behind."""
         table = self.ranking.tables.get(digest, {}).get((ladder, self.main), [])
-        return [each for each in table if each.place and not each.far]
+        return [row for row in table if row.place and not row.far]
 
     def _counts(self, digest: str) -> str:
         """The numbers of a level's runs and players, over all ladders and categories."""
@@ -416,34 +418,29 @@ class BoardPages(LevelPages):
             for part, (what, ranked) in product(parts, kinds):
                 # A sum of scores contains the 90 s of each level; the order is the same.
                 ranks_score = part[1].unit == HIGHEST.unit
-                rows = [
-                    (
-                        place,
-                        self.player_link(player),
-                        "" if ranks_score else part[1].text(total),
-                        seconds_text(LIFETIME + sum(run.score - LIFETIME for run in runs)),
-                        ", ".join(self.shown_value(part[1], run) for run in runs),
-                        self.watch_link(runs, ""),
-                    )
-                    for place, (player, total, runs) in enumerate(ranked(episode, part)[:FIRST], 1)
-                ]
-                caption = f"Episode {number:02d}, {self.leaderboard_name(part)}: {what}"
+                rows = []
+                for place, (player, total, runs) in enumerate(ranked(episode, part)[:FIRST], 1):
+                    score = seconds_text(LIFETIME + sum(run.score - LIFETIME for run in runs))
+                    results = "" if ranks_score else part[1].text(total), score
+                    levels = ", ".join(self.parts.shown_value(part[1], run) for run in runs)
+                    linked = self.parts.player_link(player)
+                    rows.append((place, linked, *results, levels, self.parts.watch_link(runs, "")))
+                caption = f"Episode {number:02d}, {self.ranking.leaderboard_name(part)}: {what}"
                 tables += [table(caption, EPISODE_HEADS, rows)] if rows else []
-            levels = [tag("li", level_link(level)) for level in episode.levels]
             nobody = tag("p", "No player yet.")
-            listed = tag("ul", *levels, class_="facts")
+            listed = tag("ul", *(tag("li", level_link(level)) for level in episode.levels), class_="facts")
             sections.append(section(f"Episode {number:02d}: {episode.name}", listed, *tables or [nobody]))
         return sections
 
     def _rejected(self) -> None:
-        rejected, order = self.ranking.judged.rejected, list(KINDS)
+        parts, rejected, order = self.parts, self.ranking.judged.rejected, list(KINDS)
         counts = Counter(item.kind for item in rejected)
         kinds = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title, _) in KINDS.items() if counts[kind])
         rows: list[tuple[Content, ...]] = [
             (
                 KINDS[item.kind][2],
                 _file(item.file, item.record),
-                self.shown_name(item.player),
+                parts.shown_name(item.player),
                 item.level,
                 item.why,
                 self._first_run(item.first),
@@ -453,8 +450,8 @@ class BoardPages(LevelPages):
         ]
         lead = f"None of them is ranked; {kinds}." if kinds else "Every file of the folder is a run that counts."
         near = [
-            (level_link(run.entry), self.player_link(run.player), self.run_link(run, "", seconds_text(run.tick)),
-             run.gold, self.watch_link([run], ""), _file(*run.key), run.near,
+            (level_link(run.entry), parts.player_link(run.player), parts.run_link(run, "", seconds_text(run.tick)),
+             run.gold, parts.watch_link([run], ""), _file(*run.key), run.near,
              run.day)
             for run in self.ranking.judged.runs if run.near
         ]  # fmt: skip
@@ -462,43 +459,39 @@ class BoardPages(LevelPages):
         movable = any(item.kind == "refused" and item.way for item in rejected)
         leads = tag("p", lead), tag("p", waiting) if near else None, tag("p", HOW_TO_MOVE) if movable else None
         heads = ("What", "In file", "Player", "Level", "Why", "The first run", "Date")
-        self.write_table("rejected", "Rejected", "What does not count", heads, rows, *leads)
+        parts.write_table("rejected", "Rejected", "What does not count", heads, rows, *leads)
         if near:
             names = ("Level", "Player", "Time", "Gold", "Watch", "In file", "Nearly", "Date")
             about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs that are nearly somebody else's"
-            self.write_table("waiting", "Waiting for confirmation", caption, names, near, *about)
+            parts.write_table("waiting", "Waiting for confirmation", caption, names, near, *about)
 
     def _first_run(self, key: Key | None) -> Content:
         """A link to the page of a run that others have copied."""
         label = f"The run in {key[0]}" if key else ""
-        return tag("a", "Look", href=f"../{REPLAYS}/{self.stems[key]}.html", aria_label=label) if key else ""
+        return tag("a", "Look", href=f"../{REPLAYS}/{self.parts.stems[key]}.html", aria_label=label) if key else ""
 
 
 def _file(name: str, record: int) -> Content:
     """A file, and the record in it; a long name is folded."""
-    text = name + f", record {record}" * (record > 0)
+    text = f"{name}, record {record}" if record else name
     short = shown_text(text, MAX_FILE_NAME)
     return tag("details", tag("summary", short), text, class_="note") if short != text else text
-
-
-def _said(name: str, result: str, gain: str) -> str:
-    return f"{name}: {result}, {gain}"
 
 
 def _together(records: Sequence[Record]) -> str:
     return f"{len(records)} runs with records came in together"
 
 
-def _sums(ladder: str, category: str, each: Standing) -> Markup:
+def _sums(ladder: str, category: str, standing: Standing) -> Markup:
     """A player's sums in a ladder, and ranks in a category."""
-    facts: list[tuple[str, Content]] = [("Runs", each.runs), ("Levels", each.levels)]
-    if each.ranks:
+    facts: list[tuple[str, Content]] = [("Runs", standing.runs), ("Levels", standing.levels)]
+    if standing.ranks:
         facts += [
-            (f"First in {category}", each.ranks.count(1)),
-            ("Total of ranks", f"{sum(each.ranks)}, {mean(each.ranks):.2f} on average"),
+            (f"First in {category}", standing.ranks.count(1)),
+            ("Total of ranks", f"{sum(standing.ranks)}, {mean(standing.ranks):.2f} on average"),
         ]
-    if each.behind:
-        facts.append(("Behind the fastest, in the median", f"{100 * median(each.behind):.1f}%"))
+    if standing.behind:
+        facts.append(("Behind the fastest, in the median", f"{100 * median(standing.behind):.1f}%"))
     return section(ladder.capitalize(), definitions(facts))
 
 

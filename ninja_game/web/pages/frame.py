@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 from pygame import Color
 
+from ninja_game.board.memo import Memo, program, values_digest
 from ninja_game.errors import FileError
 from ninja_game.files.reading import stamp_of
 from ninja_game.files.shown_text import shown_text
@@ -19,7 +20,6 @@ from ninja_game.ui.canvas import png_of
 from ninja_game.ui.lettering import CAP, SPACING, WEIGHTS, glyph
 from ninja_game.ui.theme import PALETTES, Palette, mixed
 from ninja_game.view.ninja.figure import icon
-from ninja_game.web.pages.memo import Memo, program, values_digest
 
 MAX_TEXT = 400  # characters of a text that are shown
 

@@ -1,11 +1,10 @@
-"""The gallery of levels, a page for each; and the levels that pages show, of a pack or of any file or folder."""
+"""The gallery of levels, a page for each."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cache
 from hashlib import sha256
 from io import BytesIO
 from math import dist
@@ -20,13 +19,11 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.links import level_link, write_watch
-from ninja_game.formats.load import load_levels
-from ninja_game.formats.pack.pack import Pack, is_pack
 from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
-from ninja_game.formats.recording import Recording, parse_replays
-from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.formats.replay.text import shared_text
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.levels.episodes import YOURS, Entry, EpisodeSet, episode_set
+from ninja_game.levels.episodes import Entry
+from ninja_game.levels.published import KINDS, PublishedLevels
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import Level, makes_object
 from ninja_game.ui.theme import CLASSIC
@@ -35,50 +32,6 @@ from ninja_game.web.pages import frame
 from ninja_game.web.pages.frame import Content, Markup, Pages, definitions, joined, section, table, tag
 
 PICTURE_WIDTH = 792
-
-
-@dataclass(frozen=True)
-class PublishedLevels:
-    name: str
-    author: str
-    comment: str
-    levels: EpisodeSet
-    pack: Pack | None = field(default=None, repr=False, compare=False)
-
-    @cached_property
-    def entries(self) -> dict[str, Entry]:
-        """The levels by digest, in playing order; of equal ones the first."""
-        by_key: dict[str, Entry] = {}
-        for entry in self.levels.levels:
-            by_key.setdefault(entry.digest, entry)
-        return by_key
-
-    @cached_property
-    def runs(self) -> Mapping[str, Mapping[str, Recording]]:
-        """Certificates by level digest, then by kind: "exit" or "gold"."""
-        return {entry.digest: _certificates(self.pack, entry) for entry in self.levels.levels} if self.pack else {}
-
-
-def published_levels(path: Path) -> PublishedLevels:
-    """The levels of a pack, or of any file or folder. Raises NinjaGameError, OSError."""
-    if not is_pack(path):
-        entries = tuple(Entry(level, YOURS) for level in load_levels(path))
-        return PublishedLevels(path.stem, "", "", EpisodeSet("", path.stem, (), {}, entries))
-    pack = Pack(path)
-    return PublishedLevels(pack.name, pack.index.author, pack.index.comment, episode_set(pack, ""), pack)
-
-
-def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:
-    certificates = {}
-    for kind in KINDS:
-        name = pack.certificate(Path(entry.named.file).name, kind)
-        if name is not None:
-            try:
-                (certificates[kind],) = parse_replays(pack.files.text(name), level=entry.named.level)
-            except NinjaGameError:
-                # `levels lint` reports its problem; the page leaves it out.
-                continue
-    return certificates
 
 
 def page_name(digest: str) -> str:
@@ -110,13 +63,6 @@ def _keep_freed_memory() -> None:
     bytearray(31 << 20)
 
 
-def shared_text(replay: Replay, level: Level) -> str:
-    """A replay for the page: its level inside, no path, no waypoints, no unverified claims."""
-    return write_replay(
-        replace(replay, level=level, level_path="", level_record=0, level_digest="", digest="", waypoints=())
-    )
-
-
 def watch_address(game: str, *stems: str) -> str:
     """The address for watching runs: ``game`` is the address of the page with the game."""
     return game + write_watch(stems)
@@ -128,7 +74,6 @@ FOLDER = "gallery"
 BOARD = "board"
 
 Links = Sequence[tuple[str, str]]
-KINDS = {"exit": "To the exit", "gold": "With all gold"}
 
 
 def level_page(
@@ -337,16 +282,9 @@ def _card(entry: Entry, place: int) -> Markup:
     name = tag("a", shown_text(entry.title, MAX_NAME), href=page_name(entry.digest))
     number = tag("span", entry.episode, class_="number") if entry.episode else None
     words = f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode}".casefold()
+    head, below = tag("h2", number, joined(" ") if number else None, name), tag("p", *facts, class_="facts")
     return tag(
-        "li",
-        level_image(entry, lazy=True),
-        tag("h2", number, joined(" ") if number else None, name),
-        tag("p", *facts, class_="facts"),
-        class_="card",
-        data_words=words,
-        data_episode=entry.episode[:2],
-        data_place=place,
-        data_name=entry.title.casefold(),
-        data_difficulty=difficulty or None,
-        data_par=pars.exit if pars else None,
-    )
+        "li", level_image(entry, lazy=True), head, below, class_="card", data_words=words,
+        data_episode=entry.episode[:2], data_place=place, data_name=entry.title.casefold(),
+        data_difficulty=difficulty or None, data_par=pars.exit if pars else None,
+    )  # fmt: skip

@@ -15,10 +15,11 @@ from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.bundled import data_folder
 from ninja_game.files.reading import digest_of, read_utf8
 from ninja_game.files.tree import Tree, leads_below
+from ninja_game.levels.published import published_levels
 from ninja_game.runtime import PACKAGE
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.pages.frame import GAME, MARK as PAGES_MARK, REPLAYS
-from ninja_game.web.pages.gallery import page_name, picture_name, published_levels
+from ninja_game.web.pages.gallery import page_name, picture_name
 from ninja_game.web.site import game_archive as archive
 
 MARK = "ninja-game-site.json"  # marks a folder that the build wrote, with the names of the files in it

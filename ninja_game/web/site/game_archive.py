@@ -137,7 +137,7 @@ def library_zip(files: Mapping[str, bytes]) -> bytes:
 
 
 LEFT_OUT = {
-    "package": ("batch/", "cli/", "learn/", "search/", "tas", "web/board/", "web/page", "web/site/"),
+    "package": ("batch/", "board/", "cli/", "learn/", "search/", "tas", "web/board/", "web/page", "web/site/"),
     "levels": (),
     "assets": ("bench.", "generated.tsv.xz", "sounds/music/"),
 }

@@ -9,15 +9,16 @@ from functools import partial
 from hashlib import sha256
 from heapq import heappop, heappush, nlargest, nsmallest
 from itertools import groupby, pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.board.memo import Memo, program, values_digest
+from ninja_game.board.players import folded
+from ninja_game.board.runs import OWN, Key, Rejected, Rows, Run
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN
-from ninja_game.web.board.players import folded
-from ninja_game.web.board.runs import OWN, Key, Rejected, Rows, Run
-from ninja_game.web.pages.memo import Memo, program, values_digest
 
 MAX_COMPARED = 1000
 """Earlier runs of a level to compare a new one with: the fastest, the likeliest to be copied."""
@@ -46,20 +47,15 @@ ALIGNED = 4  # earlier runs whose inputs are aligned with a new one's: those wit
 
 @dataclass(frozen=True)
 class Course:
-    """The features for comparing runs.
+    """The features for comparing runs."""
 
-    ``keys``: those down in each tick; ``strokes``: spans of the same keys, each as its number among equal ones, 2^20
-    times its keys and 2^24 times its ticks; ``presses``: keys pressed and keys released, each as a bit of eight, plus
-    eight times its tick; ``places``: the ninja's places in whole pixels, x + 10^6 y.
-    """
-
-    keys: bytes
-    strokes: frozenset[int]
-    presses: frozenset[int]
-    places: frozenset[float]
+    keys: bytes  #: those down in each tick
+    strokes: frozenset[int]  #: spans of the same keys: number among equal ones + 2^20 times keys + 2^24 times ticks
+    presses: frozenset[int]  #: keys pressed and released: one of eight numbers + 8 times the tick
+    places: frozenset[float]  #: the ninja's places in whole pixels: x + 10^6 y
 
     def inputs_shared(self, other: Course) -> int:
-        """The number of ticks with the other's inputs; 0 if too many differ."""
+        """Returns the number of ticks with the other's inputs; 0 if too many differ."""
         changed = edit_distance(self.keys, other.keys)
         alike = changed <= CHANGED * max(len(self.strokes), len(other.strokes))
         return max(0, len(self.keys) - changed) if alike else 0
@@ -67,16 +63,33 @@ class Course:
 
 def course_of(inputs: bytes, run: RunResult) -> Course:
     keys = bytes(pressed & KEYS_DOWN for pressed in inputs)
-    met: Counter[int] = Counter()
+    equal: Counter[int] = Counter()
     strokes = []
     for down, ticks in groupby(keys):
         stroke = down + 16 * len(list(ticks)) << 20
-        met[stroke] += 1
-        strokes.append(stroke + met[stroke])
+        equal[stroke] += 1
+        strokes.append(stroke + equal[stroke])
     changes = [down & ~before | (before & ~down) << 4 for before, down in pairwise(keys)]
     presses = frozenset(8 * tick + bit for tick, bits in enumerate(changes) for bit in range(8) if bits >> bit & 1)
     x, y = run.positions.round().T
     return Course(keys, frozenset(strokes), presses, frozenset((x + 1e6 * y).tolist()))
+
+
+class Near(NamedTuple):
+    """Runs that are near to a course."""
+
+    numbers: list[int]  #: of the runs, the nearest first
+    shared: str  #: the features shared with the first one, as the beginning of a sentence; "" for none
+    by_inputs: bool  #: whether inputs are shared: on a short level with one obvious route people share only the path
+
+
+class Likeness(NamedTuple):
+    """What a run shares with the nearest run by another player."""
+
+    text: str  #: a sentence; "" for nothing
+    player: str  #: the other one
+    earlier: bool  #: whether the other run is of an earlier moment
+    by_inputs: bool  #: as of Near
 
 
 class Common:
@@ -130,11 +143,11 @@ class Courses:
                 return
             column = heappop(self._slowest)[2]
             self._mark(self._courses[column], column, has=False)
-        self._courses[column] = here = course()
-        self._mark(here, column, has=True)
+        self._courses[column] = new = course()
+        self._mark(new, column, has=True)
         if column == len(self.numbers):
             self.numbers, self._press_counts = np.append(self.numbers, 0), np.append(self._press_counts, 0)
-        self.numbers[column], self._press_counts[column] = number, len(here.presses)
+        self.numbers[column], self._press_counts[column] = number, len(new.presses)
         heappush(self._slowest, (-tick, -number, column))
 
     def _mark(self, course: Course, column: int, *, has: bool) -> None:
@@ -142,43 +155,38 @@ class Courses:
             common.mark(features, column, has=has)
         self._places.mark(course.places, column, has=has)
 
-    def near(self, course: Course) -> Callable[[NDArray[np.bool_]], tuple[list[int], str, bool]]:
-        """A function of columns: the numbers of the runs near a course, nearest first; what the first shares.
-
-        And whether the inputs are what is shared: on a short level with one obvious route people share only the path.
-        """
+    def near(self, course: Course) -> Callable[[NDArray[np.bool_]], Near]:
+        """Returns a function: for columns, chosen by truth values, the runs in them that are near to a course."""
         columns = len(self.numbers)
         places, presses = self._places.counts(course.places, columns), np.zeros(columns, np.int64)
-        of = self._press_counts
         for shift in range(-SHIFTED, SHIFTED + 1):
             moved = (press + 8 * shift for press in course.presses)
             presses = np.maximum(presses, self._presses.counts(moved, columns))
         on_path = (places >= ON_PATH * len(course.places)) & (len(course.strokes) >= MIN_STROKES)
-        pressed = (presses >= SAME_PRESSES * of) & (presses >= MIN_PRESSES)
+        pressed = (presses >= SAME_PRESSES * self._press_counts) & (presses >= MIN_PRESSES)
+        path_share = places / max(1, len(course.places)) * on_path
+        press_share = presses / np.maximum(1, self._press_counts) * pressed
+        share = np.maximum(path_share, press_share)
 
-        of_path = places / max(1, len(course.places)) * on_path
-        of_presses = presses / np.maximum(1, of) * pressed
-        alike = np.maximum(of_path, of_presses)
-
-        def nearest(chosen: NDArray[np.bool_]) -> tuple[list[int], str, bool]:
+        def nearest(chosen: NDArray[np.bool_]) -> Near:
             near = np.flatnonzero(chosen & (on_path | pressed))
-            near = near[np.lexsort((self.numbers[near], -alike[near], ~pressed[near]))]
-            found, said = self.numbers[near].tolist(), ""
-            if found:
+            near = near[np.lexsort((self.numbers[near], -share[near], ~pressed[near]))]
+            numbers, text = self.numbers[near].tolist(), ""
+            if numbers:
                 first = near[0]
-                said = f"{places[first]} of the {len(course.places)} places on its way, and {presses[first]} of "
-                said += f"{of[first]} presses and releases, are those of"
+                text = f"{places[first]} of the {len(course.places)} places on its way, and {presses[first]} of "
+                text += f"{self._press_counts[first]} presses and releases, are those of"
                 if pressed[first]:
-                    return found, said, True
+                    return Near(numbers, text, by_inputs=True)
             # Aligning is slow: only where the other tests do not decide.
             strokes, ticks = self._strokes.counts(course.strokes, columns), len(course.keys)
             most = nlargest(ALIGNED, np.flatnonzero(chosen).tolist(), key=strokes.__getitem__)
             shared = [(-course.inputs_shared(self._courses[column]), int(self.numbers[column])) for column in most]
             aligned = sorted(pair for pair in shared if pair[0])
             if aligned:
-                found = [*(number for _, number in aligned), *found]
-                said = f"{-aligned[0][0]} of its {ticks} ticks have the inputs of"
-            return found, said, bool(aligned)
+                numbers = [*(number for _, number in aligned), *numbers]
+                text = f"{-aligned[0][0]} of its {ticks} ticks have the inputs of"
+            return Near(numbers, text, bool(aligned))
 
         return nearest
 
@@ -194,12 +202,12 @@ def edit_distance(ours: bytes, theirs: bytes) -> int:
     if not ours:
         return len(theirs)
     every, last = (1 << len(ours)) - 1, 1 << (len(ours) - 1)
-    at: dict[int, int] = defaultdict(int)
-    for place, keys in enumerate(ours):
-        at[keys] |= 1 << place
+    ticks_with: dict[int, int] = defaultdict(int)
+    for tick, keys in enumerate(ours):
+        ticks_with[keys] |= 1 << tick
     more, less, distance = every, 0, len(ours)
     for keys in theirs:
-        same = at[keys]
+        same = ticks_with[keys]
         diagonal = (((same & more) + more) ^ more) | same | less
         right, left = (less | ~(diagonal | more)) & every, more & diagonal
         distance += bool(right & last) - bool(left & last)
@@ -209,7 +217,7 @@ def edit_distance(ours: bytes, theirs: bytes) -> int:
 
 
 def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run], list[Rejected]]:
-    """The runs that are no copies, with near copies marked, and the copies.
+    """Returns the runs that are no copies, with near copies marked, and the copies.
 
     If several players sent the same run at one moment, nobody knows who was first: all stay, with a remark. ``owners``:
     as of Ledger.
@@ -222,7 +230,7 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
         owner = owners.get(way)
         if owner and way not in ways and owner["added"] < run.added:
             why = f"a copy of an earlier run by {owner['player']}, which was withdrawn or does not count any more"
-            copies.append(Rejected(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
+            copies.append(run.rejected("copy", why))
             continue
         same = ways[way]
         if not same or (run.added == same[0].added != "" and run.player not in (copy.player for copy in same)):
@@ -233,22 +241,22 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
-            copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added, first.key))
+            copies.append(run.rejected(kind, why, first.key))
     together: dict[Key, str] = {}
     for same in ways.values():
         for run in same if len(same) > 1 else ():
             others = " and ".join(f"{copy.player} in {copy.file}" for copy in same if copy is not run)
             together[run.key] = f"the same run as that by {others}, which came in together with it: whose is not known"
-    kept = [run for level in on_level.values() for run in _remarked(level, memo, together)]
-    return sorted(kept, key=lambda run: run.order), copies
+    unique = [run for level in on_level.values() for run in _marked(level, memo, together)]
+    return sorted(unique, key=lambda run: run.order), copies
 
 
-def _remarked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Iterator[Run]:
-    """The runs of a level, in order, each with a remark if it is near to earlier ones by others alone.
+def _marked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Iterator[Run]:
+    """Returns the runs of a level, in order, each with a mark if it is near to earlier ones by others alone.
 
-    Of two of one moment nobody knows which was first: the second has the remark, and is no near copy. That is when the
+    Of two of one moment nobody knows which was first: the second has the mark, and is no near copy. That is when the
     board took them in: dates of an older board make no near copy. Nor is an assisted run one that names whose it was.
-    ``together``: what is said instead of those that are the same run.
+    ``together``: marks of runs that are the same as others of their moment, in place of these.
     """
     if len({run.player for run in runs}) == 1:
         yield from runs
@@ -258,19 +266,17 @@ def _remarked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Itera
     for _, moment in groupby(runs, key=lambda run: run.taken or run.added):
         compared.begin_moment()
         for run in moment:
-            said, whose, earlier, sure = compared.near(run)
+            like = compared.likeness(run)
             compared.add(run)
-            named = earlier and folded(whose) in run.origins
-            near = said * (earlier and sure and not named)
-            if earlier:
-                said += NAMED if named else DOUBTFUL * (not sure)
+            named = like.earlier and folded(like.player) in run.origins
+            near = like.text if like.earlier and like.by_inputs and not named else ""
+            if like.earlier:
+                mark = like.text + (NAMED if named else "" if like.by_inputs else DOUBTFUL)
             else:
-                said = together.get(run.key, said + ", of the same moment" * bool(said and run.added))
-            yield (
-                replace(run, remark="; ".join(filter(None, (said, run.remark))), near=near, derived=named)
-                if said
-                else run
-            )
+                mark = together.get(
+                    run.key, f"{like.text}, of the same moment" if like.text and run.added else like.text
+                )
+            yield replace(run.marked(mark), near=near, derived=named) if mark else run
 
 
 class _Compared:
@@ -284,7 +290,7 @@ class _Compared:
         self._last: tuple[Key, Course] | None = None
 
     def _key_of(self, run: Run) -> str:
-        """A remark depends only on the run, and on all earlier runs of the level and their moments."""
+        """Returns the key of a run's likeness, which depends only on it, the level's earlier runs and their moments."""
         return sha256(f"{self._key} {run.digest} {run.record} {run.player}".encode("utf-8", "replace")).hexdigest()
 
     def begin_moment(self) -> None:
@@ -295,25 +301,24 @@ class _Compared:
         self._key = self._key_of(run)
         self._runs.append(run)
 
-    def near(self, run: Run) -> tuple[str, str, bool, bool]:
-        """The run by another player that a run nearly copies, as a sentence, and that player; "" for none.
-
-        And whether it is of an earlier moment, and whether the inputs are what is shared.
-        """
+    def likeness(self, run: Run) -> Likeness:
+        """Returns what a run shares with the run by another player that it nearly copies, if it does."""
         noted = self._memo.recall(key := self._key_of(run))
-        if not (isinstance(noted, list) and [*map(type, noted)] == [str, str, bool, bool]):
-            before = range(self._known, len(self._runs))
-            for number in sorted(nsmallest(MAX_COMPARED, before, key=lambda number: self._runs[number].tick)):
-                self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
-            self._known = len(self._runs)
-            course = self._course(run)
-            players = [run.player for run in self._runs]
-            near = _near_to_another(run.player, course, self._courses, players, self._earlier)
-            whose = self._runs[near[0]].player if near else ""
-            said = f"{near[1]} the run by {whose} in {self._runs[near[0]].file}" if near else ""
-            earlier, sure = bool(near and near[0] < self._earlier), bool(near and near[2])
-            self._memo.note(key, noted := [said, whose, earlier, sure])
-        return noted[0], noted[1], noted[2], noted[3]
+        if isinstance(noted, list) and [*map(type, noted)] == [str, str, bool, bool]:
+            return Likeness(*noted)
+        before = range(self._known, len(self._runs))
+        for number in sorted(nsmallest(MAX_COMPARED, before, key=lambda number: self._runs[number].tick)):
+            self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
+        self._known = len(self._runs)
+        course = self._course(run)
+        near = _near_to_another(run.player, course, self._courses, [run.player for run in self._runs], self._earlier)
+        like = Likeness("", "", earlier=False, by_inputs=False)
+        if near:
+            number, other = near.numbers[0], self._runs[near.numbers[0]]
+            text = f"{near.shared} the run by {other.player} in {other.file}"
+            like = Likeness(text, other.player, number < self._earlier, near.by_inputs)
+        self._memo.note(key, [*like])
+        return like
 
     def _course(self, run: Run) -> Course:
         if self._last is None or self._last[0] != run.key:
@@ -324,19 +329,19 @@ class _Compared:
 
 def _near_to_another(
     player: str, course: Course, earlier: Courses, players: Sequence[str], until_moment: int
-) -> tuple[int, str, bool] | None:
-    """The nearest run by another player, what it shares, and whether that is the inputs.
+) -> Near | None:
+    """Returns the nearest runs by other players, if there are some.
 
     Only runs before the player's own first near one count. ``players``: of the earlier runs; the first ``until_moment``
     of these, of earlier moments, are preferred.
     """
     numbers = earlier.numbers
     own = np.array([players[number] == player for number in numbers.tolist()], bool)
-    near, until = earlier.near(course), len(players)
+    nearest, until = earlier.near(course), len(players)
     for _ in range(2):  # inputs are aligned only where nothing else is near
-        until = min(near(own & (numbers < until))[0], default=until)
+        until = min(nearest(own & (numbers < until)).numbers, default=until)
     for last in sorted({min(until, until_moment), until}):
-        others, said, sure = near(~own & (numbers < last))
-        if others:
-            return others[0], said, sure
+        others = nearest(~own & (numbers < last))
+        if others.numbers:
+            return others
     return None

@@ -11,11 +11,11 @@ from itertools import zip_longest
 from math import inf
 from operator import itemgetter
 
+from ninja_game.board.categories import USUAL, Category
+from ninja_game.board.runs import PLAYED, Key, Run, ValidatedRuns
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.levels.episodes import Episode
-from ninja_game.web.board.categories import USUAL, Category
-from ninja_game.web.board.runs import PLAYED, Key, Run, ValidatedRuns
-from ninja_game.web.pages.gallery import PublishedLevels
+from ninja_game.levels.published import PublishedLevels
 
 Leaderboard = tuple[str, Category]  # a ladder and a category, within which runs are ranked
 
@@ -24,44 +24,34 @@ WEEK = timedelta(days=7)
 
 @dataclass(frozen=True)
 class Ranked:
-    """A run with its place and its numbers. Equal runs share a place; a near copy has 0.
+    """A run in a table."""
 
-    ``behind``: by how much its first number is worse than the first run's; ``far``: as ``Category.far``.
-    """
-
-    place: int
+    place: int  #: equal runs share one; a near copy has 0
     run: Run
-    values: tuple[float, ...]
-    behind: float
-    far: bool
+    values: tuple[float, ...]  #: the numbers that rank it
+    behind: float  #: by how much its first number is worse than the first run's
+    far: bool  #: as ``Category.far``
 
 
 @dataclass(frozen=True)
 class Record:
-    """A run that was the best of its level when it was added.
-
-    ``before``: by category the improvement of its first number; None if it was the first run.
-    """
+    """A run that was the best of its level when it was added."""
 
     run: Run
-    before: Mapping[Category, float | None]
+    gains: Mapping[Category, float | None]  #: the improvement of its first number; None if it was the first run
 
 
 @dataclass
 class Standing:
-    """A player's sums in a ladder. ``medals``: levels by best medal; ``records``: levels led, by category.
-
-    ``ranks``: places of the best runs in the first category; ``behind``: the share by which each is slower than the
-    best, unless it is far behind.
-    """
+    """A player's sums in a ladder."""
 
     player: str
     levels: int = 0
     runs: int = 0
-    medals: dict[str, int] = field(default_factory=lambda: dict.fromkeys(MEDALS, 0))
-    records: dict[Category, int] = field(default_factory=lambda: defaultdict(int))
-    ranks: list[int] = field(default_factory=list)
-    behind: list[float] = field(default_factory=list)
+    medals: dict[str, int] = field(default_factory=lambda: dict.fromkeys(MEDALS, 0))  #: levels by best medal
+    records: dict[Category, int] = field(default_factory=lambda: defaultdict(int))  #: levels led
+    ranks: list[int] = field(default_factory=list)  #: places of the best runs in the first category
+    behind: list[float] = field(default_factory=list)  #: shares by which these are slower than the best, unless far
 
 
 class Ranking:
@@ -186,8 +176,7 @@ class Ranking:
             numbers = [self.number(category, run) for run in runs]
             for number, run in enumerate(runs):
                 changes[run.key][category] = numbers[number - 1] - numbers[number] if number else None
-        set_ = [Record(run, changes[run.key]) for run in self.judged.runs if run.key in changes]
-        return set_[::-1]
+        return [Record(run, changes[run.key]) for run in reversed(self.judged.runs) if run.key in changes]
 
     @cached_property
     def standings(self) -> dict[str, list[Standing]]:

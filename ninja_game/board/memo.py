@@ -23,8 +23,8 @@ def values_digest(data: object) -> str:
 @cache
 def program() -> str:
     """Digest of everything that cached results depend on: the package's code and the templates of pages."""
-    here = Path(__file__).parent
-    files = sorted({*here.parents[1].rglob("*.py"), *here.glob("*.*")})
+    package = Path(__file__).parents[1]
+    files = sorted({*package.rglob("*.py"), *package.glob("web/pages/*.*")})
     return values_digest([digest_of(file.read_bytes()) for file in files])
 
 

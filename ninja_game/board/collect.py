@@ -34,6 +34,12 @@ SETTLED = 2 * 10**9  # nanoseconds until a file's time is certain to show a chan
 MAX_RECORDS = 200  # recordings in one file with records of N
 
 
+def is_in(path: Path, folder: Path) -> bool:
+    """Whether a path, which need not exist yet, is a folder or leads into it; links are followed."""
+    place = path.resolve()
+    return folder.exists() and any(parent.exists() and parent.samefile(folder) for parent in (place, *place.parents))
+
+
 @dataclass(frozen=True)
 class SentFile:
     """A file by its path in the folder: its content, or the reason for its refusal."""

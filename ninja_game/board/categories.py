@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from ninja_game.board.runs import Run
 from ninja_game.errors import FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.untrusted import parse_toml
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_number, parse_truth
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.web.board.runs import Run
 
 NAMES: dict[str, Callable[[Run], float]] = {
     "ticks": lambda run: run.tick, "gold": lambda run: run.gold, "score": lambda run: run.score,
@@ -110,7 +110,7 @@ class Category:
         """The improvement of a first number, for people."""
         if self.unit == "Value":
             return f"{amount:g}"
-        return "-" * (amount < 0) + seconds_text(round(abs(amount)))
+        return ("-" if amount < 0 else "") + seconds_text(round(abs(amount)))
 
     def far(self, value: float, first: float) -> bool:
         """Whether a time is so much slower than the first that its run had another aim, such as gold.
@@ -147,10 +147,10 @@ def read_categories(path: Path) -> tuple[Category, ...]:
         table = parse_toml(text)
     except ValueError as error:
         raise FormatError(f"no TOML: {error}", file) from None
-    found = table.get("category")
-    if set(table) != {"category"} or not isinstance(found, list) or not 1 <= len(found) <= MAX_CATEGORIES:
+    tables = table.get("category")
+    if set(table) != {"category"} or not isinstance(tables, list) or not 1 <= len(tables) <= MAX_CATEGORIES:
         raise FormatError("no categories of a board", file, expected=f"1 to {MAX_CATEGORIES} tables [[category]] alone")
-    categories = tuple(_category(category, f"{file}: category {number}") for number, category in enumerate(found, 1))
+    categories = tuple(_category(category, f"{file}: category {number}") for number, category in enumerate(tables, 1))
     names = [category.name.casefold() for category in categories]
     if len(set(names)) < len(names):
         raise FormatError("two categories have one name", file, found=next(n for n in names if names.count(n) > 1))

@@ -7,12 +7,12 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ninja_game.board.collect import RunFolder
+from ninja_game.board.players import folded
 from ninja_game.formats.replay.provenance import names_of_text, parse_provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.run import run_level
-from ninja_game.web.board.collect import RunFolder
-from ninja_game.web.board.players import folded
 
 if TYPE_CHECKING:
     import numpy as np
@@ -47,45 +47,54 @@ OWN = "own"  # a level of an episode that its player has sent before
 
 @dataclass(frozen=True)
 class Judged:
-    """The result of a recording, as plain values that can be cached.
-
-    ``kind``: "" for a run that counts, else as in Rejected; ``why``: that, or a remark; ``level``: its digest;
-    ``way``: digest of the ninja's positions, also of a run that counts once the keeper has put it on the assisted
-    ladder; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
-    """
+    """The result of a recording, as plain values that can be cached; where nothing is said, as of Verdict."""
 
     record: int
-    kind: str
-    why: str = ""
+    kind: str  #: "" for a run that counts, else one of KINDS
+    why: str = ""  #: the reason if it does not count
     author: str = ""
-    level: str = ""
-    tick: int = -1
+    level: str = ""  #: its digest
+    tick: int = -1  #: of the exit contact
     gold: int = 0
-    score: int = 0
-    way: str = ""
-    presses: int = 0
-    jumps: int = 0
+    score: int = 0  #: ticks
+    way: str = ""  #: digest of the ninja's positions; also of a run that counts once the keeper calls it assisted
+    presses: int = 0  #: of all keys
+    jumps: int = 0  #: presses of the jump key
     made: str = ""
     assisted: bool | None = None
     co_authors: str = ""
     episode: str = ""
+    mark: str = ""  #: what no keyboard can do in it
+
+
+class Decision(NamedTuple):
+    """The keeper's decision on a run."""
+
+    level: str  #: digest
+    way: str
+    file: str
+    player: str
+    what: str  #: one of DECISIONS
+    reason: str
+    added: str  #: the date of the decision
+
+    @property
+    def key(self) -> tuple[str, str, str]:
+        """The run that it is about, by level, way and folded player."""
+        return self.level, self.way, folded(self.player)
 
 
 class Ledger(NamedTuple):
-    """Earlier facts about a board: ``runs`` and ``rejected`` by file and record.
+    """Earlier facts about a board."""
 
-    ``withdrawn``: by level and way the runs that counted once, and are gone now or do not count; ``decisions``: the
-    keeper's on runs, with reasons, by level, way and folded player.
-    """
+    runs: Rows  #: by file and record
+    rejected: Rows  #: likewise
+    withdrawn: Rows  #: by level and way the runs that counted once, and are gone now or do not count
+    decisions: dict[tuple[str, str, str], Decision]  #: by their ``key``
 
-    runs: Rows
-    rejected: Rows
-    withdrawn: Rows
-    decisions: dict[tuple[str, ...], dict[str, Any]]
-
-    def decision(self, run: Run) -> dict[str, Any]:
-        """The row of the keeper's decision on a run; empty for none."""
-        return self.decisions.get((run.level, run.way, folded(run.player)), {})
+    def decision(self, run: Run) -> Decision | None:
+        """The keeper's decision on a run, if there is one."""
+        return self.decisions.get((run.level, run.way, folded(run.player)))
 
     @property
     def owners(self) -> Rows:
@@ -98,30 +107,33 @@ NO_LEDGER = Ledger({}, {}, {}, {})
 
 @dataclass(frozen=True, kw_only=True)
 class Run(Judged):
-    """A run that counts, with the simulation's results: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
+    """A run that counts, with the simulation's results."""
 
-    ``file``: path in the folder, ``record`` in it; ``added``: as of Dates; ``remark``: for readers; ``near``: the run
-    that it nearly copies, a sentence; until it is ``confirmed`` it leads no table; ``again``: it was withdrawn, and is
-    the first of its moment; ``taken``: where ``added`` is that of an older board, when this one took
-    it in; ``derived``: near to a run of one of its ``origins``; ``digest``: of its file.
-    """
-
-    file: str
+    file: str  #: path in the folder
     player: str
     entry: Entry = field(repr=False)
-    added: str
-    digest: str = field(repr=False)
+    added: str  #: as of Dates
+    digest: str = field(repr=False)  #: of its file
     folder: RunFolder = field(repr=False, compare=False)
-    remark: str = ""
-    near: str = ""
-    confirmed: bool = False
-    again: bool = False
-    taken: str = ""
-    derived: bool = False
+    marks: tuple[str, ...] = ()  #: remarks for readers
+    near: str = ""  #: the run that it nearly copies, a sentence; until it is confirmed it leads no table
+    confirmed: bool = False  #: by the keeper, as no copy
+    again: bool = False  #: it was withdrawn, and is the first of its moment
+    taken: str = ""  #: where ``added`` is that of an older board, when this one took it in
+    derived: bool = False  #: near to a run of one of its ``origins``
 
     @cached_property
     def key(self) -> Key:
         return self.file, self.record
+
+    @property
+    def remark(self) -> str:
+        """Its marks as a text."""
+        return "; ".join(self.marks)
+
+    def marked(self, mark: str) -> Run:
+        """The run with one more mark, before its others; itself for ""."""
+        return replace(self, marks=(mark, *self.marks)) if mark else self
 
     @property
     def order(self) -> tuple[str, bool, bool, Key]:
@@ -165,14 +177,20 @@ class Run(Judged):
         """The ninja after each tick: float64 (ticks, 2), px."""
         return run_level(self.entry.named.level, self.inputs).positions
 
-    def decided(self, row: Mapping[str, Any]) -> Run | Rejected:
-        """The run after the keeper's decision in a row of the ledger."""
-        said = f"by the keeper on {row['added'][:10]}" + f": {row['reason']}" * bool(row["reason"])
-        if row["what"] == REJECTED:
-            way = self.entry.title, self.way, self.added
-            return Rejected(*self.key, "moderated", f"rejected {said}", self.player, *way)
-        remark = "; ".join(filter(None, (self.remark, f"moved to {row['what']} {said}")))
-        return replace(self, kind="", assisted=row["what"] == ASSISTED, remark=remark)
+    def rejected(self, kind: str, why: str, first: Key | None = None) -> Rejected:
+        """Returns it as a run that does not count."""
+        return Rejected(*self.key, kind, why, self.player, self.entry.title, self.way, self.added, first)
+
+    def decided(self, decision: Decision | None) -> Run | Rejected:
+        """Returns the run after a decision on it, if there is one."""
+        if decision is None:
+            return self
+        reason = f": {decision.reason}" if decision.reason else ""
+        source = f"by the keeper on {decision.added[:10]}{reason}"
+        if decision.what == REJECTED:
+            return self.rejected("moderated", f"rejected {source}")
+        marks = *self.marks, f"moved to {decision.what} {source}"
+        return replace(self, kind="", assisted=decision.what == ASSISTED, marks=marks)
 
     @property
     def replay(self) -> Replay:
@@ -187,33 +205,25 @@ class Run(Judged):
 
 @dataclass(frozen=True)
 class Rejected:
-    """A run, or a file, that does not count. ``kind``: one of KINDS.
-
-    ``way``, ``added``: as a run has them, of one that was simulated to its end; ``first``: the run that it copies.
-    """
+    """A run, or a file, that does not count."""
 
     file: str
     record: int
-    kind: str
+    kind: str  #: one of KINDS
     why: str
     player: str = ""
-    level: str = ""
-    way: str = ""
-    added: str = ""
-    first: Key | None = None
+    level: str = ""  #: its title
+    way: str = ""  #: as of Run, of one that was simulated to its end
+    added: str = ""  #: likewise
+    first: Key | None = None  #: the run that it copies
 
 
 @dataclass(frozen=True)
 class ValidatedRuns:
-    """All runs of a folder: ``runs`` in the order in which they were added, ``rejected`` by file.
+    """All runs of a folder."""
 
-    ``again``: levels of episodes that repeat an earlier run by the same player, of kind OWN: neither of the two;
-    ``episodes``: by key the runs of whole episodes, each a run for each of its levels; ``alike``: by player the earlier
-    one with a similar name.
-    """
-
-    runs: tuple[Run, ...]
-    rejected: tuple[Rejected, ...]
-    again: tuple[Rejected, ...] = ()
-    alike: Mapping[str, str] = field(default_factory=dict)
-    episodes: Mapping[str, list[list[Run]]] = field(default_factory=dict)
+    runs: tuple[Run, ...]  #: those that count, in the order in which they were added
+    rejected: tuple[Rejected, ...]  #: by file
+    again: tuple[Rejected, ...] = ()  #: levels of episodes that repeat an earlier run by the same player, of kind OWN
+    alike: Mapping[str, str] = field(default_factory=dict)  #: by player the earlier one with a similar name
+    episodes: Mapping[str, list[list[Run]]] = field(default_factory=dict)  #: by key, a run for each of the levels

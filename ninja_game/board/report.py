@@ -10,13 +10,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from ninja_game.errors import ArgumentError, FormatError
-from ninja_game.files.reading import read_utf8
-from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.formats.run_time import seconds_text
-from ninja_game.web.board.players import folded
-from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import (
+from ninja_game.board.players import folded
+from ninja_game.board.ranking import Ranking
+from ninja_game.board.runs import (
     DECISIONS,
     KINDS,
     NO_LEDGER,
@@ -24,12 +20,17 @@ from ninja_game.web.board.runs import (
     PLAYED,
     REJECTED,
     Dates,
+    Decision,
     Key,
     Ledger,
     Rows,
     Run,
     ValidatedRuns,
 )
+from ninja_game.errors import ArgumentError, FormatError
+from ninja_game.files.reading import read_utf8
+from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.formats.run_time import seconds_text
 
 VERSION = 2
 DATE = "%Y-%m-%dT%H:%M:%SZ"
@@ -76,10 +77,10 @@ def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
         if old["way"] and key not in counted and row and row["kind"] not in ("copy", OWN):
             rejected[key] = row | {"record": key[1], "way": old["way"], "added": old["added"]}
     data["rejected"] = [rejected[key] for key in sorted(rejected)]
-    here = {(run.level, run.way) for run in judged.runs}
-    gone = sorted((way, row) for way, row in before.owners.items() if way not in here)
-    data["withdrawn"] = [{key: row[key] for key in (*_FIELDS["withdrawn"], *_KEPT) if key in row} for _, row in gone]
-    data["decisions"] = [row for _, row in sorted(before.decisions.items())]
+    ways, names = {(run.level, run.way) for run in judged.runs}, (*_FIELDS["withdrawn"], *_KEPT)
+    withdrawn = sorted((way, row) for way, row in before.owners.items() if way not in ways)
+    data["withdrawn"] = [{name: row[name] for name in names if name in row} for _, row in withdrawn]
+    data["decisions"] = [decision._asdict() for _, decision in sorted(before.decisions.items())]
     parts = (f'"{key}": [\n' + ",\n".join("  " + json.dumps(row) for row in data[key]) + "\n]" for key in _FIELDS)
     return f'{{"version": {VERSION}, {", ".join(parts)}}}\n'
 
@@ -95,7 +96,8 @@ def read_board(path: Path, now: datetime) -> Ledger:
         for part in ("withdrawn", "decisions"):  # absent in early ledgers
             data.setdefault(part, [])
         runs, rejected, withdrawn, decided = (_rows(path, key, data[key], now) for key in _FIELDS)
-        return Ledger(runs, rejected, withdrawn, {_decided(row): row for row in decided.values()})
+        decisions = [Decision(*(row[key] for key in _FIELDS["decisions"])) for row in decided.values()]
+        return Ledger(runs, rejected, withdrawn, {decision.key: decision for decision in decisions})
     except (ValueError, TypeError, KeyError, RecursionError):
         raise FormatError("not a board", str(path), expected="a file that `ninja-game board --json` wrote") from None
 
@@ -118,16 +120,12 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
         if row.get("what", REJECTED) not in DECISIONS:
             expected = ", ".join(DECISIONS)
             raise FormatError(f"{place}: 'what' is no decision", str(path), found=plain(row["what"]), expected=expected)
-        key = row[first], _decided(row) if part == "decisions" else row[second]
+        # A decision is about a level, a way and a player.
+        key = row[first], (row["way"], folded(row["player"])) if part == "decisions" else row[second]
         if key in rows_by_key:
             raise FormatError(f"{place}: given twice", str(path), found=plain(key[0]))
         rows_by_key[key] = row
     return rows_by_key
-
-
-def _decided(row: Mapping[str, Any]) -> tuple[str, ...]:
-    """The run that a decision is about: level, way and player."""
-    return row["level"], row["way"], folded(row["player"])
 
 
 @lru_cache(4096)
@@ -163,9 +161,9 @@ def moderate(
             row["confirmed"] = True
     for name, what in decisions:
         for row in _rows_of(name, _decidable(ledger, runs, files, what), what, "in that file"):
-            decided = {"what": what, "reason": reason, "added": now.strftime(DATE)}
-            of = {key: row[key] for key in _FIELDS["decisions"] if key not in decided}
-            ledger.decisions[_decided(row)] = of | decided
+            run = row["level"], row["way"], row["file"], row["player"]
+            decision = Decision(*run, what, reason, now.strftime(DATE))
+            ledger.decisions[decision.key] = decision
 
 
 def _decidable(ledger: Ledger, runs: Sequence[Run], files: Collection[str], what: str) -> list[dict[str, Any]]:
@@ -173,8 +171,9 @@ def _decidable(ledger: Ledger, runs: Sequence[Run], files: Collection[str], what
 
     For a deleted file its rows of the ledger. No run is played that no keyboard can do.
     """
-    here = [_run_data(run) for run in runs if not run.kind or what != PLAYED]
-    return here + [row for row in (*ledger.runs.values(), *ledger.decisions.values()) if row["file"] not in files]
+    present = [_run_data(run) for run in runs if not run.kind or what != PLAYED]
+    earlier = *ledger.runs.values(), *(decision._asdict() for decision in ledger.decisions.values())
+    return present + [row for row in earlier if row["file"] not in files]
 
 
 def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -> list[dict[str, Any]]:
@@ -247,9 +246,9 @@ def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
 def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
     """A line for each run of a ledger whose file is gone, with the present leader of its level."""
     judged = ranking.judged
-    here = {run.key for run in judged.runs} | {(item.file, item.record) for item in judged.rejected + judged.again}
+    present = {run.key for run in judged.runs} | {(item.file, item.record) for item in judged.rejected + judged.again}
     for key, row in sorted(before.runs.items()):
-        if key not in here:
+        if key not in present:
             leaders = [
                 f"{ranking.leaderboard_name(board)} {plain(ranked.run.player)}, {board[1].text(ranked.values[0])}"
                 for board, table in ranking.tables.get(row["level"], {}).items()
@@ -265,7 +264,7 @@ def _achieved(ranking: Ranking, run: Run) -> str:
     text = f"{plain(run.player)} passes {plain(run.entry.title)} in {seconds_text(run.tick)} s with {run.gold} gold"
     for (ladder, category), table, number in ranking.places.get(run.key, ()):
         if place := table[number].place:
-            text += f"; {'assisted, ' * (ladder != PLAYED)}{category.name}: place {place} of {len(table)}"
+            text += f"; {'' if ladder == PLAYED else 'assisted, '}{category.name}: place {place} of {len(table)}"
     if run.medal:
         text += f"; {run.medal} medal"
     return f"{text}; note: {plain(run.remark)}" if run.remark else text
@@ -290,9 +289,8 @@ def unnamed(judged: ValidatedRuns) -> str:
 
 def counts(judged: ValidatedRuns) -> str:
     players, levels = {run.player for run in judged.runs}, {run.level for run in judged.runs}
-    groups = ("run", judged.runs), ("player", players), ("level", levels)
-    runs, by, on = (counted(len(group), name, f"{name}s") for name, group in groups)
-    return f"{runs} by {by} on {on}"
+    runs = counted(len(judged.runs), "run")
+    return f"{runs} by {counted(len(players), 'player')} on {counted(len(levels), 'level')}"
 
 
 def summary(judged: ValidatedRuns) -> str:
@@ -300,6 +298,6 @@ def summary(judged: ValidatedRuns) -> str:
     rejected = ", ".join(f"{kinds[kind]} {KINDS[kind][0]}" for kind in sorted(kinds))
     near = [run.file for run in judged.runs if run.near]
     files = [f"--confirm {plain(file)}" for file in dict.fromkeys(near)]
-    some = " ".join(files[:MAX_NAMED]) + " ..." * (len(files) > MAX_NAMED)
-    waits = f"; {len(near):,} wait{'s' * (len(near) == 1)} for confirmation: {some}" if near else ""
+    some = " ".join([*files[:MAX_NAMED], *(["..."] if len(files) > MAX_NAMED else [])])
+    waits = f"; {counted(len(near), 'waits', 'wait')} for confirmation: {some}" if near else ""
     return f"{counts(judged)}; rejected: {rejected or 'none'}{waits}"

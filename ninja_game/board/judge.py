@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict, deque
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -12,41 +12,54 @@ from itertools import compress, count, pairwise, starmap
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
+from ninja_game.board.collect import RunFolder, Sent, SentFile
+from ninja_game.board.copies import without_copies
+from ninja_game.board.memo import Memo, program, values_digest
+from ninja_game.board.players import UNNAMED, Players, folded
+from ninja_game.board.runs import (
+    KINDS,
+    NO_LEDGER,
+    OWN,
+    PLAYED,
+    Dates,
+    Judged,
+    Ledger,
+    Rejected,
+    Rows,
+    Run,
+    ValidatedRuns,
+)
 from ninja_game.budget import RUN_BUDGET, tick_cost
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.lines import MAX_NAME
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.replay.provenance import parse_provenance
-from ninja_game.formats.replay.text import INPUTS_AFTER
+from ninja_game.formats.replay.text import INPUTS_AFTER, shared_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.levels.findings import RunProblem, run_problem
+from ninja_game.levels.published import PublishedLevels
 from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.verify import NOT_RUN, Verdict, not_strict
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, MOVES, fit_demo, with_press_bits
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.web.board.collect import RunFolder, Sent, SentFile
-from ninja_game.web.board.copies import without_copies
-from ninja_game.web.board.players import UNNAMED, Players, folded
-from ninja_game.web.board.runs import KINDS, NO_LEDGER, OWN, PLAYED, Dates, Judged, Ledger, Rejected, Run, ValidatedRuns
-from ninja_game.web.pages.gallery import PublishedLevels, shared_text
-from ninja_game.web.pages.memo import Memo, program, values_digest
 
 _LINE = re.compile(r"^(?=[0-9])")
 
+ADVICE = "a key is pressed in the tick in which it goes down, and in no other"
 
 _TYPES = tuple(get_type_hints(Judged).values())
 
 
 class JudgedFile(NamedTuple):
-    """A file of the folder. ``sent``: the runs to simulate now; ``rows``: its results."""
+    """A file of the folder."""
 
     name: str
     digest: str
     stamp: list[int]
-    sent: list[Sent]
-    rows: list[Judged]
+    sent: list[Sent]  #: the runs to simulate now
+    rows: list[Judged]  #: its results
 
 
 def judge(
@@ -66,51 +79,65 @@ def judge(
     of their files. ``memo``: what was found out before, of the same files, levels and rules; it is not simulated again.
     ``decide``: writes decisions on these runs, of these files, into the ledger.
     """
-    memo = memo or Memo()
-    sent = RunFolder(folder, {digest: entry.named.level for digest, entry in shown.entries.items()})
-    runs: list[Run] = []
-    rejected: list[Rejected] = []
-    players, owners = Players(), ledger.owners
-    for file in _Judging(sent, shown, memo).files(jobs):
-        for row in file.rows:
-            entry = shown.entries.get(row.level)
-            if entry is None or (row.kind and not row.way):
-                title = entry.title if entry else ""
-                rejected.append(Rejected(file.name, row.record, row.kind, row.why, row.author, title))
-                continue
-            key = file.name, row.record
-            added, later = (of(key, row.way) if of else "" for of in (dates, taken))
-            runs.append(replace(_run(file, row, entry, sent, added), taken=later))
+    memo, owners, players = memo or Memo(), ledger.owners, Players()
+    judging = _Judging(RunFolder(folder, {key: entry.named.level for key, entry in shown.entries.items()}), shown, memo)
+    counts, rejected = _parted(judging.run(file, row) for file in judging.files(jobs) for row in file.rows)
+    runs = [_dated(run, dates, taken) for run in counts]
     if decide:
         decide(runs, {run.file for run in runs} | {item.file for item in rejected})
-    judged, runs = runs, []
-    for run in judged:
-        if not run.kind or ledger.decision(run).get("what", PLAYED) != PLAYED:
-            runs.append(replace(run, remark=run.remark.partition(";")[0]) if run.kind else run)
-        else:
-            about = run.remark, run.player, run.entry.title, run.way, run.added
-            rejected.append(Rejected(*run.key, run.kind, *about))
+    runs, impossible = _parted(_possible(run, ledger) for run in runs)
+    runs = sorted(_first_again(runs, owners), key=lambda run: run.order)
+    credited, moderated = _parted(run.decided(ledger.decision(run)) for run in _of_players(runs, players))
+    unique, copies = without_copies(credited, memo, owners)
+    counted = tuple(_with_row(run, ledger, owners.get((run.level, run.way), {})) for run in unique)
+    named = (_named(item, players) for item in rejected + impossible)
+    others = sorted([*named, *moderated, *copies], key=lambda item: (item.file, item.record))
+    refused, repeated = (tuple(item for item in others if (item.kind == OWN) is own) for own in (False, True))
+    return ValidatedRuns(counted, refused, repeated, players.alike, _episodes(credited, counted, shown))
+
+
+def _parted(items: Iterable[Run | Rejected]) -> tuple[list[Run], list[Rejected]]:
+    """Returns the runs, and the others."""
+    items = [*items]
+    return [run for run in items if isinstance(run, Run)], [item for item in items if isinstance(item, Rejected)]
+
+
+def _dated(run: Run, dates: Dates | None, taken: Dates | None) -> Run:
+    """Returns the run with the dates that the ledger has of it."""
+    added, later = (of_run(run.key, run.way) if of_run else "" for of_run in (dates, taken))
+    return replace(run, added=added, taken=later)
+
+
+def _possible(run: Run, ledger: Ledger) -> Run | Rejected:
+    """Returns the run; rejected if no keyboard can do it, unless the keeper has put it on the assisted ladder."""
+    decision = ledger.decision(run)
+    return run if not run.kind or (decision and decision.what != PLAYED) else run.rejected(run.kind, run.why)
+
+
+def _first_again(runs: Sequence[Run], owners: Rows) -> Iterator[Run]:
+    """Returns the runs; one that was withdrawn, or is in another file now, keeps its date if its player sent it."""
     known = {(run.level, run.way, run.added) for run in runs}
-    for number, run in enumerate(runs):
-        # A run that was withdrawn, or is in another file now, still belongs to its player.
+    for run in runs:
         owner = owners.get(way := (run.level, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
-            runs[number] = replace(run, added=owner["added"], taken=owner.get("taken", ""), again=True)
-    credited, moderated = list[Run](), list[Rejected]()
-    for run in _of_players(sorted(runs, key=lambda run: run.order), players):
-        decision = ledger.decision(run)
-        decided = run.decided(decision) if decision else run
-        credited += [decided] if isinstance(decided, Run) else []
-        moderated += [] if isinstance(decided, Run) else [decided]
-    counted, copies = without_copies(credited, memo, owners)
-    counted = [_with_row(run, owners.get((run.level, run.way), {}), ledger.runs.get(run.key, {})) for run in counted]
-    named = [run if run.kind == "unreadable" else replace(run, player=players.meet(run.player)[0]) for run in rejected]
-    others = sorted([*named, *moderated, *copies], key=lambda run: (run.file, run.record))
-    refused, repeated = (tuple(run for run in others if (run.kind == OWN) is own) for own in (False, True))
-    return ValidatedRuns(tuple(counted), refused, repeated, players.alike, _episodes(credited, counted, shown))
+            yield replace(run, added=owner["added"], taken=owner.get("taken", ""), again=True)
+        else:
+            yield run
 
 
-def _episodes(runs: list[Run], counted: list[Run], shown: PublishedLevels) -> dict[str, list[list[Run]]]:
+def _of_players(runs: Iterable[Run], players: Players) -> Iterator[Run]:
+    """Returns the runs, each assigned to its author's player."""
+    for run in runs:
+        player, mark = players.meet(run.player)
+        yield replace(run.marked(mark), player=player)
+
+
+def _named(item: Rejected, players: Players) -> Rejected:
+    """Returns a run that does not count, assigned to its author's player if it has one."""
+    return item if item.kind == "unreadable" else replace(item, player=players.meet(item.player)[0])
+
+
+def _episodes(runs: list[Run], counted: Sequence[Run], shown: PublishedLevels) -> dict[str, list[list[Run]]]:
     """By key the runs of whole episodes: every level's run counts, or repeats another run by the same player."""
     lengths = {episode.key: len(episode.levels) for episode in shown.levels.episodes.values()}
     ways = {(run.player, run.level, run.way): run for run in counted}
@@ -160,10 +187,8 @@ class _Judging:
             if len(results) == len(file.sent):
                 file.rows.extend(starmap(partial(self._row, file), zip(file.sent, results, strict=True)))
                 if not any(isinstance(judged, Lost) for judged in results):
-                    self._memo.note(
-                        file.name,
-                        [self._context, file.stamp, file.digest, [[*vars(row).values()] for row in file.rows]],
-                    )
+                    rows = [[*vars(row).values()] for row in file.rows]
+                    self._memo.note(file.name, [self._context, file.stamp, file.digest, rows])
                 results.clear()
                 yield self._waiting.popleft()
         yield from self._waiting
@@ -196,10 +221,21 @@ class _Judging:
         if entry and row.way:
             try:
                 # Its inputs were read from a text, and can be written into one.
-                shared_text(replace(_run(file, row, entry, self._folder).replay, inputs=b""), entry.named.level)
+                shared_text(replace(self._run(file, row, entry).replay, inputs=b""), entry.named.level)
             except (NinjaGameError, ValueError) as error:
                 return Judged(row.record, "unreadable", str(error))
         return row
+
+    def run(self, file: JudgedFile, row: Judged) -> Run | Rejected:
+        """The run of a row, without a date; rejected if it does not count, whatever the keeper decides."""
+        entry = self._shown.entries.get(row.level)
+        if entry and (row.way or not row.kind):
+            return self._run(file, row, entry)
+        return Rejected(file.name, row.record, row.kind, row.why, row.author, entry.title if entry else "")
+
+    def _run(self, file: JudgedFile, row: Judged, entry: Entry) -> Run:
+        values = vars(row) | {"file": file.name, "digest": file.digest, "player": row.author, "folder": self._folder}
+        return Run(**values, marks=(row.mark,) if row.mark else (), entry=entry, added="")
 
 
 def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
@@ -215,52 +251,46 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
     return []
 
 
-def _run(file: JudgedFile, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
-    values = vars(row) | {"file": file.name, "digest": file.digest, "player": row.author, "remark": row.why}
-    return Run(**values, entry=entry, added=added, folder=folder)
+def _with_row(run: Run, ledger: Ledger, owner: Mapping[str, Any]) -> Run:
+    """Returns a run with what only the ledger knows: it is confirmed, or near to one that may be gone.
 
-
-def _with_row(run: Run, owner: Mapping[str, Any], own: Mapping[str, Any]) -> Run:
-    """A run with what only its row of the ledger says: it is confirmed, or near to one that may be gone.
-
-    ``owner``: the row of who did it first; ``own``: that of its file, which counts if several did it together.
+    ``owner``: the row of who did it first; that of its own file counts if several did it together.
     """
+    own = ledger.runs.get(run.key, {})
     row = own if own.get("way") == run.way else owner
     if row.get("confirmed") is True:
         return replace(run, near="", confirmed=True)
     if not run.near and not run.derived and (near := row.get("near")):
-        return replace(run, near=near, remark="; ".join(filter(None, (f"{near} (found earlier)", run.remark))))
+        return replace(run.marked(f"{near} (found earlier)"), near=near)
     return run
 
 
 def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
-    nameless = not isinstance(result, Unreadable) and folded(result.author) == UNNAMED
-    if not isinstance(result, Unreadable) and (nameless or (not sent.replay and not result.made)):
-        # A record of N names the level's author, not the player; a replay of ours also says how it was made.
-        place = result.file + f", record {result.record}" * (result.record > 0 and not result.episode)
-        result = replace(result, author=f"unknown ({place[-MAX_NAME // 2 :]})")
     if isinstance(result, Unreadable):
-        why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # a board has no such option
-        return Judged(sent.chunk.first, "unreadable", why)
+        return Judged(sent.chunk.first, "unreadable", _without_name(result.message, sent.chunk.file))
+    if folded(result.author) == UNNAMED or (not sent.replay and not result.made):
+        # A record of N names the level's author, not the player; a replay of ours also says how it was made.
+        place = result.file + (f", record {result.record}" if result.record > 0 and not result.episode else "")
+        result = replace(result, author=f"unknown ({place[-MAX_NAME // 2 :]})")
     no_keyboard = not_strict(result, "possible_by_keyboard")
-    marks = [_worded(problem, result, sent) for problem in result.problems if problem == no_keyboard]
+    mark = _impossible(result, sent) if no_keyboard in result.problems else ""
     problems = [_worded(problem, result, sent) for problem in result.problems if problem != no_keyboard]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
         other = run_problem("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
         problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
     if problems:
-        why = "; ".join(problems + marks)
+        why = "; ".join([*problems, mark, ADVICE] if mark else problems)
         kind = "practice" if result.practice else "refused"
         return Judged(result.record, kind, why, result.author, result.level_digest)
     inputs = folder.known[result.file, result.record] = sent.inputs(result.ticks)
     pressed = [new & ~old & KEYS_DOWN for old, new in pairwise(b"\0" + inputs)]
     jumps = sum(bool(keys & JUMP_HELD) for keys in pressed)
     # What a tool made needs no keyboard: it is marked. Whether another one was made so is the keeper's decision.
-    kind, why = ("refused", marks[0]) if marks and not result.assisted else ("", "".join(marks).partition(";")[0])
+    kind, why = ("refused", f"{mark}; {ADVICE}") if mark and not result.assisted else ("", "")
     return Judged(
         result.record, kind, why, result.author, result.level_digest, result.end_tick, result.gold,
         result.score_ticks or 0, result.xy_sha256, sum(map(int.bit_count, pressed)), jumps,
-        result.made, result.assisted, result.co_authors, result.episode,
+        result.made, result.assisted, result.co_authors, result.episode, mark,
     )  # fmt: skip
 
 
@@ -271,34 +301,25 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
     if problem == not_strict(result, "complete"):
         replay = sent.replay
         demo = fit_demo(replay.inputs, replay.demo_length or 0) if replay else parse_demo(sent.chunk.records[0].demo)
-        held = f"it claims {demo.end} frames and holds {demo.end - demo.missing}"
-        return f"the demo is cut off: {held}; `ninja-game convert FILE OUT --to replay` makes a run that claims no more"
-    if problem == not_strict(result, "possible_by_keyboard"):
-        inputs = sent.inputs(result.ticks)
-        odd = (keys != ours for keys, ours in zip(inputs, with_press_bits(inputs), strict=True))
-        tick = next(compress(count(), odd))
-        down = ", ".join(name for name, key in MOVES if inputs[tick] & key) or "no key"
-        pressed = (
-            "is pressed once more while it is down" if inputs[tick] & JUMP_HELD else "is pressed without going down"
+        frames = f"it claims {demo.end} frames and holds {demo.end - demo.missing}"
+        return (
+            f"the demo is cut off: {frames}; `ninja-game convert FILE OUT --to replay` makes a run that claims no more"
         )
-        what = pressed if inputs[tick] & JUMP_PRESSED else "is down and was never pressed"
-        how = "a key is pressed in the tick in which it goes down, and in no other"
-        return f"no keyboard can do that: in tick {tick} ({down} down) the jump key {what}; {how}"
     if problem.code == "other-level" and sent.replay and sent.replay.level_name:
         name, digest = sent.replay.level_name, result.level_digest[:16]
         return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"
     return str(problem)
 
 
-def _of_players(runs: list[Run], players: Players) -> list[Run]:
-    """The runs, each assigned to its author's player."""
-    credited = []
-    for run in runs:
-        player, remark = players.meet(run.player)
-        remark = "; ".join(filter(None, (remark, run.remark)))
-        same = player == run.player and remark == run.remark
-        credited.append(run if same else replace(run, player=player, remark=remark))
-    return credited
+def _impossible(result: Verdict, sent: Sent) -> str:
+    """What no keyboard can do in a run, in words."""
+    inputs = sent.inputs(result.ticks)
+    odd = (keys != possible for keys, possible in zip(inputs, with_press_bits(inputs), strict=True))
+    tick = next(compress(count(), odd))
+    down = ", ".join(name for name, key in MOVES if inputs[tick] & key) or "no key"
+    pressed = "is pressed once more while it is down" if inputs[tick] & JUMP_HELD else "is pressed without going down"
+    what = pressed if inputs[tick] & JUMP_PRESSED else "is down and was never pressed"
+    return f"no keyboard can do that: in tick {tick} ({down} down) the jump key {what}"
 
 
 def _without_name(message: str, name: str) -> str:

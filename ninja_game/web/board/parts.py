@@ -1,0 +1,181 @@
+"""What all pages of a board share: links, tables of any length, names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from ninja_game.board.categories import Category
+from ninja_game.board.memo import Memo, values_digest
+from ninja_game.board.ranking import Ranked, Ranking
+from ninja_game.board.runs import Run
+from ninja_game.files.shown_text import shown_text
+from ninja_game.formats.pack.pars import MEDALS
+from ninja_game.levels.episodes import Entry
+from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, table, tag
+from ninja_game.web.pages.gallery import (
+    BOARD,
+    PICTURE_HEIGHT,
+    PICTURE_WIDTH,
+    UP,
+    medal_mark,
+    page_name,
+    picture_name,
+    watch_address,
+)
+
+PER_PAGE = 100  # rows of a table on one page: a page has at most 100 KB
+
+MAX_NAME = 40  # characters of a name in a table
+
+RUN_HEADS = ("Watch", "Made", "Gold", "Date", "Medal", "File")
+LESSER = {"No.", "Behind", "Better by", "Score", "With", "On", *RUN_HEADS[2:], *map(str.capitalize, MEDALS)}
+"""Heads of columns that a narrow page leaves out."""
+EPISODES = "episodes.html", "Episodes"
+LINKS = [
+    ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), EPISODES,
+    ("rejected.html", "Rejected"),
+]  # fmt: skip
+NEAR = "A run that is nearly somebody else's has no place, until the keeper of the board confirms it. "
+HOW_TO_CONFIRM = "The keeper confirms one with: ninja-game board FOLDER --json board.json --confirm FILE"
+
+
+class Parts:
+    """What all pages of a board in ``out/board/`` share: their folder, links, tables, and the names of its runs.
+
+    ``up``: the path from a page to that folder, "" or UP; ``address``: of ``out``, if it is known.
+    """
+
+    def __init__(self, out: Path, ranking: Ranking, memo: Memo | None = None, *, address: str = "") -> None:
+        self.pages, self.ranking = Pages(out, BOARD, memo), ranking
+        self.game = f"../{GAME}"
+        self.site = address and f"{address}{BOARD}/"
+        assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
+        others = [link for link in LINKS[2:] if link != EPISODES or ranking.shown.levels.episodes]
+        self.links = [(self.game, "Play"), *LINKS[:2], *assisted, *others]
+        self.deeper = [(UP + address, name) for address, name in self.links]
+        self.around = values_digest([self.links, self.site])  #: of the text on every page
+        self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
+
+    def write_table(
+        self,
+        name: str,
+        title: str,
+        caption: str,
+        heads: Sequence[str],
+        rows: Sequence[Any],
+        *before: Content,
+        cells: Callable[[Any], tuple[Content, ...]] = tuple,
+    ) -> None:
+        """A table on as many pages as it needs. ``rows``: plain values; ``cells`` makes their cells.
+
+        Without heads each row is a card.
+        """
+        up, links = (UP, self.deeper) if "/" in name else ("", self.links)
+        current = f"{name}.html"
+        parts = [rows[first : first + PER_PAGE] for first in range(0, len(rows), PER_PAGE)] or [()]
+        names = [f"{name}{f'-{number}' if number > 1 else ''}.html" for number in range(1, len(parts) + 1)]
+        turns = [
+            tag("a", f"Page {number}", href=up + file, aria_label=f"{title}, page {number} of {len(names)}")
+            for number, file in enumerate(names, 1)
+        ]
+        for number, (file, part) in enumerate(zip(names, parts, strict=True)):
+            lead = () if number else before
+            others = joined(*(joined(turn, " ") for turn in turns if turn is not turns[number]))
+            more = tag("p", others, class_="pages") if others else None
+
+            def content(part: Sequence[Any] = part, lead: Sequence[Content] = lead, more: Content = more) -> str:
+                rows = map(cells, part)
+                shown = table(caption, heads, rows, LESSER) if heads else cards(caption, (row[0] for row in rows))
+                return page(title, *lead, shown, more, up=up, links=links, current=current)
+
+            self.pages.make(file, [title, caption, heads, part, lead, more, links], content)
+
+    def watch_link(self, runs: Sequence[Run], up: str, text: str = "Watch", colours: Sequence[int] = ()) -> Markup:
+        """A link that watches a run, the others as ghosts; ``colours``: of all, by number, if not in their order."""
+        marks = [f"-{number}" for number in colours] or [""] * len(runs)
+        stems = (self.stems[run.key] + mark for run, mark in zip(runs, marks, strict=True))
+        address = watch_address(up + self.game, *stems)
+        label = f"{text}: {runs[0].player} on {runs[0].entry.title}"
+        return tag("a", text, href=address, aria_label=label, class_="watch" if text == "Watch" else None)
+
+    def run_link(self, run: Run, up: str, text: str = "") -> Markup:
+        """A link to the page of a run with the text ``text``, such as its time; by default to its replay."""
+        address, label = f"{up}../{REPLAYS}/{self.stems[run.key]}", f"{run.player} on {run.entry.title}"
+        if text:
+            return tag("a", text, href=f"{address}.html", aria_label=f"{text}: {label}")
+        return tag("a", "File", href=f"{address}.txt", download=True, aria_label=f"File: {label}")
+
+    def behind(self, category: Category, row: Ranked, first: Ranked, word: str = "") -> str:
+        """By how much a run is behind the first, or the criterion that decides. ``word``: behind a number."""
+        if not row.place or row is first:
+            return ""
+        if row.values == first.values:
+            return "equal, later in" if row.run.added > first.run.added else "equal"
+        return category.difference(row.behind) + word if row.behind else category.decided(row.values, first.values)
+
+    def place(self, category: Category, row: Ranked, first: Ranked) -> str:
+        """Returns the place of a run, and by how much it is behind the first; "" for a near copy."""
+        behind = self.behind(category, row, first, " behind")
+        return f"{row.place}, {behind}" if behind else str(row.place or "")
+
+    def shown_name(self, player: str) -> str:
+        """A player's name in a table, with the earlier player whose name looks like it."""
+        first = self.ranking.judged.alike.get(player)
+        return shown_text(player, MAX_NAME) + (f" (not {shown_text(first, MAX_NAME)})" if first else "")
+
+    def player_link(self, player: str, up: str = "") -> Content:
+        return tag("a", self.shown_name(player), href=f"{up}{player_page(player)}.html") if player else ""
+
+    def run_cells(self, run: Run, *results: Content, timed: bool = True, mark: Content = None) -> tuple[Content, ...]:
+        """Cells of a run, for heads that end in RUN_HEADS.
+
+        ``timed``: with its medal, which is for the time; ``mark``: before the player's name.
+        """
+        gold, medal = f"{run.gold} of {run.entry.all_gold}", medal_mark(run.medal if timed else "")
+        about = made_text(run), gold, run.day, medal, self.run_link(run, UP)
+        others = f" with {shown_text(run.co_authors, MAX_NAME)}" if run.co_authors else None
+        summary = tag("summary", "Near copy" if run.near else "Remark")
+        note = tag("details", summary, run.remark, class_="note") if run.remark else None
+        player, linked = self.player_link(run.player, UP), self.run_link(run, UP, str(results[0]))
+        return joined(mark, player, others, note), linked, *results[1:], self.watch_link([run], UP), *about
+
+    def shown_value(self, category: Category, run: Run) -> str:
+        """The number that ranks a run, as text; "" if it is not in the category."""
+        values = self.ranking.values(category, run)
+        return category.text(values[0]) if values else ""
+
+
+def player_page(player: str) -> str:
+    """The file of a player's page, without its ending: an untrusted name never becomes a path."""
+    return f"players/{sha256(player.encode('utf-8', 'replace')).hexdigest()[:16]}"
+
+
+def level_link(entry: Entry, up: str = "") -> Markup:
+    return tag("a", shown_text(entry.title, MAX_NAME), href=up + page_name(entry.digest))
+
+
+def card(entry: Entry, *facts: Content) -> Markup:
+    """A level with its picture, both links, and lines about it. For a page in the board's own folder."""
+    size = {"width": PICTURE_WIDTH, "height": PICTURE_HEIGHT}
+    image = tag("img", src=picture_name(entry.digest), alt="", **size, loading="lazy")
+    number = tag("span", f"Level {entry.number}", class_="number") if entry.number else None
+    lines = (tag("p", fact, class_="facts") for fact in facts if fact)
+    return tag("li", image, tag("h3", number, level_link(entry)), *lines, class_="card")
+
+
+def cards(caption: str, contents: Iterable[Content]) -> Markup:
+    return joined(tag("p", caption, class_="faint"), tag("ul", *contents, class_="cards"))
+
+
+def made_text(run: Run) -> Markup:
+    return tag("span", run.made or "unknown", class_="made")
+
+
+def _stem(run: Run) -> str:
+    """The stem of the file in ``replays`` with a run, derived from the file's content."""
+    author = run.entry.named.author
+    facts = run.digest, str(run.record), run.player, run.entry.title, author, run.made, run.co_authors, run.level
+    return sha256("\0".join(facts).encode("utf-8", "replace")).hexdigest()[:16]
