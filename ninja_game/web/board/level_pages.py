@@ -18,6 +18,7 @@ from ninja_game.board.categories import FASTEST, HIGHEST, Category
 from ninja_game.board.ranking import Leaderboard, Ranked
 from ninja_game.board.runs import PLAYED, Key, Run
 from ninja_game.files.shown_text import counted
+from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import shared_text
 from ninja_game.formats.run_time import seconds_text
