@@ -10,8 +10,7 @@ import click
 from ninja_game.cli import options
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
-    from ninja_game.play.screen import Screen
+    from ninja_game.play.app import App, Screen
 
 
 @click.command()

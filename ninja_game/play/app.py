@@ -18,7 +18,7 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.boss import BossScreen
-from ninja_game.play.screen import Aside, Screen, ScreenStack
+from ninja_game.play.screen import Aside, BaseScreen, ScreenStack
 from ninja_game.play.window import Window, Wipe, save_picture
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
@@ -29,6 +29,13 @@ from ninja_game.ui.audio.player import AudioOutput, AudioPlayer
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.bindings import Bindings, InputEvent
 from ninja_game.ui.theme import PALETTES, Palette, Theme, palette_named, wrapped
+
+
+class Screen(BaseScreen):
+    """A screen whose app is known by its type."""
+
+    app: App
+
 
 CALM = Mood()
 """The mood of all menus, whatever level was played before."""
@@ -84,7 +91,7 @@ class App:
         self.mood = Mood()
         self.notice = ""
         self._notice_ms = 0
-        self._notice_on: Screen | None = None
+        self._notice_on: BaseScreen | None = None
         self.window = window or Window(size, self.settings)
         self.wipe = Wipe()
         # In a page, several whole pictures in a row are too slow.
@@ -159,18 +166,18 @@ class App:
     # --- the screens ---
 
     @property
-    def top(self) -> Screen:
+    def top(self) -> BaseScreen:
         return self.stack.top
 
-    def push(self, screen: Screen) -> None:
+    def push(self, screen: BaseScreen) -> None:
         self.wipe_from(screen)
         self.stack.push(screen)
 
-    def replace(self, screen: Screen) -> None:
+    def replace(self, screen: BaseScreen) -> None:
         self.wipe_from(screen)
         self.stack.replace(screen)
 
-    def wipe_from(self, screen: Screen) -> None:
+    def wipe_from(self, screen: BaseScreen) -> None:
         """Begin a wipe from the present picture to another screen or level."""
         wipes = self.wipes and screen.wipes and not screen.see_through and not self.settings.reduced_motion
         if wipes and self.stack:

@@ -6,7 +6,7 @@ from random import Random
 
 import pygame
 
-from ninja_game.play.screen import Screen
+from ninja_game.play.screen import BaseScreen
 from ninja_game.play.window import TITLE
 from ninja_game.ui.input.bindings import InputEvent
 
@@ -16,7 +16,7 @@ _COLUMNS = (("", 40.0), ("Item", 210.0), ("Q1", 100.0), ("Q2", 100.0), ("Q3", 10
 _ITEMS = ("Paper", "Toner", "Postage", "Travel", "Training", "Licences", "Furniture", "Coffee", "Cleaning", "Repairs")
 
 
-class BossScreen(Screen):
+class BossScreen(BaseScreen):
     """The key that hides the game comes back to it, and so does Esc; the key for leaving ends the program."""
 
     hides_game = True

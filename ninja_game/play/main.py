@@ -16,8 +16,7 @@ from ninja_game.formats.load import load_level, load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, is_pack
 from ninja_game.formats.recording import Recording
-from ninja_game.play.app import App, TasEditorOpener, build_app
-from ninja_game.play.screen import Screen
+from ninja_game.play.app import App, Screen, TasEditorOpener, build_app
 from ninja_game.play.window import Window, save_picture
 from ninja_game.player.playthrough import FileSession
 from ninja_game.runtime import run_in_background

@@ -9,8 +9,7 @@ import pygame
 
 from ninja_game.files.shown_text import shown_text
 from ninja_game.levels.episodes import Mood
-from ninja_game.play.app import CALM, App
-from ninja_game.play.screen import Screen
+from ninja_game.play.app import CALM, App, Screen
 from ninja_game.player.player_data import PlayerData
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.input.bindings import InputEvent

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import pygame
 
@@ -10,11 +10,19 @@ from ninja_game.levels.episodes import Mood
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
 
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
+
+class Host(Protocol):
+    """What every screen needs of its App, which imports this module."""
+
+    theme: Theme
+    mood: Mood
+
+    def pop(self) -> None: ...
+
+    def quit(self) -> None: ...
 
 
-class Screen:
+class BaseScreen:
     """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does."""
 
     see_through = False  #: whether the screen below is drawn first
@@ -25,7 +33,7 @@ class Screen:
     small_notices = False  #: whether notices of one line are as high as a border
     foot_high = 1.0  #: px at the foot that notices leave free
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: Host) -> None:
         self.app = app
         self.redraw = True  #: set by the app when the whole window must be drawn again (resized, uncovered, recoloured)
 
@@ -86,25 +94,25 @@ class Aside:
 
 class ScreenStack:
     def __init__(self) -> None:
-        self._screens: list[Screen] = []
+        self._screens: list[BaseScreen] = []
 
     def __len__(self) -> int:
         return len(self._screens)
 
-    def __contains__(self, screen: Screen) -> bool:
+    def __contains__(self, screen: BaseScreen) -> bool:
         return screen in self._screens
 
     @property
-    def top(self) -> Screen:
+    def top(self) -> BaseScreen:
         """The screen that gets the events. Raises IndexError if there is none."""
         return self._screens[-1]
 
     @property
-    def below(self) -> Screen | None:
+    def below(self) -> BaseScreen | None:
         """The screen below the top one, if any."""
         return self._screens[-2] if len(self) > 1 else None
 
-    def push(self, screen: Screen) -> None:
+    def push(self, screen: BaseScreen) -> None:
         if self._screens:
             self.top.leave()
         self._screens.append(screen)
@@ -115,7 +123,7 @@ class ScreenStack:
         self._screens.pop().leave()
         self._uncover()
 
-    def replace(self, screen: Screen) -> None:
+    def replace(self, screen: BaseScreen) -> None:
         self._screens.pop().leave()
         self._screens.append(screen)
         self._uncover()
@@ -149,11 +157,11 @@ class ScreenStack:
             changed = None if whole or rects is None or changed is None else changed + rects
         return changed
 
-    def running(self) -> list[Screen]:
+    def running(self) -> list[BaseScreen]:
         """The screens that are updated, lowest first."""
         return self._from_last("below_runs")
 
-    def _from_last(self, attribute: str) -> list[Screen]:
+    def _from_last(self, attribute: str) -> list[BaseScreen]:
         """The screens from the last one that has not this attribute, or from the first."""
         ends = [index for index, screen in enumerate(self._screens) if not getattr(screen, attribute)]
         return self._screens[max(ends, default=0) :]

@@ -13,8 +13,7 @@ from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.backend.memories import compiled_available, is_compiled, prefers_plain
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.recording import Recording
-from ninja_game.play.app import App
-from ninja_game.play.screen import Screen
+from ninja_game.play.app import App, Screen
 from ninja_game.runtime import run_in_background
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.input.bindings import InputEvent

@@ -23,7 +23,7 @@ DRAWS = re.compile(r"_?(draw|paint)(_|$)")
 NOT_SHOWN = {
     "play/lab/figure.py: Figure.draw": "its figures do",
     "play/editor/view.py: Overlay._draw_reach": "needs Numba, which a page has not; test_editor.py shows it",
-    "play/screen.py: Screen.draw": "its screens do",
+    "play/screen.py: BaseScreen.draw": "its screens do",
     "play/workspace.py: Pane.paint": "its parts do",
     "ui/widgets.py: Widget.draw": "its widgets do",
     "play/lab/screen.py: FigurePicture.draw": "of the pages of Learn; test_learn.py shows it",

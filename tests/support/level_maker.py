@@ -9,7 +9,7 @@ from ninja_game.editor.files import new_source
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.view import LAYOUT
-from ninja_game.play.screen import Screen
+from ninja_game.play.screen import BaseScreen
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
 from tests.support.menu_driver import MenuDriver
@@ -33,7 +33,7 @@ def examine(editor: EditorScreen) -> None:
 class Maker(MenuDriver):
     """Somebody who makes a level."""
 
-    def open(self, entry: str) -> Screen:
+    def open(self, entry: str) -> BaseScreen:
         """In the editor with nothing drawn, instead of the room with which it begins."""
         screen = super().open(entry)
         if isinstance(screen, EditorScreen) and not screen.session.source.path:

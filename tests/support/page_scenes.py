@@ -25,7 +25,7 @@ from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.replays import RecordsScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.screen import Screen
+from ninja_game.play.screen import BaseScreen
 from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 Scene = tuple[str, str, Callable[[App], object]]
@@ -88,7 +88,7 @@ def paused(ticks: int, make: Any) -> Callable[[App], object]:
     return show
 
 
-def screen(make: Callable[[App], Screen]) -> Callable[[App], object]:
+def screen(make: Callable[[App], BaseScreen]) -> Callable[[App], object]:
     """A screen by itself."""
 
     def show(app: App) -> None:

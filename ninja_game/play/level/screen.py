@@ -12,7 +12,7 @@ from ninja_game.formats.links import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.episodes import Entry, Mood
-from ninja_game.play.app import App
+from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_level_link, copy_link
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.hud_view import hud_view
@@ -23,7 +23,6 @@ from ninja_game.play.menus.passed import EpisodePassed
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.screen import Screen
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import PlayerData, keep_replay
 from ninja_game.player.playthrough import EpisodeSession, LevelContext, LevelSession, Navigation

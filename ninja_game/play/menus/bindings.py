@@ -6,9 +6,8 @@ from functools import partial
 
 import pygame
 
-from ninja_game.play.app import App
+from ninja_game.play.app import App, Screen
 from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow
-from ninja_game.play.screen import Screen
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, InputEvent, bindable
 from ninja_game.ui.input.gamepad import pad_label
 from ninja_game.ui.input.keys import key_label

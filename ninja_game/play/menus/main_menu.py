@@ -15,7 +15,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.episodes import Entry, Mood
 from ninja_game.levels.findings import Finding
-from ninja_game.play.app import App
+from ninja_game.play.app import App, Screen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menu_screen import Action, MenuScreen, Question
@@ -26,7 +26,6 @@ from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback, RunClock
-from ninja_game.play.screen import Screen
 from ninja_game.play.window import LOGO
 from ninja_game.player.playthrough import EpisodeSession, next_run
 from ninja_game.runtime import in_page_or_not

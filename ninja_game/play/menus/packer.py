@@ -18,9 +18,9 @@ from ninja_game.formats.pack.pack import Pack, certificate_name
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry, EpisodeSet
 from ninja_game.levels.findings import PackFinding
-from ninja_game.play.app import App
+from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.screen import Aside, Screen
+from ninja_game.play.screen import Aside
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.runtime import NewestJob, cores
 from ninja_game.sim.level import Level

@@ -18,7 +18,7 @@ from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.screen import Screen
+from ninja_game.play.screen import BaseScreen
 from ninja_game.ui.input.gamepad import BUTTONS
 from ninja_game.ui.list_view import ListView
 from tests.support.menu_driver import MenuDriver
@@ -124,7 +124,7 @@ def player(request: pytest.FixtureRequest, driver: MenuDriver) -> Buttons:
     return Mouse(driver) if request.param == "mouse" else Buttons(driver, request.param)
 
 
-def top_of(player: Buttons) -> Screen:
+def top_of(player: Buttons) -> BaseScreen:
     """The screen on top, for a type checker that thinks it cannot change."""
     return player.driver.top()
 
