@@ -89,7 +89,7 @@ def check_level(data: object) -> None:
     if not isinstance(data, Level):
         hint = "load_level(path) and parse_level(text) read one"
         raise LevelError("this is not a level", found=repr(data)[:40], expected="a Level", hint=hint)
-    if len(data.tiles) != TILES or not all(issubclass(kind, int) for kind in set(map(type, data.tiles))):
+    if len(data.tiles) != TILES or not all(isinstance(tile, int) for tile in data.tiles):
         raise LevelError("not the tiles of a level", expected=f"{TILES} whole numbers")
     for number, spec in enumerate(data.objects):
         try:
