@@ -227,7 +227,8 @@ class Session:
         known = [*self.branches.all, self._as_branch("")]
         if undone.outcome == "exit" and not any(each.is_as_good_as(undone) for each in known):
             kept = self.branches.as_json()
-            kept["branches"].append(branch_as_json(undone))
+            # Branches may have been dropped since, which renumbers the others.
+            kept["branches"].append(branch_as_json(replace(undone, parent=self.branches.current)))
             self._change_branches(kept)
 
     def _keep_opened(self) -> None:

@@ -6,9 +6,10 @@ import json
 import os
 from pathlib import Path
 from random import Random
+from tempfile import TemporaryDirectory
 
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import example, given, settings, strategies as st
 
 from ninja_game.errors import DAMAGED, FileError
 from ninja_game.files.locking import remove_abandoned
@@ -271,8 +272,6 @@ def test_a_place_without_files_is_told(tmp_path: Path) -> None:
 @settings(max_examples=30)
 @given(st.integers(0, 10**6))
 def test_undo_and_redo_bring_back_every_edit(seed: int) -> None:
-    from tempfile import TemporaryDirectory
-
     rng = Random(seed)
     with TemporaryDirectory() as folder:
         path = Path(folder) / "walk.replay.txt"
@@ -291,6 +290,39 @@ def test_undo_and_redo_bring_back_every_edit(seed: int) -> None:
         while session.redo():
             pass
         assert session.track == last
+        session.close()
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    st.lists(
+        st.tuples(st.sampled_from(["whole", "edit", "undo", "redo", "keep", "drop", "checkout"]), st.integers(0, 9))
+    )
+)
+@example([("edit", 0), ("keep", 0), ("whole", 0), ("undo", 0), ("drop", 1), ("drop", 0), ("edit", 1)])
+def test_branches_stay_a_tree_whatever_is_edited_between(steps: list[tuple[str, int]]) -> None:
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "walk.replay.txt"
+        path.write_text(replay_of_walk(), "utf-8")
+        session = Session(open_run(path), Path(folder), memory="plain")
+        whole = session.track
+        session.change(whole.replaced(0, len(whole), []))
+        for step, number in steps:
+            at = number % max(1, len(session.branches))
+            if step == "whole":
+                session.change(whole)
+            elif step == "edit":
+                session.change(session.track.replaced(number, number, [2]))
+            elif step in ("undo", "redo"):
+                getattr(session, step)()
+            elif step == "keep":
+                session.keep_branch(str(number))
+            elif session.branches.all and step == "drop":
+                session.drop_branch(at)
+            elif session.branches.all:
+                session.checkout_branch(at)
+        session.end()
+        assert branches_of_json(json.loads(json.dumps(session.branches.as_json()))).all == session.branches.all
         session.close()
 
 
