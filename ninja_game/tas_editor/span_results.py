@@ -201,7 +201,7 @@ class SpanResults:
             words += f": {self.shown_run(result).ending}"
         if self._to_exit and result.missed_by is None and result.gold != self._gold:  # of the run as it was
             words += f", {abs(self._gold - result.gold)} gold {'fewer' if result.gold < self._gold else 'more'}"
-        if self._others:
+        if self._others and (isinstance(self.search, RunSearch) or not result.own_route):
             equal = self._equal_run(result)
             route = "own route" if result.own_route else f"this is {equal.name}" if equal else self._nearest_run(result)
             words = f"{words.removeprefix('exit in ')}, {route}"  # long names are truncated, gold is not

@@ -736,7 +736,7 @@ def test_a_span_is_searched_along_runs_beside_and_names_their_players_where_they
     path = at.editor.others[0].trajectory.positions[100:110]
     own = SpanResult(1.0, 10, np.zeros(10, np.uint8), bytes(110), path=path)
     theirs = replace(own, own_route=False)
-    assert results.words(own)[0].endswith(", own route")
+    assert "route" not in results.words(own)[0]
     assert results.words(theirs)[0].endswith(", like Cy")
     assert "Cy" in results._contributions(theirs).names
     assert "Cy" not in results._contributions(own).names
