@@ -351,3 +351,11 @@ def test_somebody_without_a_name_is_asked_once(at: TasDriver, monkeypatch: pytes
     at.press("escape")
     at.chord("s", CTRL)
     assert at.app.notice.startswith("Saved")
+
+
+def test_a_notice_lies_over_the_floor_of_the_level(at: TasDriver) -> None:
+    """Neither the status nor a tab is covered."""
+    level = at.screen.theme.canvas.rect(*at.screen.level.area)
+    for text in ("one line", "many words " * 15):
+        at.app.notify(text)
+        assert level.inflate(2, 2).contains(at.app._draw_notice(at.screen.theme)), text
