@@ -6,6 +6,7 @@ import math
 import re
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,7 @@ import click
 from ninja_game.cli import options
 from ninja_game.cli.commands import FAILED
 from ninja_game.cli.progress import progress_line, time_text
-from ninja_game.errors import FileError
+from ninja_game.errors import ArgumentError, FileError
 from ninja_game.files.reading import protect_inputs, read_utf8
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.formula.task import SpanResult
     from ninja_game.search.task import Progress, Task
+
+
+SAME_ROUTE = "\nsame route as before: --against FILE tries those of other runs, `ninja-game solve` looks for new ones"
 
 
 class SearchLog:
@@ -191,12 +195,23 @@ def improve(
     assert run is not None  # noqa: S101 - the first run is one
     if log:
         log.note("ended")
-    run = simplified_run(task, run, smooth)
-    save(run)
+    save(run := simplified_run(task, run, smooth))
     gain = before[0] - run.end_tick
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
-    click.echo(f"{output}: {time_text(run.end_tick)}, {change}, {run.gold} gold")
+    route = "" if theirs or not _is_same_route(task, run) else SAME_ROUTE
+    click.echo(f"{output}: {time_text(run.end_tick)}, {change}, {run.gold} gold{route}")
     return 0
+
+
+def _is_same_route(task: Task, run: Replay) -> bool:
+    """Whether a run is always near the given one, in the same order; False for runs too long to be compared."""
+    from ninja_game.runs.compare import aligned
+    from ninja_game.runs.run import run_level
+
+    before, after = (run_level(task.level, keys, body=task.body).positions for keys in (task.first, run.inputs))
+    with suppress(ArgumentError):
+        return bool((aligned(after, before) >= 0).all())
+    return False
 
 
 @click.command()

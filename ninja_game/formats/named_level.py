@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Literal
 
 from ninja_game.errors import LevelError, ReplayError
 from ninja_game.files.reading import read_included
+from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
 from ninja_game.formats.lines import numbered_lines
@@ -130,7 +132,7 @@ def _is_level_string(text: str) -> bool:
 
 
 def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, changed: bool = False) -> Level:
-    """Give the level on which a replay was recorded: its own, the one at its path, or else the given one.
+    """Give the level on which a replay was recorded: its own, the one at its path, the given one, or one of the game's.
 
     Raises ReplayError if there is none, or if it differs from the recorded one, unless ``changed``.
     """
@@ -144,6 +146,8 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, ch
             raise ReplayError("the replay's level cannot be read", file, found=source, hint=included.problem)
         if included.text is not None:
             level = _level_in(included.text, source, replay.level_record, file)
+    if level is None and not replay.level_path:
+        level = _levels_by_digest().get(replay.level_digest)
     if level is None:
         hint = "give it with --level, or record the replay with its level inside"
         named = shown(replay.level_path) if replay.level_path else f"level-digest {replay.level_digest[:12]}…"
@@ -154,6 +158,13 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, ch
         hint = "the level was changed after the recording; `ninja-game tas` opens the run on the changed level"
         raise ReplayError("not the level of this replay", file, found=source, expected=replay.level_digest, hint=hint)
     return level
+
+
+@cache
+def _levels_by_digest() -> dict[str, Level]:
+    """The game's own levels."""
+    own = (level for path in bundled_levels() for level in parse_levels(path.read_text("utf-8"), file=str(path)))
+    return {level_digest(named.level): named.level for named in own}
 
 
 def _level_in(text: str, place: str, record: int, file: str) -> Level:

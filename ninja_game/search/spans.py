@@ -72,6 +72,20 @@ class SpanSearches:
         if inputs != self._inputs:
             self._inputs, self.run = inputs, self._noted(inputs)
 
+    def know_joined(self, inputs: bytes, first: int, other: bytes, there: int, bound: int) -> None:
+        """Follow another run to the exit from its tick ``there`` on, from tick ``first`` of a run on.
+
+        ``bound``: ticks before which a way along it must reach the exit.
+        """
+        ours, theirs = self._noted(inputs[:first]), self._noted(other)
+        self.run = theirs._replace(
+            moves=np.concatenate([ours.moves[:first], theirs.moves[there:]]),
+            keys=np.concatenate([ours.keys[:first], theirs.keys[there:]]),
+            masks=np.concatenate([ours.masks[:first], theirs.masks[there:]]),
+            gold=np.concatenate([ours.gold[:first], theirs.gold[there:]]),
+        )
+        self._inputs = (inputs[:first] + other[there:])[:bound].ljust(bound, b"\0")
+
     def _noted(self, inputs: bytes) -> KnownRun:
         run = known_run(len(inputs), inputs)
         search = self._search

@@ -178,7 +178,7 @@ def pieces_of(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
     """The pieces of a span, from one piece of gold, switch or exit to the next; from the last one to the exit.
 
     ``splits``: of the run, of the events in GOALS. If the run reaches the exit, the rest of it follows, and a span
-    without any event has two halves. If it does not, or the span goes to the exit, the whole run comes last.
+    without any event has two halves. The whole run comes first: it has the most to gain.
     """
     first, pieces = span.first, list[RunPiece]()
     end, outcome = span.session.timeline.end
@@ -201,10 +201,8 @@ def pieces_of(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
                 pieces.append(RunPiece(*bounds, f"To tick {bounds[1] - 1}", wanted))
     if len(pieces) < 2:
         pieces.clear()  # the span itself
-    if to_exit:
-        wanted = whole_run(span)
-        pieces.append(RunPiece(0, wanted.last, "Whole run", wanted))
-    return pieces
+    wanted = whole_run(span)
+    return [RunPiece(0, wanted.last, "Whole run", wanted), *pieces]
 
 
 PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], SpanGoal]], ...] = (

@@ -71,6 +71,7 @@ class RunCommands(DocumentCommands):
         self.session = editor.session
         self._run = run
         self._recover, self._begin_new = recover, begin_new
+        self._asked_name = False
 
     def commands(self) -> Commands:
         return {"menu": self.menu, "help": self.help, "save": self.save, "save_as": self.save_as}
@@ -86,7 +87,8 @@ class RunCommands(DocumentCommands):
             ("Take from the other run...", self.splice, "Its beginning, its rest or some ticks; O chooses the run"),
             ("New run on this level", self._begin_new, "Empty; Esc, Leave comes back to this one"),
             ("Not saved last time...", self.list_recovered, "Runs that were edited when the program ended"),
-            ("Watch", self.watch, "In the replay viewer, with the runs beside it; it makes films too"),
+            ("Watch", self.watch, "In the replay viewer, with the runs beside it"),
+            ("Film", partial(self.watch, film=True), "Among your exports, with the runs beside it"),
             ("Keep as a replay", self.keep, "Among yours"), ("Copy a link", self.copy_link, "Opens the run"),
             ("Help", self.help, key["help"]), ("Leave", self.leave, ""),
         ]  # fmt: skip
@@ -111,6 +113,13 @@ class RunCommands(DocumentCommands):
                 return opened.parent
         return self.app.player.folder / REPLAYS
 
+    def save(self, then: Action = nothing) -> None:
+        """Save; the first time, for somebody without a name, ask for it."""
+        if self._asks_name and not self._asked_name:
+            self.save_as(then)
+        else:
+            super().save(then)
+
     def save_as(self, then: Action = nothing) -> None:
         path, folder = self.session.file.path, self._folder
         free = free_path(folder, file_stem(self.session.name, "run"), REPLAY_SUFFIX)
@@ -132,6 +141,7 @@ class RunCommands(DocumentCommands):
         title = f"Save in {'...' * (len(place) > 38)}{place[-38:]}"  # the end of a long path says more
         fields = [("Name or path of the file", name, 300)]
         if self._asks_name:
+            self._asked_name = True
             fields.append(("Your name, kept in the settings", "", 40))
         self.app.push(FormPanel(self.app, title, fields, "Save", on_accept))
 
@@ -162,11 +172,15 @@ class RunCommands(DocumentCommands):
         origin, track = self.session.origin, self.session.track
         copy_link(self.app, lambda: replay_link([replay_of_track(origin, track)]), title=self.session.name)
 
-    def watch(self) -> None:
+    def watch(self, *, film: bool = False) -> None:
+        """Show it in the replay viewer, which makes films."""
         others = self.editor.others if self.editor.ghosts else ()
         beside = [self.session.recording(other.track, other.name) for other in others]
         beside = [replace(run, replay=replace(run.replay, author=run.replay.name)) for run in beside]
-        self.app.push(ReplayScreen(self.app, [self.session.recording(), *beside], editable=False))
+        viewer = ReplayScreen(self.app, [self.session.recording(), *beside], editable=False)
+        self.app.push(viewer)
+        if film:
+            viewer.start_export()
 
     def offer_recovered(self) -> None:
         """Ask what to do with this run if it was open when the program crashed; name others.

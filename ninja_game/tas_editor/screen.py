@@ -41,6 +41,7 @@ class TasScreen(WorkspaceScreen):
     """
 
     table = TABLE
+    small_notices = True
 
     def __init__(
         self, app: App, opened: OpenedRun, others: Sequence[Recording] = (), recovered_run: RecoveredRun | None = None
@@ -84,6 +85,12 @@ class TasScreen(WorkspaceScreen):
     @property
     def notice_room(self) -> tuple[float, float]:
         return 0.0, self.splitters.layout.roll[0]  # not over its rows
+
+    @property
+    def foot_high(self) -> float:  # type: ignore[override]
+        """Notices lie over the floor of the level, not over the tabs and the status."""
+        layout = self.splitters.layout
+        return layout.size[1] - layout.level[1] - layout.level[3]
 
     def commands(self) -> Commands:
         own = dict(self.files.commands())
@@ -140,8 +147,10 @@ class TasScreen(WorkspaceScreen):
             self.held.follow(event.raw)
             return True
         hides = self.level.take_over.on and "boss" in event.pressed
-        taken = not hides and super().capture(event)
-        return taken or (event.source == ("keys", "escape") and not hides and self.tab.stop())
+        taken, escape = not hides and super().capture(event), event.source == ("keys", "escape")
+        if taken and escape:
+            self.tab.left()
+        return taken or (escape and not hides and self.tab.stop())
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import hypot
 from time import monotonic
 
@@ -29,7 +30,7 @@ COMPILING = (
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet comes nearer to the goal than the run itself."
 WITHOUT_REST = "End at the goal, not then the rest"
-NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
+NOTHING = "The goal was not reached. More time, a longer span, another method or Whole run may reach it."
 
 
 class SpanResults:
@@ -40,7 +41,6 @@ class SpanResults:
 
     def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int | None, title: str) -> None:
         self.editor = editor
-        self.task = task
         self.title = title  #: the search in a few words
         self._searched_track = editor.track
         timeline, jobs = editor.session.timeline, max(1, cores() - 1)
@@ -48,11 +48,11 @@ class SpanResults:
         timeline.simulate(len(timeline) if self._to_exit else 0)
         end = timeline.end[0]
         self._gold = int(timeline.column("gold")[end if end >= 0 else len(task.inputs) - 1]) if self._to_exit else 0
-        self._others = tuple(editor.others) if every is None else ()
+        self._others = tuple(editor.others) if every is None or method == "auto" else ()
+        self.task = task = replace(task, others=tuple(other.track.inputs for other in self._others))
         self.search: RunSearch | SpanSearch
         if every is None:
-            gold, runs = self._gold if method == IMPROVE_GOLD else 0, (other.track.inputs for other in self._others)
-            self.search = RunSearch(task, jobs, gold=gold, others=tuple(runs))
+            self.search = RunSearch(task, jobs, gold=self._gold if method == IMPROVE_GOLD else 0)
         else:
             self.search = SpanSearch(task, method, jobs, every=every, memory=timeline.asked_memory)
         # Beginnings of runs that results fit to, and in each the first tick that follows a result: of the searched run
@@ -137,8 +137,9 @@ class SpanResults:
         """The other run whose route is nearest to that of a result, in words."""
 
         def apart(other: OtherRun) -> float:
-            ticks = min(len(result.path), len(other.trajectory.positions))
-            return float(np.hypot(*(result.path[:ticks] - other.trajectory.positions[:ticks]).T).mean())
+            theirs = other.trajectory.positions[min(self.task.first, len(other.trajectory) - 1) :]
+            ticks = min(len(result.path), len(theirs))
+            return float(np.hypot(*(result.path[:ticks] - theirs[:ticks]).T).mean())
 
         return f"like {min(self._others, key=apart).name}"
 
@@ -200,7 +201,7 @@ class SpanResults:
             words += f": {self.shown_run(result).ending}"
         if self._to_exit and result.missed_by is None and result.gold != self._gold:  # of the run as it was
             words += f", {abs(self._gold - result.gold)} gold {'fewer' if result.gold < self._gold else 'more'}"
-        if self._others:
+        if self._others and (isinstance(self.search, RunSearch) or not result.own_route):
             equal = self._equal_run(result)
             route = "own route" if result.own_route else f"this is {equal.name}" if equal else self._nearest_run(result)
             words = f"{words.removeprefix('exit in ')}, {route}"  # long names are truncated, gold is not
@@ -229,7 +230,8 @@ class SpanResults:
             return search.problem
         if search.own is not None:
             yet = "yet " if self.running else ""
-            return f"Nothing better {yet}than the run's own keys: {score_text(self.task, search.own)}."
+            whole = "" if self.running or isinstance(search, RunSearch) else " Try Whole run, in Presets."
+            return f"Nothing better {yet}than the run's own keys: {score_text(self.task, search.own)}.{whole}"
         if not search.ticks_run:
             return COMPILING if self.running else NOT_BEGUN
         return NOTHING_YET if self.running else NOTHING

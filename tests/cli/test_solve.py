@@ -98,6 +98,7 @@ def test_improve_shortens_a_recording(tmp_path: Path) -> None:
     result = command("improve", slow, "--ticks", TICKS, "--jobs", "1", "-o", out)
     assert result.exit_code == 0, result.stderr
     assert "14 ticks shorter" in result.stdout
+    assert "same route as before: --against FILE" in result.stdout
     assert parse_replay(out.read_text("utf-8")).final_tick == WALK_END
 
 
@@ -107,7 +108,8 @@ def test_improve_shortens_the_routes_of_other_runs_too_and_names_their_players(t
     fast = write_records(tmp_path / "fast.txt", ("Fast", WALK, running(WALK_END + 1)), ("Other", LEDGE, running(9)))
     out = tmp_path / "out.replay.txt"
     words = "improve", slow, "--ticks", "1", "--jobs", "1", "-o"
-    assert command(*words, out, "--against", fast).exit_code == 0
+    with_others = command(*words, out, "--against", fast)
+    assert (with_others.exit_code, "same route" in with_others.stdout) == (0, False)
     replay = parse_replay(out.read_text("utf-8"))
     assert (replay.final_tick, replay.co_authors) == (WALK_END, ("unknown (fast.txt)",))
     other = write_records(tmp_path / "other.txt", ("Other", LEDGE, running(9)))

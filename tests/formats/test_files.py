@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from ninja_game.errors import DemoError, FileError, LevelError, NinjaGameError, ReplayError
+from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_levels, load_replays, parse_level
 from ninja_game.formats.n14.level_file import LevelRecord, write_level_file
@@ -156,6 +157,12 @@ def test_a_replay_finds_its_level_below_its_own_folder(tmp_path: Path) -> None:
     path = saved(tmp_path, write_replay(replay))
     assert load_replays(path)[0].level == LEVEL
     assert load_levels(path)[0].level == LEVEL
+
+
+def test_a_replay_without_its_level_is_of_the_game_s_own_level_that_it_names_by_its_digest(tmp_path: Path) -> None:
+    own = load_levels(bundled_levels()[0])[0].level
+    path = saved(tmp_path, write_replay(Replay(b"", 0, "running", level_digest=level_digest(own))))
+    assert load_replays(path)[0].level == own
 
 
 @pytest.mark.parametrize("name", ["../secret.txt", "/etc/passwd", "link/secret.txt", "../inside/../secret.txt", "pipe"])

@@ -146,7 +146,7 @@ def test_what_a_run_gains_by_its_own_route_stays_beside_faster_runs(monkeypatch:
 
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
     dead_end = bytes(30)
-    search = RunSearch(SpanTask(LEVEL, slow, 0, len(slow), "won"), others=(dead_end, fast))
+    search = RunSearch(SpanTask(LEVEL, slow, 0, len(slow), "won", others=(dead_end, fast)))
     search.start()
     search.finish(LONGEST)
     assert not search.problem

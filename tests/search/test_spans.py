@@ -12,7 +12,11 @@ from ninja_game.sim.level import Level
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
+from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import verified_run
+from ninja_game.search.formula.leg import OtherRoutes
+from ninja_game.search.formula.methods import search_span
+from ninja_game.search.formula.task import SpanTask
 from ninja_game.search.heuristics import UNREACHED, Heuristics
 from ninja_game.search.known_run import nearest
 from ninja_game.search.nodes import Resolution, open_start
@@ -110,3 +114,14 @@ def test_the_shortener_submits_ever_shorter_runs_with_their_gold(gold: int) -> N
     ticks = [verified_run(LEVEL, run, gold=gold).end_tick for run in submitted]
     assert ticks == sorted(set(ticks), reverse=True)
     assert ticks[-1] < verified_run(LEVEL, STANDING).end_tick - 20
+
+
+def test_a_way_to_the_exit_is_found_along_a_run_beside() -> None:
+    """Runs that do not reach the exit are left out; the result is not of the own route."""
+    task = SpanTask(LEVEL, STANDING, 15, len(STANDING), "won", others=(bytes(80), bytes([2] * 240)))
+    routes, own = OtherRoutes(task, seed=1), verified_run(LEVEL, STANDING).ticks
+    keys = next(keys for keys in (routes.search(never) for _ in range(20)) if keys)[0].tobytes()
+    assert run_level(LEVEL, STANDING[:15] + keys).outcome == "exit"
+    assert run_level(LEVEL, STANDING[:15] + keys).ticks < own - 20
+    results = search_span(task, lambda _, ways: all(way.own_route for way in ways))
+    assert any(not way.own_route and way.ticks < own - 35 for way in results)

@@ -139,14 +139,12 @@ NO_WAY = "No way to the exit was found from the end of this run: select ticks be
 class RunSearch(SpanSearch):
     """A search that shortens a whole run, ``task.inputs``, as `ninja-game improve` does.
 
-    A run that ends before the exit is first continued to it. ``gold``: pieces that it must still take. ``others``: runs
-    of the level whose routes are shortened too. ``results``: the runs by its own route and by all routes that no other
+    A run that ends before the exit is first continued to it. ``gold``: pieces that it must still take. The routes of
+    ``task.others`` are shortened too. ``results``: the runs by its own route and by all routes that no other
     one beats in ticks and gold.
     """
 
-    def __init__(
-        self, task: SpanTask, jobs: int | None = None, *, gold: int = 0, others: tuple[bytes, ...] = ()
-    ) -> None:
+    def __init__(self, task: SpanTask, jobs: int | None = None, *, gold: int = 0) -> None:
         from ninja_game.search.task import Task
 
         super().__init__(task)
@@ -157,7 +155,7 @@ class RunSearch(SpanSearch):
             MAX_SECONDS,
             jobs=min(jobs or cores(), MAX_JOBS),
             first=fit_inputs(task.inputs, task.length),
-            others=others,
+            others=task.others,
         )
         self._reaches = False
         self._lock = Lock()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 from ninja_game.backend.memories import compiled
 from ninja_game.batch.batch import Batch, Keys
 from ninja_game.errors import ArgumentError
-from ninja_game.search.formula.leg import LegSearch
+from ninja_game.search.formula.leg import LegSearch, OtherRoutes
 from ninja_game.search.formula.task import (
     ReportMiss,
     ReportResults,
@@ -38,6 +39,8 @@ ACTIONS = np.array([0, 1, 2, 4, 5, 6], np.uint8)
 """Left, right or neither, each with and without jump."""
 ROUNDS, ROUNDS_BESIDE_LEGS = 40, 4
 """Rounds of small changes per turn; the second number holds while nothing is found and LegSearch is more useful."""
+TURNS_BESIDE = 6
+"""Searches along other runs per turn. Not tuned."""
 REPORT_TICKS = 100_000
 """Ticks of a beam between two reports: a second on a slow machine."""
 STEPS = (4, 6, 3, 8, 2, 12, 1)
@@ -72,14 +75,17 @@ class Results:
         self.going = True
         self._report, self._report_miss = report, report_miss
 
-    def try_all(self, keys: Keys) -> Trials:
-        """Try keys, (ticks, worlds), and keep the good ones. ``going`` then tells whether to continue."""
+    def try_all(self, keys: Keys, *, own_route: bool = True) -> Trials:
+        """Try keys, (ticks, worlds), and keep the good ones. ``going`` then tells whether to continue.
+
+        ``own_route``: as of SpanResult.
+        """
         trials = self.worlds.try_all(keys)
         for index in trials.order[:KEPT]:
             if not np.isfinite(trials.scores[index]):
                 break
             of_trial = float(trials.scores[index]), int(trials.ticks[index]), trials.ends[index].tolist()
-            result = self.worlds.result_of(int(index), keys[:, index], *of_trial)
+            result = replace(self.worlds.result_of(int(index), keys[:, index], *of_trial), own_route=own_route)
             if any(np.array_equal(result.keys[: result.ticks], old.keys[: old.ticks]) for old in self.best):
                 continue
             self.best = tuple(sorted([*self.best, result])[:KEPT])
@@ -87,9 +93,9 @@ class Results:
         self.report()
         return trials
 
-    def try_some(self, keys: list[Keys]) -> None:
+    def try_some(self, keys: list[Keys], *, own_route: bool = True) -> None:
         """Try a few keys, one array per span."""
-        self.try_all(np.stack((keys * (WORLDS // len(keys) + 1))[:WORLDS], axis=1))
+        self.try_all(np.stack((keys * (WORLDS // len(keys) + 1))[:WORLDS], axis=1), own_route=own_route)
 
     def spend(self, ticks: int) -> bool:
         """Count ticks that were run elsewhere; true if the search must end."""
@@ -128,8 +134,10 @@ def search_span(
     worlds = SpanWorlds(task, WORLDS, memory=memory, threads=threads)
     mutated = compiled(mutate_rows) if worlds.batch.memory == "compiled" else mutate_rows
     mutated(np.zeros((1, 1), np.uint8), 1, _kernel_rng(1))
-    target = target_of(task) if method == "auto" and worlds.batch.memory == "compiled" else None
+    solves = method == "auto" and worlds.batch.memory == "compiled"
+    target = target_of(task) if solves else None
     legs = None if target is None else LegSearch(task, target, seed)
+    along = OtherRoutes(task, seed) if task.others and solves else None
     results = Results(worlds, report, report_miss)
     rng = np.random.default_rng(seed)
     results.try_all(np.tile(task.base[:, np.newaxis], (1, WORLDS)))
@@ -137,6 +145,9 @@ def search_span(
         exhaust(task, every, results)
     turn = 0
     while results.going and method != "exhaustive":
+        for _ in range(TURNS_BESIDE if along else 0):
+            if along and results.going and (keys := along.search(results.spend)):
+                results.try_some(keys, own_route=False)
         if method != "local":
             beam(task, STEPS[turn % len(STEPS)], results, rng, noise=0.1 * (turn // len(STEPS)))
         if legs and not results.best and results.going and (keys := legs.search(results.spend)):
@@ -206,12 +217,13 @@ def change(
 ) -> None:
     """Change keys a little, many ways at once, and go on from the best of them."""
     source = _kernel_rng(int(rng.integers(1, 1 << 62)))
-    chosen = results.best[int(rng.integers(len(results.best)))].keys if results.best else task.base
-    current, standing = chosen.copy(), (np.inf, np.inf)
+    chosen = results.best[int(rng.integers(len(results.best)))] if results.best else None
+    own_route = chosen is None or chosen.own_route
+    current, standing = (chosen.keys if chosen else task.base).copy(), (np.inf, np.inf)
     for _ in range(rounds):
         rows = np.tile(current, (WORLDS, 1))
         mutated(rows[1:], task.length, source)
-        trials = results.try_all(rows.T.copy())
+        trials = results.try_all(rows.T.copy(), own_route=own_route)
         best = int(trials.order[0])
         reached = (float(trials.scores[best]), -float(trials.margins[best]))
         if reached <= standing:

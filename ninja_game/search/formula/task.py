@@ -30,7 +30,8 @@ class SpanTask:
     run reaches the goal, after the last tick. ``measure``: a formula whose value at that tick should be as great, or
     with ``least`` as small, as possible; "": the goal should be reached as early as possible. ``rest``: after the goal,
     play the inputs that follow in the run after its own first tick at the goal (if it has none: from tick ``behind``
-    on; 0: the end of the span); the exit must still be reached, as early as possible.
+    on; 0: the end of the span); the exit must still be reached, as early as possible. ``others``: other runs of the
+    level, along which ways to the exit are searched too.
 
     Raises FormulaError for a broken formula, ArgumentError for a span outside the run.
     """
@@ -45,6 +46,7 @@ class SpanTask:
     rest: bool = False
     body: Body = "circle"
     behind: int = 0
+    others: tuple[bytes, ...] = ()
 
     def __post_init__(self) -> None:
         if not 0 <= self.first < self.last <= self.first + MAX_SPAN:

@@ -8,7 +8,6 @@ from contextlib import suppress
 from pathlib import Path
 from time import thread_time
 
-import numpy as np
 import pygame
 
 from ninja_game.budget import RUN_BUDGET
@@ -24,6 +23,7 @@ from ninja_game.play.menu_screen import Action, MenuScreen
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen, result_of
 from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay
+from ninja_game.runs.compare import nearest_state
 from ninja_game.runs.run import run_level
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import runs_of_level, same_level, same_place, track_of
@@ -36,8 +36,6 @@ from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget
 
-AHEAD = 10
-"""Ticks for which two joined ninjas are extrapolated at their speeds. Not tuned."""
 QUICK = RUN_BUDGET // 100
 """Work that a run may cost in a list: 30 ms compiled, some ten times that of a run of a minute."""
 LOOK_SECONDS = 0.3
@@ -111,16 +109,7 @@ class OtherRuns:
                 editor.go(there)
 
     def _nearest(self, other: OtherRun, tick: int) -> int:
-        """The tick of another run before which its ninja was nearest to ours before a tick; 0 for 0.
-
-        Nearest by place and by speed: a difference of speed counts as the distance after AHEAD ticks.
-        """
-        if not tick:
-            return 0
-        ours = self.editor.session.timeline.trajectory()
-        far = np.hypot(*(other.trajectory.positions - ours.positions[tick - 1]).T)
-        faster = np.hypot(*(other.trajectory.velocities - ours.velocities[tick - 1]).T)
-        return int(np.argmin(far + AHEAD * faster)) + 1
+        return nearest_state(self.editor.session.timeline.trajectory().positions, tick, other.trajectory.positions)
 
     def _join(
         self, make: Callable[[InputTrack], InputTrack], other: OtherRun, tick: int, there: int, what: str

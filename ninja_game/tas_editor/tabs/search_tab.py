@@ -38,7 +38,7 @@ from ninja_game.ui.widgets import Button, Choice, Widget
 
 PATIENCE = 5.0  # seconds of a search before pieces of its span are proposed
 FORGET = "Forget earlier"
-PIECES = "Nothing better so far. A click searches one of these:"
+PIECES = "Nothing better so far. A click searches one of these, best first:"
 
 MAX_FORMULA = 300  # characters of a formula
 MAX_TITLE = 30  # characters of it in the name of a branch
@@ -337,7 +337,7 @@ class SearchTab(Tab):
         if splits is not None and splits[0] is track:
             pieces = pieces_of(SearchedSpan(session, *self._pieced_span), splits[1])
             if task.rest and task.goal and self._pieced_span[1] <= len(track):
-                pieces.insert(0, RunPiece(*self._pieced_span, WITHOUT_REST, SpanGoal(task.goal)))
+                pieces.insert(1, RunPiece(*self._pieced_span, WITHOUT_REST, SpanGoal(task.goal)))
             self._cut_track, self.pieces = track, tuple(pieces)
         elif self._asked_track is not track:
             self._asked_track = track

@@ -65,6 +65,9 @@ class Tab(TasPart):
         """Stop running work; whether there was any."""
         return False
 
+    def left(self) -> None:
+        """Escape has taken the focus away."""
+
     def close(self) -> None:
         """Stop running work: the TAS editor is left."""
 

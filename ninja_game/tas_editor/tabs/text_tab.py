@@ -22,7 +22,7 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Ta
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
 
-MAX_LINE = 300  # characters of a line
+MAX_LINE = 2000  # characters of what is typed, for one line or several
 _NAMED_END = re.compile(r'(?<=\s)#\s*([^"#]+)$')
 _NAME_AND_COMMENT = re.compile(r'(?<=\s)#([^\s"#]+\s+#\s+[^"]+)$')
 _WORD = re.compile(r'#"[^"]*"|\S+')
@@ -86,7 +86,7 @@ def _named_in_line(typed: Inputs) -> Inputs:
 
 
 class TextTab(Tab):
-    """The lines; the field holds that of the cursor's tick, and Enter replaces it."""
+    """The lines; the field holds that of the cursor's tick, or all that are selected, and Enter replaces them."""
 
     name = "Text"
 
@@ -99,7 +99,9 @@ class TextTab(Tab):
         self._clicked = False
         self.starts = starts_of(self._track)
         self._seen: tuple[object, ...] = ()
-        self.list = Rows(self._draw_row, self._choose, hint="A click selects the ticks of a line")
+        self._lines: Span | None = None  #: the ticks of several selected lines, as long as no other ones are
+        self._begun: Span = (0, 1)  #: what was selected before them
+        self.list = Rows(self._draw_row, self._choose, hint="A click selects a line, with Shift those between")
         hint = "R*30 RJ*10 or 30,R,J, several; #name: a marker; # any text: a comment; nothing: no such ticks. Enter"
         self.field = EntryField("the line of the cursor's tick", self.put, longest=MAX_LINE, hint=hint, step=self._step)
         self.notation = Button(UNPLACED, "R*30", self._turn, hint="A click: the other notation", size=SMALL)
@@ -114,7 +116,8 @@ class TextTab(Tab):
         self.list.area = x + 4, y + 26, w - 8, h - 30
 
     def update(self, real_ms: int) -> None:
-        seen = self.editor.track, self.editor.cursor, self.celeste, self.folded
+        self._lines = self._lines if self._lines == self.editor.selection else None
+        seen = self.editor.track, self.editor.cursor, self._lines, self.celeste, self.folded
         if self.editor.tab == self.name and seen != self._seen:
             self._seen, self._track = seen, self.editor.track
             self._unfolded = section_at(self._track, self.editor.cursor) if self.folded else None
@@ -127,7 +130,25 @@ class TextTab(Tab):
             if not self._clicked:  # a clicked line stays under the mouse
                 self.list.show_around()
             self._clicked = False
-            self.field.show(self.text(self.list.index))
+            self.field.show(self._shown_text)
+
+    def left(self) -> None:
+        """Escape: the field shows what the run has, not what was typed."""
+        self._seen = ()
+
+    @property
+    def _edited(self) -> Span:
+        """The ticks of the lines in the field."""
+        return self._lines or self.span(self.list.index)
+
+    @property
+    def _shown_text(self) -> str:
+        return self._text_between(*self._lines) if self._lines else self.text(self.list.index)
+
+    def _text_between(self, first: int, last: int) -> str:
+        """All lines between the first tick and the last one, in a row."""
+        within = range(int(np.searchsorted(self.starts, first)), int(np.searchsorted(self.starts, last)))
+        return " ".join(map(self.text, within))
 
     def span(self, index: int) -> Span:
         return int(self.starts[index]), int(self.starts[index + 1 :][:1].sum() or self.starts[index])
@@ -143,16 +164,16 @@ class TextTab(Tab):
         """Go to the line above or below; typed text is put in before."""
         index = self.list.index
         first, last = self.span(index)
-        if self.field.text.strip() == self.text(index) or self.put():
+        if self.field.text.strip() == self._shown_text or self.put():
             self.editor.go(first - 1 if by < 0 else max(last, self.editor.cursor))
 
     def put(self) -> bool:
-        """Replace the line by the text of the field, and go to the next one.
+        """Replace the lines by the text of the field, and go to the next one.
 
         Its marker stays unless the keys come with another one. A comment, ``# any text``, is the marker of the same
         keys. Whether it was done.
         """
-        text, (first, last) = self.field.text.strip(), self.span(self.list.index)
+        text, (first, last) = self.field.text.strip(), self._edited
         if text[:2].strip() == "#":
             if done := self.editor.edit_selected(lambda track: track.named(first, text[1:])):
                 self._go_on(last)
@@ -197,7 +218,17 @@ class TextTab(Tab):
     def _choose(self, index: int) -> None:
         first, last = self.span(index)
         self._clicked = True
-        if self._unfolded and not self._unfolded[0] <= first <= self._unfolded[1]:
+        if pygame.key.get_mods() & pygame.KMOD_SHIFT:
+            self._begun = self._begun if self._lines else self.editor.selection
+            first, last = min(first, self._begun[0]), min(max(last, self._begun[1]), len(self._track))
+            first = int(self.starts[np.searchsorted(self.starts, first, "right") - 1])
+            last = int(self.starts[np.searchsorted(self.starts, last)])
+            self.editor.select(first, last)
+            if self._unfolded or len(self._text_between(first, last)) > MAX_LINE:
+                self.editor.refuse(f"Selected, but edited as text line by line: over {MAX_LINE} characters, or folded")
+            else:
+                self._lines = self.editor.selection
+        elif self._unfolded and not self._unfolded[0] <= first <= self._unfolded[1]:
             self.editor.go(first)
         else:
             self.editor.select(first, last)
@@ -216,5 +247,7 @@ class TextTab(Tab):
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, chosen: bool) -> None:
         x, y, w, _ = area
         number, room = str(self.starts[index]), w - 70
+        if self._lines and self._lines[0] <= self.starts[index] < self._lines[1]:
+            theme.canvas.frame_rect(surface, theme.palette.accent, *area, 0.75, 2)
         theme.text(surface, number, x + 44, y + 3, size=SMALL, colour=theme.palette.faint, align="right")
         theme.text(surface, self.text(index) or "(the end)", x + 56, y + 3, size=SMALL, bold=chosen, width=room)

@@ -7,6 +7,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import pygame
+import pytest
 
 from ninja_game.files.bundled import data_folder
 from ninja_game.formats.load import load_replays
@@ -17,7 +18,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.journal import FOLDER, recovered
-from ninja_game.tas_editor.commands import TABLE
+from ninja_game.tas_editor.commands import TABLE, RunCommands
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen
 from ninja_game.tas_editor.opening import open_tas_editor
 from ninja_game.tas_editor.screen import TasScreen
@@ -333,3 +334,28 @@ def test_edit_of_a_file_goes_back_into_it(tmp_path: Path) -> None:
             screen = app.top
             assert isinstance(screen, TasScreen)
             assert screen.session.file.path == (None if changed else path)
+
+
+def test_a_film_is_made_from_the_menu(at: TasDriver) -> None:
+    at.choose_in_menu("Film")
+    viewer = at.top()
+    assert isinstance(viewer, ReplayScreen)
+    assert viewer.export is not None
+    viewer.export.cancel()
+
+
+def test_somebody_without_a_name_is_asked_once(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(RunCommands, "_asks_name", True)
+    at.chord("s", CTRL)
+    assert isinstance(at.top(), FormPanel)
+    at.press("escape")
+    at.chord("s", CTRL)
+    assert at.app.notice.startswith("Saved")
+
+
+def test_a_notice_lies_over_the_floor_of_the_level(at: TasDriver) -> None:
+    """Neither the status nor a tab is covered."""
+    level = at.screen.theme.canvas.rect(*at.screen.level.area)
+    for text in ("one line", "many words " * 15):
+        at.app.notify(text)
+        assert level.inflate(2, 2).contains(at.app._draw_notice(at.screen.theme)), text

@@ -22,11 +22,12 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.menu_screen import FormPanel
 from ninja_game.play.replay.screen import SPEEDS, ReplayScreen
+from ninja_game.runs.compare import AHEAD
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, Demo, with_press_bits
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.timeline import Timeline, apart_text
 from ninja_game.tas.tracks import InputTrack
-from ninja_game.tas_editor.level.other_runs import AHEAD, OtherRunScreen, RunFiles
+from ninja_game.tas_editor.level.other_runs import OtherRunScreen, RunFiles
 from ninja_game.tas_editor.level.part import nearest_tick, object_at
 from ninja_game.tas_editor.level.paths import shown_span
 from ninja_game.tas_editor.screen import TasScreen

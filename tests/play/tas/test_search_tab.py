@@ -211,16 +211,16 @@ def test_pieces_of_a_span_in_which_nothing_better_is_found_are_searched_by_a_cli
     assert all(found.missed_by for found in tab.better)
     reached = {"gold-taken", "exit-opened"}
     splits = [tick for tick, names in at.session.timeline.event_ticks if reached & {*names.split()}]
-    *legs, whole = tab.pieces
+    whole, *legs = tab.pieces
     assert {piece.last - 1 for piece in legs} <= {*splits, end}
     assert [piece.first for piece in legs] == [0, *(piece.last for piece in legs[:-1])]
     assert all(piece.last - piece.first >= 10 for piece in legs)
     assert (whole.name, whole.wanted.method) == ("Whole run", IMPROVE)
     assert (legs[-1].name, legs[-1].wanted.goal) == ("To exit", "won")
     proposed = tab.pieces
-    row(at, tab, len(tab.better))
-    assert tab.span == (0, proposed[0].last)
-    assert (tab.goal.text, tab.rest) == (proposed[0].wanted.goal, True)
+    row(at, tab, len(tab.better) + 1)
+    assert tab.span == (0, proposed[1].last)
+    assert (tab.goal.text, tab.rest) == (proposed[1].wanted.goal, True)
     assert results_of(tab).running
     at.frames(2)
     assert tab.pieces == proposed, "for the next click"
@@ -244,9 +244,9 @@ def test_the_way_to_the_exit_is_proposed_as_the_whole_run_too(
     wish(at, "Reach the exit sooner")
     at.wait(lambda: bool(tab.pieces), "pieces")
     names = [piece.name for piece in tab.pieces]
-    assert names == ["Whole run"] if dies else names[-2:] == ["To exit", "Whole run"]
+    assert names == ["Whole run"] if dies else (names[0], names[-1]) == ("Whole run", "To exit")
     at.frames()
-    row(at, tab, len(tab.pieces) - 1)
+    row(at, tab, 0)
     assert (tab.method, tab.span) == (IMPROVE, (0, len(at.editor.track) if dies else end + 1))
     assert isinstance(results_of(tab).search, background.RunSearch)
 
@@ -267,15 +267,15 @@ def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
     wish(at, "Same end, sooner")
     at.wait(lambda: bool(tab.pieces), "pieces")
     expected = [(100, 115, "To tick 114"), (115, 130, "To tick 129")]
-    assert [piece[:3] for piece in tab.pieces[1:]] == expected
-    assert all(piece.wanted.rest for piece in tab.pieces[1:])
+    assert [piece[:3] for piece in tab.pieces[2:]] == expected
+    assert all(piece.wanted.rest for piece in tab.pieces[2:])
     assert current_thread() not in threads
     goal = tab.goal.text
     at.frames()
-    row(at, tab, len(tab.better))
+    row(at, tab, len(tab.better) + 1)
     task = results_of(tab).task
     assert (task.first, task.last, task.goal, task.rest) == (100, 130, goal, False)
-    assert tab.pieces[0].name == span_results.WITHOUT_REST
+    assert [piece.name for piece in tab.pieces[:2]] == ["Whole run", span_results.WITHOUT_REST]
 
 
 def test_a_taken_result_leaves_the_cursor_in_its_place_and_undo_too(at: TasDriver, tab: SearchTab) -> None:
@@ -543,7 +543,7 @@ def test_what_is_no_better_than_the_run_is_not_listed(at: TasDriver, tab: Search
     at.choose("Stop")
     at.wait(lambda: not results.running, "the end")
     assert not tab.better
-    assert results.note == "Nothing better than the run's own keys: goal after tick 109."
+    assert results.note == "Nothing better than the run's own keys: goal after tick 109. Try Whole run, in Presets."
 
 
 def test_a_goal_out_of_reach_is_not_reached(at: TasDriver, tab: SearchTab) -> None:
@@ -720,6 +720,26 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     assert results.words(other)[0].endswith(", like Cy")
     assert results.put_into_run(other)
     assert "Cy" in at.session.origin.replay.co_authors
+
+
+def test_a_span_is_searched_along_runs_beside_and_names_their_players_where_they_help(
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fast = at.editor.track
+    at.editor.edit(lambda track: track.replaced(110, 110, bytes(40)))
+    about = at.session.recording(fast, "theirs")
+    at.screen.level.others.open([replace(about, file="theirs.txt", replay=replace(about.replay, author="Cy"))])
+    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
+    wish(at, "Reach the exit sooner")
+    results = results_of(tab)
+    assert results.task.others == (fast.inputs,)
+    path = at.editor.others[0].trajectory.positions[100:110]
+    own = SpanResult(1.0, 10, np.zeros(10, np.uint8), bytes(110), path=path)
+    theirs = replace(own, own_route=False)
+    assert "route" not in results.words(own)[0]
+    assert results.words(theirs)[0].endswith(", like Cy")
+    assert "Cy" in results._contributions(theirs).names
+    assert "Cy" not in results._contributions(own).names
 
 
 def test_escape_ends_the_search_and_then_opens_the_menu(at: TasDriver, tab: SearchTab) -> None:

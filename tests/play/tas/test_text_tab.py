@@ -221,6 +221,45 @@ def test_a_click_selects_the_ticks_of_a_line(at: TasDriver, tab: TextTab) -> Non
     assert at.editor.selection == (5, 8)
 
 
+def test_lines_up_to_a_click_with_shift_are_typed_over_and_deleted(
+    at: TasDriver, tab: TextTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def click(index: int, mods: int = 0) -> None:
+        monkeypatch.setattr(pygame.key, "get_mods", lambda: mods)
+        x, y, _, h = tab.list.row_area(index)
+        at.mouse(x + 60, y + h / 2)
+        monkeypatch.undo()
+        at.frames(2)
+
+    for first, second in ((1, 2), (2, 1)):
+        click(first)
+        click(second, pygame.KMOD_LSHIFT)
+        assert (at.editor.selection, tab.field.text) == ((2, 8), "#hop R*3 RJ*3")
+    click(3, pygame.KMOD_LSHIFT)
+    assert at.editor.selection == (5, 12), "from where it began"
+    click(1, pygame.KMOD_LSHIFT)
+    typed(at, tab, "L*4")
+    assert texts(tab) == ["R*2", "#hop L*4", "#land .*4", ""]
+    assert at.editor.cursor == 6, "the next line"
+    at.press("escape")
+    click(0)
+    click(1, pygame.KMOD_LSHIFT)
+    x, y, _, h = tab.field.area
+    at.mouse(x + 30, y + h / 2)
+    tab.field.edited.select_all()
+    at.press("delete")
+    at.press("return")
+    assert texts(tab) == ["#land .*4", ""]
+
+
+def test_what_was_refused_is_gone_after_escape(at: TasDriver, tab: TextTab) -> None:
+    typed(at, tab, "30,L,X")
+    assert tab.field.text == "30,L,X"
+    at.press("escape")
+    at.frames(2)
+    assert tab.field.text == "R*2"
+
+
 def test_a_jump_that_no_keyboard_makes_is_in_our_notation() -> None:
     odd = InputTrack(bytes([8, 4, 12, 14, 6, 2]))
     starts = starts_of(odd).tolist()
