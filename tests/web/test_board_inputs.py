@@ -208,6 +208,7 @@ BROKEN: dict[str, dict[str, object]] = {
     "no file": {"file": None},
     "a list for a way": {"way": []},
     "a number for whose it nearly is": {"near": 3},
+    "a number for why it waits": {"untrusted": 3},
     "a word for a truth": {"confirmed": "yes"},
 }
 

@@ -133,7 +133,7 @@ class LevelPages:
         parts, digest, named = self.parts, entry.digest, entry.named
         runs = self.ranking.by_level.get(digest, [])
         rows: list[list[Any]] = [
-            [parts.stems[run.key], run.added, run.remark, run.near, run.medal, run.tick] for run in runs
+            [parts.stems[run.key], run.added, run.remark, run.waits, run.medal, run.tick] for run in runs
         ]
         categories = [[category.name, category.rank, category.when] for category in self.ranking.categories]
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
@@ -188,7 +188,7 @@ class LevelPages:
             shown.append(self._left_out("More than twice as slow", [row for ranks in same for row in ranks.far]))
             shown.append(self._left_out("Better, and waiting", [row for ranks in same for row in ranks.waiting]))
             leaders |= {ranks.leaderboard: self._leader(ranks, anchor) for ranks in same}
-        near = any(row.run.near for same in merged.values() for ranks in same for row in (*ranks.rows, *ranks.waiting))
+        near = any(row.run.waits for same in merged.values() for ranks in same for row in (*ranks.rows, *ranks.waiting))
         leads = [(name, name.capitalize()) for name, content in ((RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
         top = tag("ul", *(leaders[part] for part in tables), class_="cards"), on_this_page(leads) if leads else None

@@ -451,9 +451,9 @@ class BoardPages:
         lead = f"None of them is ranked; {kinds}." if kinds else "Every file of the folder is a run that counts."
         near = [
             (level_link(run.entry), parts.player_link(run.player), parts.run_link(run, "", seconds_text(run.tick)),
-             run.gold, parts.watch_link([run], ""), _file(*run.key), run.near,
+             run.gold, parts.watch_link([run], ""), _file(*run.key), run.waits,
              run.day)
-            for run in self.ranking.judged.runs if run.near
+            for run in self.ranking.judged.runs if run.waits
         ]  # fmt: skip
         waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
         movable = any(item.kind == "refused" and item.way for item in rejected)
@@ -461,8 +461,8 @@ class BoardPages:
         heads = ("What", "In file", "Player", "Level", "Why", "The first run", "Date")
         parts.write_table("rejected", "Rejected", "What does not count", heads, rows, *leads)
         if near:
-            names = ("Level", "Player", "Time", "Gold", "Watch", "In file", "Nearly", "Date")
-            about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs that are nearly somebody else's"
+            names = ("Level", "Player", "Time", "Gold", "Watch", "In file", "Why", "Date")
+            about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs without a place"
             parts.write_table("waiting", "Waiting for confirmation", caption, names, near, *about)
 
     def _first_run(self, key: Key | None) -> Content:
