@@ -49,6 +49,13 @@ _LINE = re.compile(r"^(?=[0-9])")
 
 ADVICE = "a key is pressed in the tick in which it goes down, and in no other"
 
+_WORDED = {
+    "body": "the {body} body does not count here",
+    "outcome": "only runs that reach the exit count",
+    "in_time": "it takes longer than the level gives",
+}
+"""By field of STRICT: to the sender of a run that has another value."""
+
 _TYPES = tuple(get_type_hints(Judged).values())
 
 
@@ -308,7 +315,9 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
         result = replace(result, author=f"unknown ({place[-MAX_NAME // 2 :]})")
     no_keyboard = not_strict(result, "possible_by_keyboard")
     mark = _impossible(result, sent) if no_keyboard in result.problems else ""
-    problems = [_worded(problem, result, sent) for problem in result.problems if problem != no_keyboard]
+    body = not_strict(result, "body")  # all else that is wrong follows from it
+    wrong = [body] if body in result.problems else result.problems
+    problems = [_worded(problem, result, sent) for problem in wrong if problem != no_keyboard]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
         other = run_problem("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
         problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
@@ -342,7 +351,8 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
     if problem.code == "other-level" and sent.replay and sent.replay.level_name:
         name, digest = sent.replay.level_name, result.level_digest[:16]
         return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"
-    return str(problem)
+    worded = (words for field, words in _WORDED.items() if problem == not_strict(result, field))
+    return next((words.format(body=result.body) for words in worded), str(problem))
 
 
 def _impossible(result: Verdict, sent: Sent) -> str:

@@ -189,12 +189,11 @@ class Ranking:
                 for ranked in table:
                     standing = players_of[ladder][ranked.run.player]
                     standing.records[category] += ranked.place == 1
-                    if category is self.categories[0]:
+                    if category is self.categories[0] and ranked.place:
                         standing.levels += 1
-                        if ranked.place:
-                            standing.ranks.append(ranked.place)
-                            if not ranked.far:
-                                standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
+                        standing.ranks.append(ranked.place)
+                        if not ranked.far:
+                            standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
                         if ranked.run.medal:
                             standing.medals[ranked.run.medal] += 1
         return {

@@ -113,7 +113,7 @@ class LevelPages:
         for number, (tick, row) in enumerate(zip(ticks, rows, strict=True), 1):
             other = row.ticks[1] if len(row.ticks) > 1 else None
             about = seconds_text(tick), f"{speeds[tick]:.2f}", "" if other is None else signed(tick - other)
-            lines.append((tag("a", number, href=f"#{PLACE}{number}"), row.split.kind, *about))
+            lines.append((tag("a", number, href=f"#{PLACE}{number}"), row.split.name, *about))
         where, splits = None, None
         if lines:
             first = self.parts.shown_name(beside[-1].player)
@@ -275,7 +275,7 @@ class LevelPages:
         ]
         races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
         lines = [
-            (tag("a", number, href=f"#{PLACE}{number}"), row.split.kind, *_cells(row))
+            (tag("a", number, href=f"#{PLACE}{number}"), row.split.name, *_cells(row))
             for number, row in enumerate(rows, 1)
         ]
         fastest, *others = [name for name, *_ in by_time]

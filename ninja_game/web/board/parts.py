@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -71,6 +71,7 @@ class Parts:
         rows: Sequence[Any],
         *before: Content,
         cells: Callable[[Any], tuple[Content, ...]] = tuple,
+        lesser: Collection[str] = LESSER,
     ) -> None:
         """A table on as many pages as it needs. ``rows``: plain values; ``cells`` makes their cells.
 
@@ -91,7 +92,7 @@ class Parts:
 
             def content(part: Sequence[Any] = part, lead: Sequence[Content] = lead, more: Content = more) -> str:
                 rows = map(cells, part)
-                shown = table(caption, heads, rows, LESSER) if heads else cards(caption, (row[0] for row in rows))
+                shown = table(caption, heads, rows, lesser) if heads else cards(caption, (row[0] for row in rows))
                 return page(title, *lead, shown, more, up=up, links=links, current=current)
 
             self.pages.make(file, [title, caption, heads, part, lead, more, links], content)
