@@ -262,8 +262,8 @@ def _marked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Iterato
         yield from runs
         return
     compared = _Compared(runs[0].level, memo)
-    runs = sorted(runs, key=lambda run: run.taken or run.added)
-    for _, moment in groupby(runs, key=lambda run: run.taken or run.added):
+    runs = sorted(runs, key=lambda run: run.moved_in)
+    for _, moment in groupby(runs, key=lambda run: run.moved_in):
         compared.begin_moment()
         for run in moment:
             like = compared.likeness(run)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import defaultdict, deque
+from collections import Counter, defaultdict, deque
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -49,6 +49,13 @@ _LINE = re.compile(r"^(?=[0-9])")
 
 ADVICE = "a key is pressed in the tick in which it goes down, and in no other"
 
+_WORDED = {
+    "body": "the {body} body does not count here",
+    "outcome": "only runs that reach the exit count",
+    "in_time": "it takes longer than the level gives",
+}
+"""By field of STRICT: to the sender of a run that has another value."""
+
 _TYPES = tuple(get_type_hints(Judged).values())
 
 
@@ -72,24 +79,28 @@ def judge(
     memo: Memo | None = None,
     ledger: Ledger = NO_LEDGER,
     decide: Callable[[Sequence[Run], Collection[str]], object] | None = None,
+    confirm: Collection[str] = (),
 ) -> ValidatedRuns:
     """Simulate every run below a folder again, on the board's levels. Raises OSError.
 
     ``dates``, ``taken``: of the board's ``ledger``, as ``added`` and ``taken`` of Run; without it runs go by the names
     of their files. ``memo``: what was found out before, of the same files, levels and rules; it is not simulated again.
-    ``decide``: writes decisions on these runs, of these files, into the ledger.
+    ``decide``: writes decisions on these runs, of these files, into the ledger. ``confirm``: files whose runs wait no
+    longer.
     """
-    memo, owners, players = memo or Memo(), ledger.owners, Players()
+    memo, players = memo or Memo(), Players()
     judging = _Judging(RunFolder(folder, {key: entry.named.level for key, entry in shown.entries.items()}), shown, memo)
     counts, rejected = _parted(judging.run(file, row) for file in judging.files(jobs) for row in file.rows)
     runs = [_dated(run, dates, taken) for run in counts]
     if decide:
         decide(runs, {run.file for run in runs} | {item.file for item in rejected})
+    owners = ledger.owners
     runs, impossible = _parted(_possible(run, ledger) for run in runs)
     runs = sorted(_first_again(runs, owners), key=lambda run: run.order)
     credited, moderated = _parted(run.decided(ledger.decision(run)) for run in _of_players(runs, players))
     unique, copies = without_copies(credited, memo, owners)
-    counted = tuple(_with_row(run, ledger, owners.get((run.level, run.way), {})) for run in unique)
+    unique = [_with_row(run, ledger, owners.get((run.level, run.way), {})) for run in unique]
+    counted = tuple(_of_senders(unique, ledger, confirm))
     named = (_named(item, players) for item in rejected + impossible)
     others = sorted([*named, *moderated, *copies], key=lambda item: (item.file, item.record))
     refused, repeated = (tuple(item for item in others if (item.kind == OWN) is own) for own in (False, True))
@@ -265,6 +276,36 @@ def _with_row(run: Run, ledger: Ledger, owner: Mapping[str, Any]) -> Run:
     return run
 
 
+def _of_senders(runs: Sequence[Run], ledger: Ledger, confirm: Collection[str]) -> Iterator[Run]:
+    """Returns the runs; one from another folder than its player's own is marked, until one from there is confirmed.
+
+    A folder is a player's own if most of its runs are by that player. Runs that the ledger has without a question, or
+    of their player's first moment, keep their places; any other waits.
+    """
+    first: dict[str, str] = {}
+    for run in runs:
+        first[run.player] = min(run.moved_in, first.get(run.player, run.moved_in))
+
+    def asked(run: Run) -> bool:
+        row = ledger.runs.get(run.key, {})
+        return bool(row.get("untrusted")) if row.get("way") == run.way else run.moved_in > first[run.player]
+
+    settled = [run for run in runs if run.confirmed or not asked(run)]
+    sizes = Counter(run.sender for run in settled)
+    numbers = Counter((run.sender, run.player) for run in settled).most_common()
+    homes = {player: sender for (sender, player), number in reversed(numbers) if sender and 2 * number > sizes[sender]}
+    trusted = {(run.sender, run.player) for run in runs if run.confirmed or run.file in confirm}
+    for run in runs:
+        home = homes.get(run.player, run.sender)
+        if run.file in confirm and (run.near or home != run.sender):
+            yield replace(run, near="", confirmed=True)
+        elif home != run.sender and (run.sender, run.player) not in trusted:
+            why = f"the other runs by {run.player} are from {home}/"
+            yield replace(run.marked(why), untrusted=why if asked(run) else "")
+        else:
+            yield run
+
+
 def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     if isinstance(result, Unreadable):
         return Judged(sent.chunk.first, "unreadable", _without_name(result.message, sent.chunk.file))
@@ -274,7 +315,9 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
         result = replace(result, author=f"unknown ({place[-MAX_NAME // 2 :]})")
     no_keyboard = not_strict(result, "possible_by_keyboard")
     mark = _impossible(result, sent) if no_keyboard in result.problems else ""
-    problems = [_worded(problem, result, sent) for problem in result.problems if problem != no_keyboard]
+    body = not_strict(result, "body")  # all else that is wrong follows from it
+    wrong = [body] if body in result.problems else result.problems
+    problems = [_worded(problem, result, sent) for problem in wrong if problem != no_keyboard]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
         other = run_problem("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
         problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
@@ -308,7 +351,8 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
     if problem.code == "other-level" and sent.replay and sent.replay.level_name:
         name, digest = sent.replay.level_name, result.level_digest[:16]
         return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"
-    return str(problem)
+    worded = (words for field, words in _WORDED.items() if problem == not_strict(result, field))
+    return next((words.format(body=result.body) for words in worded), str(problem))
 
 
 def _impossible(result: Verdict, sent: Sent) -> str:

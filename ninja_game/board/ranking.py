@@ -26,7 +26,7 @@ WEEK = timedelta(days=7)
 class Ranked:
     """A run in a table."""
 
-    place: int  #: equal runs share one; a near copy has 0
+    place: int  #: equal runs share one; a run that waits has 0
     run: Run
     values: tuple[float, ...]  #: the numbers that rank it
     behind: float  #: by how much its first number is worse than the first run's
@@ -80,9 +80,9 @@ class Ranking:
     def _table(self, runs: Iterable[Run], category: Category) -> list[Ranked]:
         """The best run of each player, in order; of equal ones the earliest.
 
-        Near copies without confirmation come after all others, and after the player's own runs.
+        Runs that wait come after all others, and after the player's own runs.
         """
-        valued = [(bool(run.near), values, run) for run in runs if (values := self.values(category, run)) is not None]
+        valued = [(bool(run.waits), values, run) for run in runs if (values := self.values(category, run)) is not None]
         best: dict[str, tuple[bool, tuple[float, ...], Run]] = {}
         for row in sorted(valued, key=itemgetter(0, 1)):
             best.setdefault(row[2].player, row)
@@ -111,13 +111,13 @@ class Ranking:
         return of_levels
 
     def waiting(self, level: str, leaderboard: Leaderboard, table: Sequence[Ranked]) -> list[Ranked]:
-        """Near copies without confirmation that are better than their player's run in the table."""
+        """Runs that wait and are better than their player's run in the table."""
         ladder, category = leaderboard
         best = {row.run.player: row for row in table if row.run.ladder == ladder}
         near_copies = []
         for run in self.by_level.get(level, ()):
             values, row = self.values(category, run), best.get(run.player)
-            if run.near and run.ladder == ladder and values and row and values < row.values:
+            if run.waits and run.ladder == ladder and values and row and values < row.values:
                 first = table[0].values[0]
                 near_copies.append(Ranked(0, run, values, values[0] - first, category.far(values[0], first)))
         return near_copies
@@ -164,7 +164,7 @@ class Ranking:
                 values = self.values(category, run)
                 records = by_board[run.level, (run.ladder, category)] if values else []
                 best = self.values(category, records[-1]) if records else None
-                if values and not run.near and (best is None or values < best):
+                if values and not run.waits and (best is None or values < best):
                     records[-1:] = [run] if best and records[-1].added == run.added else [*records[-1:], run]
         return by_board
 
@@ -189,12 +189,11 @@ class Ranking:
                 for ranked in table:
                     standing = players_of[ladder][ranked.run.player]
                     standing.records[category] += ranked.place == 1
-                    if category is self.categories[0]:
+                    if category is self.categories[0] and ranked.place:
                         standing.levels += 1
-                        if ranked.place:
-                            standing.ranks.append(ranked.place)
-                            if not ranked.far:
-                                standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
+                        standing.ranks.append(ranked.place)
+                        if not ranked.far:
+                            standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
                         if ranked.run.medal:
                             standing.medals[ranked.run.medal] += 1
         return {
@@ -205,7 +204,7 @@ class Ranking:
     def episode(self, episode: Episode, leaderboard: Leaderboard) -> list[tuple[str, float, Sequence[Run]]]:
         """The players who passed every level of an episode: player, sum of the best numbers, and the runs, in order."""
         tables = [
-            {row.run.player: row for row in self.tables.get(entry.digest, {}).get(leaderboard, ())}
+            {row.run.player: row for row in self.tables.get(entry.digest, {}).get(leaderboard, ()) if row.place}
             for entry in episode.levels
         ]
         totals = []
@@ -220,7 +219,7 @@ class Ranking:
         ladder, category = leaderboard
         best: dict[str, tuple[str, float, Sequence[Run]]] = {}
         for runs in self.judged.episodes.get(episode.key, ()):
-            values = [of_run[0] for run in runs if (of_run := self.values(category, run))]
+            values = [of_run[0] for run in runs if not run.waits and (of_run := self.values(category, run))]
             player = runs[0].player
             if max(run.ladder != PLAYED for run in runs) == (ladder != PLAYED) and len(values) == len(runs):
                 now = player, sum(values), runs

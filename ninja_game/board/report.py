@@ -47,7 +47,7 @@ _FIELDS: dict[str, dict[str, type]] = {
 }  # fmt: skip
 
 MAX_NAMED = 3  # files that wait, in the last line
-_KEPT = {"near": str, "confirmed": bool, "taken": str}  # what a row may have, and keeps after the run is withdrawn
+_KEPT = {"near": str, "untrusted": str, "confirmed": bool, "taken": str}  # a withdrawn one keeps it
 
 
 def _run_data(run: Run) -> dict[str, Any]:
@@ -144,26 +144,27 @@ def moderate(
     runs: Sequence[Run],
     files: Collection[str],
     *,
-    confirm: Sequence[str],
     decisions: Sequence[tuple[str, str]],
     reason: str,
 ) -> None:
     """Write the keeper's decisions on the runs of ``files`` into a ledger.
 
-    ``confirm``: files of near copies that are in fact none; ``decisions``: files, and one of DECISIONS. Raises
-    ArgumentError for a file without such runs, and for a reason that is too long, or missing where a run is rejected.
+    ``decisions``: files, and one of DECISIONS. Raises ArgumentError for a file without such runs,
+    and for a reason that is too long, or missing where a run is rejected.
     """
     if len(reason) > MAX_REASON or (not reason and any(what == REJECTED for _, what in decisions)):
         raise ArgumentError(f"--reject: say why with --reason, in at most {MAX_REASON} characters")
-    near = [row for row in ledger.runs.values() if row.get("near") and not row.get("confirmed")]
-    for name in confirm:
-        for row in _rows_of(name, near, "--confirm", "that waits"):
-            row["confirmed"] = True
     for name, what in decisions:
         for row in _rows_of(name, _decidable(ledger, runs, files, what), what, "in that file"):
             run = row["level"], row["way"], row["file"], row["player"]
             decision = Decision(*run, what, reason, now.strftime(DATE))
             ledger.decisions[decision.key] = decision
+
+
+def check_confirmed(judged: ValidatedRuns, confirm: Collection[str]) -> None:
+    """Raise ArgumentError for a file to confirm without runs that waited."""
+    for name in {*confirm} - {run.file for run in judged.runs if run.confirmed}:
+        _rows_of(name, [_run_data(run) for run in judged.runs if run.waits], "--confirm", "that waits")
 
 
 def _decidable(ledger: Ledger, runs: Sequence[Run], files: Collection[str], what: str) -> list[dict[str, Any]]:
@@ -230,7 +231,7 @@ def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
     for run in sorted(ranking.judged.runs, key=lambda run: run.key):
         if run.key not in runs:
             yield True, f"new: {_place(run.key)}: {_achieved(ranking, run)}"
-        elif now[run.key] | {"near": ""} != runs[run.key] | {"near": ""}:
+        elif now[run.key] | (waits := {"near": "", "untrusted": ""}) != runs[run.key] | waits:
             yield False, f"changed: {_place(run.key)}: {_achieved(ranking, run)}"
     new = [item for item in ranking.judged.again if (item.file, item.record) not in rejected]
     for (file, player), levels in Counter((item.file, item.player) for item in new).items():
@@ -296,7 +297,7 @@ def counts(judged: ValidatedRuns) -> str:
 def summary(judged: ValidatedRuns) -> str:
     kinds = Counter(item.kind for item in judged.rejected)
     rejected = ", ".join(f"{kinds[kind]} {KINDS[kind][0]}" for kind in sorted(kinds))
-    near = [run.file for run in judged.runs if run.near]
+    near = [run.file for run in judged.runs if run.waits]
     files = [f"--confirm {plain(file)}" for file in dict.fromkeys(near)]
     some = " ".join([*files[:MAX_NAMED], *(["..."] if len(files) > MAX_NAMED else [])])
     waits = f"; {counted(len(near), 'waits', 'wait')} for confirmation: {some}" if near else ""

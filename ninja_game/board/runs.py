@@ -30,8 +30,9 @@ ASSISTED = "assisted"
 """The two ladders; a run of unknown making is on the first one."""
 
 REJECTED = "rejected"
-DECISIONS = (REJECTED, PLAYED, ASSISTED)
-"""The decisions of a board's keeper on a run: it does not count, or it is on the named ladder."""
+DISOWNED = "disowned"
+DECISIONS = (REJECTED, DISOWNED, PLAYED, ASSISTED)
+"""The decisions of a board's keeper on a run: it does not count, it is not by its player, its ladder."""
 
 KINDS = {
     "moderated": ("by the keeper", "Rejected by the keeper", "Rejected by the keeper"),
@@ -98,8 +99,13 @@ class Ledger(NamedTuple):
 
     @property
     def owners(self) -> Rows:
-        """By level and way the row of who did it first; it may have ``near`` and ``confirmed``, as a run has."""
-        return self.withdrawn | {(row["level"], row["way"]): row for row in self.runs.values()}
+        """By level and way the row of who did it first; it may have ``near`` and ``confirmed``, as a run has.
+
+        A run that is not by its player has none: whoever did it may send it.
+        """
+        rows = self.withdrawn | {(row["level"], row["way"]): row for row in self.runs.values()}
+        disowned = {decision.key for decision in self.decisions.values() if decision.what == DISOWNED}
+        return {way: row for way, row in rows.items() if (*way, folded(row["player"])) not in disowned}
 
 
 NO_LEDGER = Ledger({}, {}, {}, {})
@@ -116,8 +122,9 @@ class Run(Judged):
     digest: str = field(repr=False)  #: of its file
     folder: RunFolder = field(repr=False, compare=False)
     marks: tuple[str, ...] = ()  #: remarks for readers
-    near: str = ""  #: the run that it nearly copies, a sentence; until it is confirmed it leads no table
-    confirmed: bool = False  #: by the keeper, as no copy
+    near: str = ""  #: the run that it nearly copies, a sentence
+    untrusted: str = ""  #: where its player's other runs are from, a sentence, if it is from another folder
+    confirmed: bool = False  #: by the keeper, as no copy, and as by its player
     again: bool = False  #: it was withdrawn, and is the first of its moment
     taken: str = ""  #: where ``added`` is that of an older board, when this one took it in
     derived: bool = False  #: near to a run of one of its ``origins``
@@ -125,6 +132,16 @@ class Run(Judged):
     @cached_property
     def key(self) -> Key:
         return self.file, self.record
+
+    @property
+    def waits(self) -> str:
+        """Why it leads no table until the keeper confirms it; "" for a run that does not wait."""
+        return "; ".join(filter(None, (self.near, self.untrusted)))
+
+    @property
+    def sender(self) -> str:
+        """The folder that it was sent in; "" if it lies in none."""
+        return self.file.rpartition("/")[0].partition("/")[0]
 
     @property
     def remark(self) -> str:
@@ -150,6 +167,11 @@ class Run(Judged):
         """The date of ``added`` with the time of day, if that is known."""
         time = self.added[11:16]
         return self.day if time in ("", "00:00") else f"{self.day} {time} UTC"
+
+    @property
+    def moved_in(self) -> str:
+        """When this board took it in."""
+        return self.taken or self.added
 
     @property
     def ladder(self) -> str:
@@ -187,6 +209,8 @@ class Run(Judged):
             return self
         reason = f": {decision.reason}" if decision.reason else ""
         source = f"by the keeper on {decision.added[:10]}{reason}"
+        if decision.what == DISOWNED:
+            return replace(self, player="").rejected("moderated", f"not by {self.player}: rejected {source}")
         if decision.what == REJECTED:
             return self.rejected("moderated", f"rejected {source}")
         marks = *self.marks, f"moved to {decision.what} {source}"

@@ -194,7 +194,7 @@ def _row(ranked: Ranked, category: Category) -> dict[str, Any]:
         "result": category.text(ranked.values[0]), "ticks": run.tick, "gold": run.gold, "score": run.score,
         "presses": run.presses, "jumps": run.jumps, "made": run.made or "unknown", "co_authors": run.co_authors,
         "date": run.day, "file": run.file, "record": run.record, "remark": run.remark, "ladder": run.ladder,
-        "counts": not run.near,
+        "counts": not run.waits,
     }  # fmt: skip
 
 

@@ -68,6 +68,7 @@ def ranking_of(
     jobs: int | None,
     again: bool = False,
     decide: Callable[[Ledger, datetime, Sequence[Run], Collection[str]], None] | None = None,
+    confirm: Collection[str] = (),
     dates: Path | None = None,
     same: bool = True,
 ) -> tuple[Ranking, Ledger]:
@@ -105,7 +106,9 @@ def ranking_of(
     dates_by_file = read_dates(dates, now) if dates else {}
     added, taken = dates_of(before, now, dates_by_file) if ledger else (None, None)
     deciding = partial(decide, before, now) if decide else None
-    judged = judge(folder, shown, dates=added, taken=taken, jobs=jobs, memo=memo, ledger=before, decide=deciding)
+    judged = judge(
+        folder, shown, dates=added, taken=taken, jobs=jobs, memo=memo, ledger=before, decide=deciding, confirm=confirm
+    )
     present = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
     memo.save()
     if unknown := dates_by_file.keys() - present:

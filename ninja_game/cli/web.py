@@ -114,7 +114,7 @@ class _Board(click.Group):
     "--confirm",
     metavar="RUN",
     multiple=True,
-    help="The runs of this file in FOLDER are no copies, although they are nearly somebody else's. Needs --json.",
+    help="The runs of this file in FOLDER are no copies, and by the player whom they name. Needs --json.",
 )
 @click.option(
     "--reject",
@@ -123,13 +123,19 @@ class _Board(click.Group):
     help="The runs of this file in FOLDER do not count. Needs --json and --reason.",
 )
 @click.option(
+    "--disown",
+    metavar="RUN",
+    multiple=True,
+    help="The runs of this file in FOLDER are not by the player whom they name, and do not count. Needs --json.",
+)
+@click.option(
     "--ladder",
     metavar="RUN LADDER",
     multiple=True,
     type=(str, click.Choice(["played", "assisted"])),
     help="Rank the runs of this file in FOLDER as played or as assisted, whatever they say. Needs --json.",
 )
-@click.option("--reason", metavar="TEXT", default="", help="Why, for --reject and --ladder: it stands on the pages.")
+@click.option("--reason", metavar="TEXT", default="", help="Why, for these three: it stands on the pages.")
 @click.option(
     "--dates",
     metavar="FILE.csv",
@@ -142,8 +148,8 @@ class _Board(click.Group):
 @address_option
 def board(
     folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None, confirm: Sequence[str],
-    reject: Sequence[str], ladder: Sequence[tuple[str, str]], reason: str, dates: Path | None, rules: Path | None,
-    again: bool, jobs: int | None, address: str,
+    reject: Sequence[str], disown: Sequence[str], ladder: Sequence[tuple[str, str]], reason: str, dates: Path | None,
+    rules: Path | None, again: bool, jobs: int | None, address: str,
 ) -> int:  # fmt: skip
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
 
@@ -160,30 +166,33 @@ def board(
       ninja-game board replays/ --check board.json
       ninja-game board replays/ --json board.json --confirm ann/00-0.txt
       ninja-game board replays/ --json board.json --reject bob/00-0.txt --reason "spliced"
+      ninja-game board replays/ --json board.json --disown eve/00-0.txt
       ninja-game board replays/ --json board.json --ladder bob/00-1.txt assisted
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
-    from ninja_game.board.report import board_text, changes, gone, moderate, plain, summary, unnamed
+    from ninja_game.board.report import board_text, changes, check_confirmed, gone, moderate, plain, summary, unnamed
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.pages.frame import GAME
 
-    keeps = bool(confirm or reject or ladder or dates)
+    keeps = bool(confirm or reject or disown or ladder or dates)
     if keeps and not data:
-        raise click.UsageError("--confirm, --reject, --ladder, --dates: name the ledger, which notes it, with --json")
+        raise click.UsageError("--confirm, --reject, --disown, --ladder, --dates: name the ledger with --json")
     if site:
         check_site(site, folder)
     if data:
         check_output(data, keep=[folder])
         check_ledger(data, folder)
-    decisions = [*((name, "rejected") for name in reject), *ladder]
-    decide = partial(moderate, confirm=confirm, decisions=decisions, reason=reason.strip())
+    decisions = [*((name, "rejected") for name in reject), *((name, "disowned") for name in disown), *ladder]
+    decide = partial(moderate, decisions=decisions, reason=reason.strip())
     same = keeps or check is not None
     ranking, before = ranking_of(
-        folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, dates=dates, same=same
-    )
+        folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, confirm=confirm, dates=dates,
+        same=same,
+    )  # fmt: skip
     judged = ranking.judged
+    check_confirmed(judged, confirm)
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
         if not (site / GAME).exists():

@@ -48,7 +48,7 @@ def test_a_run_is_rejected_with_its_reason_until_the_line_is_deleted(
     assert "moderated: ann.txt: rejected by the keeper on 20" in output
     assert "rejected: 1 by the keeper" in output
     page = (site / "board" / "rejected.html").read_text("utf-8")
-    assert "<td>Rejected by the keeper</td>" in page
+    assert "<b>Rejected by the keeper</b>" in page
     assert ": spliced &lt;script&gt;" in page
     assert "<script>document" not in page
     assert ">Ann<" not in level_page(site)

@@ -104,7 +104,7 @@ class LevelPages:
         for number, (tick, row) in enumerate(zip(ticks, rows, strict=True), 1):
             other = row.ticks[1] if len(row.ticks) > 1 else None
             about = seconds_text(tick), f"{speeds[tick]:.2f}", "" if other is None else signed(tick - other)
-            lines.append((tag("a", number, href=f"#{PLACE}{number}"), row.split.kind, *about))
+            lines.append((tag("a", number, href=f"#{PLACE}{number}"), row.split.name, *about))
         where, splits = None, None
         if lines:
             first = self.parts.shown_name(beside[-1].player)
@@ -124,7 +124,7 @@ class LevelPages:
         parts, digest, named = self.parts, entry.digest, entry.named
         runs = self.ranking.by_level.get(digest, [])
         rows: list[list[Any]] = [
-            [parts.stems[run.key], run.added, run.remark, run.near, run.medal, run.tick] for run in runs
+            [parts.stems[run.key], run.added, run.remark, run.waits, run.medal, run.tick] for run in runs
         ]
         categories = [[category.name, category.rank, category.when] for category in self.ranking.categories]
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
@@ -179,7 +179,7 @@ class LevelPages:
             shown.append(self._left_out("More than twice as slow", [row for ranks in same for row in ranks.far]))
             shown.append(self._left_out("Better, and waiting", [row for ranks in same for row in ranks.waiting]))
             leaders |= {ranks.leaderboard: self._leader(ranks, anchor) for ranks in same}
-        near = any(row.run.near for same in merged.values() for ranks in same for row in (*ranks.rows, *ranks.waiting))
+        near = any(row.run.waits for same in merged.values() for ranks in same for row in (*ranks.rows, *ranks.waiting))
         leads = [(name, name.capitalize()) for name, content in ((RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
         top = tag("ul", *(leaders[part] for part in tables), class_="cards"), on_this_page(leads) if leads else None
@@ -267,7 +267,7 @@ class LevelPages:
         ]
         races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
         lines = [
-            (tag("a", number, href=f"#{PLACE}{number}"), row.split.kind, *_cells(row))
+            (tag("a", number, href=f"#{PLACE}{number}"), row.split.name, *_cells(row))
             for number, row in enumerate(rows, 1)
         ]
         fastest, *others = [name for name, *_ in by_time]

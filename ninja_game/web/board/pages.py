@@ -193,7 +193,7 @@ class BoardPages:
         if len(records) <= MAX_OF_A_MOMENT:
             for record in records:
                 links = self.parts.watch_link([record.run], ""), self.parts.player_link(record.run.player)
-                lines = tag("div", *(tag("div", line) for line in self._lines(record)), class_="places")
+                lines = stack(*self._lines(record))
                 rows.append((level_link(record.run.entry), *links, lines, moment))
             return rows
         levels, players = ({getattr(record.run, name) for record in records} for name in ("level", "player"))
@@ -373,7 +373,7 @@ class BoardPages:
             time = self.parts.run_link(run, UP, seconds_text(run.tick))
             result = time, self.parts.watch_link([run], UP), medal_mark(run.medal), seconds_text(run.score), gold
             leads = made_text(run), run.day, self.parts.run_link(run, UP)
-            places = tag("div", *(tag("div", place) for place in row[3]), class_="places") if row[3] else ""
+            places = stack(*row[3]) if row[3] else ""
             return (row[1], level_link(run.entry, UP), *result, places, *leads)
 
         rows = [
@@ -381,11 +381,13 @@ class BoardPages:
             for run in sorted(runs, key=lambda run: (order[run.level], run.added, run.key))
         ]
         heads = ("No.", "Level", "Time", "Watch", "Medal", "Score", "Gold", "Places", "Made", "Date", "File")
-        self.parts.write_table(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
+        self.parts.write_table(
+            player_page(player), player, "All runs", heads, rows, *lead, cells=cells, lesser={*LESSER, "Made"}
+        )
 
     def _places(self, run: Run) -> list[str]:
-        """Its place in each category, and its distance from the first."""
-        return [
+        """Its place in each category, and its distance from the first; whether it waits."""
+        return ["waits for confirmation"] * bool(run.waits) + [
             f"{self.ranking.leaderboard_name(part)}: {place}"
             for part, rows, number in self.ranking.places.get(run.key, ())
             if (place := self.parts.place(part[1], rows[number], rows[0]))
@@ -438,37 +440,49 @@ class BoardPages:
         kinds = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title, _) in KINDS.items() if counts[kind])
         rows: list[tuple[Content, ...]] = [
             (
-                KINDS[item.kind][2],
-                _file(item.file, item.record),
-                parts.shown_name(item.player),
-                item.level,
-                item.why,
-                self._first_run(item.first),
-                item.added.partition("T")[0],
+                stack(
+                    tag("b", KINDS[item.kind][2]),
+                    _file(item.file, item.record),
+                    f"{parts.shown_name(item.player)}, {item.level}".strip(", "),
+                    item.added.partition("T")[0],
+                ),
+                tag("div", item.why, " ", self._first_run(item.first), class_="why"),
             )
             for item in sorted(rejected, key=lambda item: order.index(item.kind))
         ]
         lead = f"None of them is ranked; {kinds}." if kinds else "Every file of the folder is a run that counts."
         near = [
-            (level_link(run.entry), parts.player_link(run.player), parts.run_link(run, "", seconds_text(run.tick)),
-             run.gold, parts.watch_link([run], ""), _file(*run.key), run.near,
-             run.day)
-            for run in self.ranking.judged.runs if run.near
-        ]  # fmt: skip
+            (
+                parts.watch_link([run], ""),
+                stack(
+                    _file(*run.key),
+                    joined(parts.player_link(run.player), ", ", level_link(run.entry)),
+                    joined(parts.run_link(run, "", seconds_text(run.tick)), f" with {run.gold} gold"),
+                    run.day,
+                ),
+                tag("div", run.waits, class_="why"),
+            )
+            for run in self.ranking.judged.runs
+            if run.waits
+        ]
         waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
         movable = any(item.kind == "refused" and item.way for item in rejected)
         leads = tag("p", lead), tag("p", waiting) if near else None, tag("p", HOW_TO_MOVE) if movable else None
-        heads = ("What", "In file", "Player", "Level", "Why", "The first run", "Date")
+        heads = "Run", "Why"
         parts.write_table("rejected", "Rejected", "What does not count", heads, rows, *leads)
         if near:
-            names = ("Level", "Player", "Time", "Gold", "Watch", "In file", "Nearly", "Date")
-            about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs that are nearly somebody else's"
+            names = "Watch", "Run", "Why"
+            about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs without a place"
             parts.write_table("waiting", "Waiting for confirmation", caption, names, near, *about)
 
     def _first_run(self, key: Key | None) -> Content:
         """A link to the page of a run that others have copied."""
-        label = f"The run in {key[0]}" if key else ""
-        return tag("a", "Look", href=f"../{REPLAYS}/{self.parts.stems[key]}.html", aria_label=label) if key else ""
+        return tag("a", "The first run", href=f"../{REPLAYS}/{self.parts.stems[key]}.html") if key else ""
+
+
+def stack(*lines: Content) -> Markup:
+    """Lines in one cell of a table, without empty ones."""
+    return tag("div", *(tag("div", line) for line in lines if line), class_="stack")
 
 
 def _file(name: str, record: int) -> Content:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -38,7 +38,10 @@ LINKS = [
     ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), EPISODES,
     ("rejected.html", "Rejected"),
 ]  # fmt: skip
-NEAR = "A run that is nearly somebody else's has no place, until the keeper of the board confirms it. "
+NEAR = (
+    "A run that is nearly somebody else's, or from another folder than the player's own, has no place until the keeper "
+    "of the board confirms it. "
+)
 HOW_TO_CONFIRM = "The keeper confirms one with: ninja-game board FOLDER --json board.json --confirm FILE"
 
 
@@ -68,6 +71,7 @@ class Parts:
         rows: Sequence[Any],
         *before: Content,
         cells: Callable[[Any], tuple[Content, ...]] = tuple,
+        lesser: Collection[str] = LESSER,
     ) -> None:
         """A table on as many pages as it needs. ``rows``: plain values; ``cells`` makes their cells.
 
@@ -88,7 +92,7 @@ class Parts:
 
             def content(part: Sequence[Any] = part, lead: Sequence[Content] = lead, more: Content = more) -> str:
                 rows = map(cells, part)
-                shown = table(caption, heads, rows, LESSER) if heads else cards(caption, (row[0] for row in rows))
+                shown = table(caption, heads, rows, lesser) if heads else cards(caption, (row[0] for row in rows))
                 return page(title, *lead, shown, more, up=up, links=links, current=current)
 
             self.pages.make(file, [title, caption, heads, part, lead, more, links], content)
@@ -137,7 +141,7 @@ class Parts:
         gold, medal = f"{run.gold} of {run.entry.all_gold}", medal_mark(run.medal if timed else "")
         about = made_text(run), gold, run.day, medal, self.run_link(run, UP)
         others = f" with {shown_text(run.co_authors, MAX_NAME)}" if run.co_authors else None
-        summary = tag("summary", "Near copy" if run.near else "Remark")
+        summary = tag("summary", "Waits" if run.waits else "Remark")
         note = tag("details", summary, run.remark, class_="note") if run.remark else None
         player, linked = self.player_link(run.player, UP), self.run_link(run, UP, str(results[0]))
         return joined(mark, player, others, note), linked, *results[1:], self.watch_link([run], UP), *about

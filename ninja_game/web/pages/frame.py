@@ -101,7 +101,7 @@ _FRAME = 0.4  # how much darker than a tile the frame of a page is, on which let
 _ICON_SIZE = 64
 _MAX_HEADING = 30
 _MAX_LINE = 24  # characters of a cell that stay in one line
-_MAX_HEAD = 20  # letters in the first row
+_MAX_HEAD = 14  # letters in the first row
 _NUMBER = re.compile(r"(?:<[^>]*>)*[-+]?\d[\d.,]*(?: of \d+| s)?(?:<[^>]*>)*")
 """A cell with a number, which is aligned to the right for comparison."""
 
