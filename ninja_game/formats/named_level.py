@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Literal
 
 from ninja_game.errors import LevelError, ReplayError
+from ninja_game.files.bundled import bundled_levels
 from ninja_game.files.reading import read_included
-from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
 from ninja_game.formats.lines import numbered_lines

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from ninja_game.errors import DemoError, FileError, LevelError, NinjaGameError, ReplayError
-from ninja_game.files.user_folder import bundled_levels
+from ninja_game.files.bundled import bundled_levels
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_levels, load_replays, parse_level
 from ninja_game.formats.n14.level_file import LevelRecord, write_level_file
