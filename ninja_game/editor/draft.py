@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any, Self
 
 from ninja_game.formats.ascii.places import Cell, is_inside
-from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
+from ninja_game.formats.messages import parse_messages
+from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level, ObjectSpec
 
 Tiles = dict[Cell, int]
 
@@ -24,6 +26,20 @@ class Draft:
     @property
     def objects(self) -> tuple[ObjectSpec, ...]:
         return self.level.objects
+
+    def as_json(self) -> list[object]:
+        return [self.level.tiles, self.objects, self.name, self.author, self.comment, self.teaches, self.says]
+
+    @classmethod
+    def of_json(cls, kept: list[Any]) -> Self:
+        """The inverse of ``as_json``. Raises one of DAMAGED for anything else."""
+        tiles, objects, *texts = kept
+        if len(tiles) != TILES:
+            raise ValueError("a level with too few or too many tiles")
+        specs = (ObjectSpec(int(kind), tuple(map(float, values)), str(text)) for kind, values, text in objects)
+        draft = cls(Level(tuple(map(int, tiles)), tuple(specs)), *map(str, texts))
+        parse_messages(draft.says)
+        return draft
 
     def tile(self, cell: Cell) -> int:
         """The tile of a cell; a full one in the border."""

@@ -140,14 +140,10 @@ class EditorTools:
         """Whether anything is being drawn or dragged."""
         return bool(self._gesture)
 
-    def load(self, draft: Draft, history: History[Draft] | None = None) -> None:
-        """Edit another level, with the first tile and without a symmetry.
-
-        ``history``: of the level when it was last edited.
-        """
+    def load(self, history: History[Draft]) -> None:
+        """Edit another level, with the first tile and without a symmetry."""
         self.finish()
-        self.history, self.selection = history or History(draft), stamps.Selection()
-        self.history.change(draft)
+        self.history, self.selection = history, stamps.Selection()
         self._take_first()
 
     def move(self, x: float, y: float) -> None:

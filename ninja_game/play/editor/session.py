@@ -8,7 +8,6 @@ from functools import partial
 from pathlib import Path
 from time import monotonic
 
-from ninja_game.document import History
 from ninja_game.editor.certify import (
     STARTS,
     Ask,
@@ -24,7 +23,17 @@ from ninja_game.editor.certify import (
     search_of,
 )
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, open_source, save
+from ninja_game.editor.files import (
+    Autosave,
+    RecoveredDraft,
+    Source,
+    draft_of_text,
+    keep_history,
+    kept_history,
+    new_source,
+    open_source,
+    save,
+)
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import NO_FILE, stamp_of
@@ -62,10 +71,6 @@ CHECK_SPACING = 0.1
 
 PICTURE_WIDTH = 1584
 
-_HISTORIES: dict[Path, tuple[str, History[Draft]]] = {}
-"""The undo history of each of the last _LEFT levels that were left, with the digest of its file at that time."""
-_LEFT = 20
-
 Question = tuple[Level, tuple[Finding, ...], str]
 """A level to examine, what the solver has found about it, and its messages."""
 Examined = tuple[Level, list[Finding]]
@@ -102,9 +107,8 @@ class EditorSession:
     def _begin(self, source: Source, draft: RecoveredDraft | None = None) -> None:
         self.autosave = Autosave(self.app.player.folder, draft.file if draft else None)
         self.source = draft.source if draft else source
-        digest, history = _HISTORIES.get(source.path, ("", None)) if source.path and not draft else ("", None)
-        # Discarded changes can be undone too.
-        self.tools.load(draft.draft if draft else source.draft, history if digest == source.digest else None)
+        key = draft.file.stem if draft else source.digest
+        self.tools.load(kept_history(self.app.player.folder, key, (draft or source).draft))
         self.accepted = dict[str, str]()
         with suppress(NinjaGameError, OSError):
             path = self.source.path
@@ -222,7 +226,7 @@ class EditorSession:
             self.certifier.start(self.draft.level)
         if not self.certifier.busy:
             self.certify_file()
-        self.autosave.poll(self.draft, self.source)
+        self.autosave.poll(self.tools.history, self.source)
         if self.autosave.problem:
             self.app.notify(self.autosave.problem)
             self.autosave.problem = ""
@@ -339,11 +343,7 @@ class EditorSession:
     def _leave_search(self) -> None:
         """The level is closed: a search of the level in its file continues in the background, any other one ends."""
         path, level = self.source.path, self.source.draft.level
-        if path:
-            _HISTORIES.pop(path, None)
-            _HISTORIES[path] = self.source.digest, self.tools.history
-            if len(_HISTORIES) > _LEFT:
-                del _HISTORIES[next(iter(_HISTORIES))]
+        keep_history(self.app.player.folder, self.source.digest, self.tools.history)
         if path and self._keeps_runs(path) and self.certifier.busy and not self.certifier.is_stale(level):
             self.certifier.leave(partial(self._keep, path, name=self.source.draft.name or path.stem))
         else:
@@ -367,6 +367,7 @@ class EditorSession:
         self.source = save(self.source, named, path, replacing=replacing)
         # The file has the new name, so undo keeps it.
         self.tools.history.amend(lambda draft: replace(draft, name=named.name))
+        keep_history(self.app.player.folder, self.source.digest, self.tools.history)
 
     def export_picture(self) -> None:
         surface = thumbnail(self.draft.level, self.app.theme.palette, PICTURE_WIDTH)

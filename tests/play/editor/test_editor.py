@@ -12,6 +12,7 @@ import pygame
 import pytest
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.document import History
 from ninja_game.editor import packs
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, object_type_of, placed
 from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Certification, Reach, with_ninja_at
@@ -29,7 +30,6 @@ from ninja_game.play.editor.commands import TABLE, TryScreen
 from ninja_game.play.editor.palette_view import entry_of_key, live_changes
 from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine
 from ninja_game.play.editor.screen import EditorScreen
-from ninja_game.play.editor.session import _HISTORIES, _LEFT
 from ninja_game.play.editor.sheet import sign_mark
 from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.menus.help import HelpPage
@@ -431,7 +431,7 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
 
 def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
     far = ObjectSpec(NINJA, (9000.0, 300.0))
-    room.editor.session.tools.load(put(ROOM, Stamp({}, (far,))))
+    room.editor.session.tools.load(History(put(ROOM, Stamp({}, (far,)))))
     room.press("f5")
     room.frames(4)
     room.press("escape")
@@ -824,15 +824,6 @@ def test_only_keys_that_act_stand_in_the_palette_and_its_part_in_use_is_lit(room
         assert sorted(labels) == sorted([*keys, *"90"] if part == "Tiles" else keys)
         assert re.search(f"text '{part}' .*bold", shown)
         room.press("grave")
-
-
-def test_only_the_newest_levels_that_were_left_keep_their_undo(room: Maker, tmp_path: Path) -> None:
-    session, first = room.editor.session, tmp_path / "0.txt"
-    for number in range(_LEFT + 5):
-        session.save(tmp_path / f"{number}.txt")
-        session.begin(Source(ROOM))
-    assert len(_HISTORIES) == _LEFT
-    assert first not in _HISTORIES
 
 
 def test_a_level_with_a_name_is_saved_without_a_question(room: Maker, tmp_path: Path) -> None:
