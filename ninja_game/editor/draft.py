@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
+from ninja_game.editor.specs import object_type_name, points
+from ninja_game.files.shown_text import counted
 from ninja_game.formats.ascii.places import Cell, is_inside
 from ninja_game.formats.messages import parse_messages
 from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level, ObjectSpec
@@ -55,6 +58,28 @@ class Draft:
 
     def with_objects(self, objects: tuple[ObjectSpec, ...]) -> Draft:
         return replace(self, level=Level(self.level.tiles, objects))
+
+
+def change_text(before: Draft, after: Draft) -> str:
+    """What a change did, in a few words.
+
+    >>> change_text(Draft(Level()), Draft(Level(), "Cave", comment="Dark").with_tiles({(1, 1): 1}))
+    '1 cell; name, comment'
+    """
+    cells = len(changed_cells(before, after))
+    parts = [counted(cells, "cell")] if cells else []
+    old, new = Counter(before.objects), Counter(after.objects)
+    gone, come = list((old - new).elements()), list((new - old).elements())
+    if gone or come:
+        moved = [points(spec) for spec in gone] != [points(spec) for spec in come]
+        verb = ("moved" if moved else "changed") if len(gone) == len(come) else "deleted" if gone else "placed"
+        kinds = {object_type_name(spec) for spec in gone or come}
+        parts.append(f"{verb} {counted(len(gone or come), kinds.pop() if len(kinds) == 1 else 'object')}")
+    elif before.objects != after.objects:
+        parts.append("order of the objects")
+    texts = {"name": "name", "author": "author", "comment": "comment", "teaches": "what it teaches", "says": "messages"}
+    said = [text for key, text in texts.items() if getattr(before, key) != getattr(after, key)]
+    return "; ".join([*parts, *([", ".join(said)] if said else [])])
 
 
 def changed_cells(before: Draft, after: Draft) -> list[Cell]:

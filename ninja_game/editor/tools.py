@@ -94,7 +94,6 @@ class EditorTools:
         self.clipboard: stamps.Stamp | None = None
         self.ghost: stamps.Stamp | None = None  #: what the next press pastes
         self.marquee: tuple[Cell, Cell] | None = None  #: the corners of the frame of a selection
-        self.takes = TAKES[0]
         self._gesture = Gesture.IDLE
         self._copies = False
         self._chosen_before = stamps.Selection()
@@ -103,6 +102,7 @@ class EditorTools:
     def _take_first(self) -> None:
         self.tool, self.symmetry = "brush", "off"  #: one of TOOLS; a name
         self.nearest = True  #: whether doors go to the side of a cell nearest to the pointer, not to their own
+        self.takes = TAKES[0]
         self.objects, self.tile = False, brush.FULL  #: whether the brush draws the spec, not the tile
         self.spec: ObjectSpec = brush.object_of_type("gold")
 

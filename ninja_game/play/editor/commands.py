@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.certify import place_before, with_ninja_at
+from ninja_game.editor.draft import change_text
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
@@ -32,13 +33,14 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, MenuRow, ask_text, nothing
+from ninja_game.play.menus.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, ask_text, nothing
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.ui.audio.music import SILENCE
+from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import following
 
 TABLE = CommandTable(bundled_commands("level-editor.txt"))
@@ -51,8 +53,8 @@ it begins; take the exit, click where it is, then where its switch is. Test play
 look for a run, Save (in File) puts it into the menu Levels.
 The right button erases, the middle one picks; the wheel zooms, then the middle one drags the level. \
 Doors go to the nearest side of a cell, or to the one chosen; then click where the switch is. \
-Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette shows; \
-W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move what is selected."""
+Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette shows, \
++6 is Shift and 6; W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move what is selected."""
 
 
 NAMELESS = "My level"
@@ -96,7 +98,7 @@ class EditorCommands(DocumentCommands):
             "test": self.test, "test_here": lambda: self.test(tools.pointer), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "messages": self.messages,
-            "undo": tools.undo, "redo": tools.redo,
+            "undo": self.undo, "redo": self.redo,
             "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
             "takes": lambda: tools.take(following(TAKES, tools.takes)),
             "choose_all": tools.choose_all, "delete": tools.delete,
@@ -118,8 +120,18 @@ class EditorCommands(DocumentCommands):
             "previous_entry": lambda: self._palette.step(-1),
         }  # fmt: skip
 
-    def choose(self, name: str) -> None:
-        """Do a command; one with several steps shows a list of them."""
+    def undo(self) -> None:
+        before, tools = self.session.draft, self.session.tools
+        if tools.undo() and (text := change_text(tools.draft, before)):
+            self.view.hint = f"Undone: {text}"
+
+    def redo(self) -> None:
+        before, tools = self.session.draft, self.session.tools
+        if tools.redo():
+            self.view.hint = f"Redone: {change_text(before, tools.draft)}"
+
+    def choose(self, name: str, button: Area) -> None:
+        """Do a command; one with several steps shows a list of them below its button."""
         tools, view = self.session.tools, self.view
         steps: dict[str, dict[str, Action]] = {
             "symmetry": {symmetry: partial(self.mirror, symmetry) for symmetry in SYMMETRIES},
@@ -128,9 +140,8 @@ class EditorCommands(DocumentCommands):
         }
         rows: list[MenuRow] = [(label[0].upper() + label[1:], do, "") for label, do in steps.get(name, {}).items()]
         if rows:
-            title = {"symmetry": "Mirror", "grid": "Grid", "snap_next": "Snap"}[name]
             now = {"symmetry": tools.symmetry, "grid": view.grid.name, "snap_next": tools.snap}[name]
-            self.app.push(Menu(self.app, title, [*rows, CANCEL], at=list(steps[name]).index(now)))
+            self.app.push(DropDown(self.app, button, rows, at=list(steps[name]).index(now)))
         else:
             self.run(name)
 

@@ -163,7 +163,10 @@ class MenuScreen(Screen):
         able = [widget for widget in self.widgets if widget.focusable]
         if able:
             place = able.index(self.focus) if self.focus in able else -1
-            self.focus_on(able[(place + step) % len(able)])
+            widget = able[(place + step) % len(able)]
+            if isinstance(widget, TextEntry):
+                widget.edited.select_all()
+            self.focus_on(widget)
 
     def _move(self, dx: int, dy: int) -> None:
         """The focus goes to the nearest widget in a direction.
@@ -402,6 +405,34 @@ class Menu(Panel):
 
     def rows(self) -> list[MenuRow]:
         return self._rows
+
+
+class DropDown(Menu):
+    """A menu below a ``button``, which a click elsewhere closes."""
+
+    veil, row_height = 0, 19
+
+    def __init__(self, app: App, button: Area, rows: Sequence[MenuRow], *, at: int = 0) -> None:
+        super().__init__(app, "", rows, at=at)
+        self._button = button
+
+    @property
+    def _box(self) -> Area:
+        x, y, w, h = self._button
+        return x, y + h + 1, max(w, 110.0), 8 + self.row_height * len(self.rows())
+
+    def build(self) -> Sequence[Widget]:
+        (x, y, w, _), high = self._box, self.row_height
+        return [
+            Button((x + 4, y + 4 + high * k, w - 8, high - 1), text, action, hint=hint, size=9.5)
+            for k, (text, action, hint) in enumerate(self.rows())
+        ]
+
+    def _handle_mouse(self, event: pygame.Event) -> None:
+        if event.type == pygame.MOUSEBUTTONDOWN and not self._at(*self.theme.canvas.logical(event.pos)):
+            self.back()
+        else:
+            super()._handle_mouse(event)
 
 
 def ask_received(app: App, pack: str, copy: Action, change: Action) -> None:

@@ -34,7 +34,7 @@ from ninja_game.play.editor.sheet import sign_mark
 from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.menu_screen import FormPanel, Menu
+from ninja_game.play.menus.menu_screen import DropDown, FormPanel, Menu
 from ninja_game.runs.packs import lint
 from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import verified_run
@@ -292,7 +292,7 @@ def test_the_buttons_of_mirror_grid_and_snap_list_what_there_is(room: Maker, nam
     room.choose(chosen)
     tools, grid = room.editor.session.tools, room.editor.view.grid.name
     assert {"symmetry": tools.symmetry, "grid": grid, "snap_next": tools.snap}[name] == chosen.lower()
-    room.editor.commands.choose(name)
+    room.mouse(*button.centre)
     assert getattr(room.shown(Menu).focus, "text", "") == chosen, "what there is now has the focus"
 
 
@@ -818,12 +818,65 @@ def test_the_sign_of_a_finding_leaves_its_cause_visible(room: Maker) -> None:
 
 
 def test_only_keys_that_act_stand_in_the_palette_and_its_part_in_use_is_lit(room: Maker) -> None:
-    for part, keys in (("Tiles", "12345678"), ("Objects", "1234567890")):
+    for part in ("Tiles", "Objects"):
         shown = drawn(room.app)
-        labels = re.findall(r"text '(\d)' at \S+ size 8 ", shown)
-        assert sorted(labels) == sorted([*keys, *"90"] if part == "Tiles" else keys)
+        labels = re.findall(r"text '(\+?\d)' at \S+ size [78] ", shown)
+        assert sorted(labels) == sorted(["9", "0", *"12345678", *(f"+{key}" for key in "12345678")])
         assert re.search(f"text '{part}' .*bold", shown)
         room.press("grave")
+
+
+def test_shift_and_a_digit_choose_in_the_other_part_of_the_palette(room: Maker) -> None:
+    tools = room.editor.session.tools
+    for key, objects, kind in (("6", True, "zap drone"), ("3", False, ""), ("3", True, "mine")):
+        room.chord(key, pygame.KMOD_LSHIFT)
+        assert tools.objects == objects
+        assert not kind or object_type_of(tools.spec) == kind
+    room.press("4")
+    assert object_type_of(tools.spec) == "floor guard"
+
+
+def test_undo_and_redo_say_what_changed_until_the_next_change(room: Maker) -> None:
+    view = room.editor.view
+    room.editor.session.tools.history.change(replace(room.draft, author="somebody", comment="Dark"))
+    room.drag((300, 300))
+    for key, said in (("z", "Undone: 1 cell"), ("z", "Undone: author, comment"), ("y", "Redone: author, comment")):
+        room.chord(key, pygame.KMOD_LCTRL)
+        assert view.hint == said
+    room.drag((400, 300))
+    assert view.hint == ""
+
+
+def test_select_says_that_it_takes_only_tiles_and_takes_all_in_the_next_level(room: Maker) -> None:
+    room.chord("v", pygame.KMOD_LSHIFT)
+    assert "Takes only tiles: Shift+V" in drawn(room.app)
+    room.editor.session.begin(new_source())
+    assert room.editor.session.tools.takes == "both"
+
+
+def test_all_rows_about_several_drones_have_room_in_their_panel(room: Maker) -> None:
+    tools, drone = room.editor.session.tools, object_of_type("zap drone")
+    tools.history.change(
+        put(room.draft, Stamp({}, tuple(placed(drone, 100.0 + 48 * k, 100.0, "cell") for k in range(3))))
+    )
+    tools.choose_all()
+    room.frames()
+    room.editor.follow_parts()
+    _, y, _, h = LAYOUT.properties
+    widgets = room.editor.properties.widgets
+    assert any(getattr(each, "text", "") == "Kind..." for each in widgets)
+    assert max(each.area[1] + each.area[3] for each in widgets) <= y + h - 7
+
+
+def test_a_click_beside_a_list_below_its_button_closes_it(room: Maker) -> None:
+    button = next(each for each in room.editor.widgets if getattr(each, "name", "") == "symmetry")
+    room.mouse(*button.centre)
+    menu = room.shown(DropDown)
+    assert all(each.area[1] > button.area[1] and abs(each.area[0] - button.area[0]) < 10 for each in menu.widgets)
+    before = room.draft
+    room.mouse(300, 400)
+    assert isinstance(room.top(), EditorScreen)
+    assert (room.draft, room.editor.session.tools.symmetry) == (before, "off")
 
 
 def test_a_level_with_a_name_is_saved_without_a_question(room: Maker, tmp_path: Path) -> None:
