@@ -54,7 +54,8 @@ look for a run, Save (in File) puts it into the menu Levels.
 The right button erases, the middle one picks; the wheel zooms, then the middle one drags the level. \
 Doors go to the nearest side of a cell, or to the one chosen; then click where the switch is. \
 Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette shows, \
-+6 is Shift and 6; W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move what is selected."""
++6 is Shift and 6; W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move \
+what is selected."""
 
 
 NAMELESS = "My level"

@@ -17,8 +17,10 @@ from ninja_game.editor.certify import (
     Reach,
     TestMap,
     Try,
+    drone_round,
     find_reach,
     map_of,
+    round_of,
     route_of,
     search_of,
 )
@@ -38,6 +40,7 @@ from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import NO_FILE, stamp_of
 from ninja_game.files.user_folder import LEVELS
+from ninja_game.formats.ascii.places import is_inside
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel
@@ -55,8 +58,8 @@ from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
-from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.level import Level
+from ninja_game.sim.kinds import DRONE, EXIT
+from ninja_game.sim.level import Level, ObjectSpec, well_formed
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
 
@@ -121,6 +124,8 @@ class EditorSession:
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
         self._known_runs: NewestJob[tuple[Level, Replay], Certification] = NewestJob(lambda known: search_of(*known))
+        self.rounds: NewestJob[Level, PathPoints] = NewestJob(round_of)
+        self._drone: tuple[Level, ObjectSpec | None] | None = None
         self.start = "off"
         self._start_asked: Ask | None = None
         self._tries: dict[Level, tuple[Try, ...]] = {}
@@ -215,8 +220,23 @@ class EditorSession:
                 self._start_asked = ask
                 self._reaches.ask(ask)
 
+    def _follow_drone(self) -> None:
+        """Look for the round of the drone that is selected, or in hand over the level."""
+        tools = self.tools
+        in_hand = tools.objects and not tools.selection and tools.effective_tool not in ("select", "pick")
+        spec = tools.chosen or (tools.placed(*tools.pointer) if in_hand and is_inside(tools.cell) else None)
+        now = self.draft.level, spec if spec and spec.kind == DRONE and well_formed(spec) else None
+        if now != self._drone:
+            self._drone, self.rounds.result = now, None
+            self.rounds.ask(drone_round(self.draft, now[1])) if now[1] else None
+
+    @property
+    def drone_round(self) -> PathPoints:
+        return self.rounds.result or () if self._drone and self._drone[1] else ()
+
     def update(self) -> None:
         self._follow_pointer()
+        self._follow_drone()
         if self.draft.level is not self._tried_level:
             self._show_tries()
         known, self._known_runs.result = self._known_runs.result, None

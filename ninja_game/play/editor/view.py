@@ -388,7 +388,7 @@ class EditorView(Pane):
         state = (
             session.draft.objects, self.lines, self.paths, session.last_try, certifier.search.route, stale,
             session.findings, session.tools.symmetry, session.draft.says, self.tests and session.test_map,
-            session.last_death,
+            session.last_death, session.drone_round,
         )  # fmt: skip
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
             return
@@ -397,6 +397,7 @@ class EditorView(Pane):
         signs = [p for finding in told for p in finding_points(session.examined or session.draft.level, finding)]
         routes: list[tuple[PathPoints, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
+        routes.append((session.drone_round, palette.bad))
         marks = level_marks(
             self.sheet.flat,
             palette,

@@ -40,8 +40,9 @@ from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, obstacle
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.kinds import EXIT, NINJA
+from ninja_game.sim.kinds import DRONE, EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.simulation import Simulation
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Theme
@@ -866,6 +867,28 @@ def test_all_rows_about_several_drones_have_room_in_their_panel(room: Maker) -> 
     widgets = room.editor.properties.widgets
     assert any(getattr(each, "text", "") == "Kind..." for each in widgets)
     assert max(each.area[1] + each.area[3] for each in widgets) <= y + h - 7
+
+
+def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) -> None:
+    session, drone = room.editor.session, object_of_type("zap drone")
+    room.chord("6", pygame.KMOD_LSHIFT)
+    room.mouse(*room.at(300, 540), click=False)
+    room.wait(lambda: session.drone_round, "the round of the drone in hand")
+    run = Simulation(put(room.draft, Stamp({}, (placed(drone, *session.tools.pointer, "cell"),))).level)
+    thing = next(each for each in run.world.objects if each.kind == DRONE)
+    for place in session.drone_round[:300]:
+        run.step_keys(0)
+        assert (thing.x, thing.y) == place
+    room.frames()
+    assert any(isinstance(key, tuple) and key[0] == "route" for key in room.editor.view.sheet.marks)
+    room.press("grave")
+    room.frames()
+    assert not session.drone_round
+    room.drag((300, 540))
+    assert not session.drone_round
+    session.tools.history.change(put(ROOM, Stamp({}, (placed(drone, 300, 540, "cell"),))))
+    session.tools.choose(frozenset({(len(room.draft.objects) - 1, BODY)}))
+    room.wait(lambda: session.drone_round, "the round of the drone that is selected")
 
 
 def test_a_click_beside_a_list_below_its_button_closes_it(room: Maker) -> None:
