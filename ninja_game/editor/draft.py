@@ -75,11 +75,9 @@ def change_text(before: Draft, after: Draft) -> str:
         verb = ("moved" if moved else "changed") if len(gone) == len(come) else "deleted" if gone else "placed"
         kinds = {object_type_name(spec) for spec in gone or come}
         parts.append(f"{verb} {counted(len(gone or come), kinds.pop() if len(kinds) == 1 else 'object')}")
-    elif before.objects != after.objects:
-        parts.append("order of the objects")
-    texts = {"name": "name", "author": "author", "comment": "comment", "teaches": "what it teaches", "says": "messages"}
-    said = [text for key, text in texts.items() if getattr(before, key) != getattr(after, key)]
-    return "; ".join([*parts, *([", ".join(said)] if said else [])])
+    texts = {"teaches": "what it teaches", "says": "messages"}
+    about = [key for key in ("name", "author", "comment", *texts) if getattr(before, key) != getattr(after, key)]
+    return "; ".join([*parts, *([", ".join(texts.get(key, key) for key in about)] if about else [])])
 
 
 def changed_cells(before: Draft, after: Draft) -> list[Cell]:

@@ -8,14 +8,15 @@ from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.certify import place_before, with_ninja_at
-from ninja_game.editor.draft import change_text
-from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
+from ninja_game.editor.draft import Draft, change_text
+from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered, save as save_draft
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
+from ninja_game.editor.stamp import Stamp, put, stamp_of
 from ninja_game.editor.tools import TAKES, TOOLS
 from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import counted, file_stem
-from ninja_game.files.user_folder import LEVELS, free_path
+from ninja_game.files.user_folder import LEVELS, STAMPS, free_path, short_path
 from ninja_game.formats.ascii.places import Cell, Point, cell_of
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.messages import LevelMessage, parse_messages
@@ -65,6 +66,9 @@ IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certi
 
 IN_MORE = ("reach", "tests", "paths", "lines", "list", "slopes", "next_finding")
 
+STAMPS_SHOWN = 12
+"""The most stamps in their menu, the newest."""
+
 _AGAIN = "Esc again opens the File menu, where Leave is too"
 
 _UNDO = "Undo brings back what was here"
@@ -100,7 +104,7 @@ class EditorCommands(DocumentCommands):
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "messages": self.messages,
             "undo": self.undo, "redo": self.redo,
-            "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
+            "stamps": self.stamps, "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
             "takes": lambda: tools.take(following(TAKES, tools.takes)),
             "choose_all": tools.choose_all, "delete": tools.delete,
             "next_tool": lambda: self.run(following(TOOLS, tools.tool)),
@@ -128,8 +132,32 @@ class EditorCommands(DocumentCommands):
 
     def redo(self) -> None:
         before, tools = self.session.draft, self.session.tools
-        if tools.redo():
-            self.view.hint = f"Redone: {change_text(before, tools.draft)}"
+        if tools.redo() and (text := change_text(before, tools.draft)):
+            self.view.hint = f"Redone: {text}"
+
+    def stamps(self) -> None:
+        """Choose a stamp to paste, or keep what is selected, or was copied, as one."""
+        tools = self.session.tools
+        tools.copy()
+        keep = partial(self._keep_stamp, tools.clipboard) if tools.clipboard else None
+        rows: list[MenuRow] = [("Keep as a stamp...", keep, "What is selected; without that, what was copied last")]
+        files = sorted(self._stamps.glob(f"*{SUFFIX}"), key=lambda path: -path.stat().st_mtime)[:STAMPS_SHOWN]
+        rows += [(path.stem, partial(self._load, partial(self._take_stamp, path)), short_path(path)) for path in files]
+        self.app.push(Menu(self.app, "Stamps", [*rows, CANCEL]))
+
+    def _take_stamp(self, path: Path) -> None:
+        self.session.tools.clipboard = stamp_of(open_source(path).draft)
+        self.session.tools.paste()
+
+    def _keep_stamp(self, stamp: Stamp) -> None:
+        def keep(name: str) -> None:
+            path = free_path(self._stamps, file_stem(name.strip(), "stamp"), SUFFIX)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            save_draft(Source(Draft(Level())), put(Draft(Level(), name), stamp), path)
+            self.app.notify(f"Kept as a stamp: {path.stem}")
+
+        prompt, load = "Name of the stamp", self._load
+        ask_text(self.app, "Keep as a stamp", prompt, "", "Keep", lambda name: load(partial(keep, name)), 40)
 
     def choose(self, name: str, button: Area) -> None:
         """Do a command; one with several steps shows a list of them below its button."""
@@ -284,6 +312,10 @@ class EditorCommands(DocumentCommands):
         self.app.push(CommandMenu(self.app, "Level", rows, TABLE, IN_MENU, self.run))
 
     @property
+    def _stamps(self) -> Path:
+        return self.app.player.folder / STAMPS
+
+    @property
     def _levels(self) -> Path:
         return self.app.player.folder / LEVELS
 
@@ -393,7 +425,7 @@ class EditorCommands(DocumentCommands):
         self._load(lambda: self.session.begin(open_source(path)))
 
     def _load(self, action: Action) -> None:
-        """Load something, and show a notice if its file cannot be read."""
+        """Load or keep something, and show a notice if its file cannot be read or written."""
         try:
             action()
         except (NinjaGameError, OSError) as error:

@@ -299,12 +299,16 @@ CANCEL: MenuRow = ("Cancel", nothing, "")
 
 
 class Panel(MenuScreen):
-    """Rows over another screen. ``row_height``: px, with the gap; ``veil``: alpha of the shade over what is below."""
+    """Rows over another screen. ``row_height``: px, with the gap; ``veil``: alpha of the shade over what is below.
+
+    ``head``, ``side``: px above the rows, and beside them; ``size``: of their texts.
+    """
 
     see_through = True
     offers_back = False
     row_height = ROW
     veil = 130
+    head, side, size = 48, 30, 12.0
 
     def __init__(self, app: App, title: str) -> None:
         super().__init__(app)
@@ -329,9 +333,11 @@ class Panel(MenuScreen):
         return (WIDTH - PANEL_WIDTH) / 2, (HEIGHT - height) / 2, PANEL_WIDTH, height
 
     def build(self) -> Sequence[Widget]:
-        (x, y, w, _), high = self._box, self.row_height
+        (x, y, w, _), high, side = self._box, self.row_height, self.side
         return [
-            Button((x + 30, y + 48 + high * k, w - 60, 0.8 * high), text, action, hint=hint, size=12)
+            Button(
+                (x + side, y + self.head + high * k, w - 2 * side, 0.8 * high), text, action, hint=hint, size=self.size
+            )
             for k, (text, action, hint) in enumerate(self.rows())
         ]
 
@@ -410,7 +416,7 @@ class Menu(Panel):
 class DropDown(Menu):
     """A menu below a ``button``, which a click elsewhere closes."""
 
-    veil, row_height = 0, 19
+    veil, row_height, head, side, size = 0, 23, 4, 4, 9.5
 
     def __init__(self, app: App, button: Area, rows: Sequence[MenuRow], *, at: int = 0) -> None:
         super().__init__(app, "", rows, at=at)
@@ -419,14 +425,7 @@ class DropDown(Menu):
     @property
     def _box(self) -> Area:
         x, y, w, h = self._button
-        return x, y + h + 1, max(w, 110.0), 8 + self.row_height * len(self.rows())
-
-    def build(self) -> Sequence[Widget]:
-        (x, y, w, _), high = self._box, self.row_height
-        return [
-            Button((x + 4, y + 4 + high * k, w - 8, high - 1), text, action, hint=hint, size=9.5)
-            for k, (text, action, hint) in enumerate(self.rows())
-        ]
+        return x, y + h + 1, max(w, 110.0), 4 + self.row_height * len(self.rows())
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN and not self._at(*self.theme.canvas.logical(event.pos)):

@@ -19,7 +19,7 @@ from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Certification, Rea
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.specs import BODY, SWITCH, points
-from ninja_game.editor.stamp import Selection, Stamp, chosen_in, put
+from ninja_game.editor.stamp import Selection, Stamp, chosen_in, copied, put
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
@@ -889,6 +889,29 @@ def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) 
     session.tools.history.change(put(ROOM, Stamp({}, (placed(drone, 300, 540, "cell"),))))
     session.tools.choose(frozenset({(len(room.draft.objects) - 1, BODY)}))
     room.wait(lambda: session.drone_round, "the round of the drone that is selected")
+
+
+def test_what_is_selected_is_kept_as_a_stamp_for_every_level(room: Maker, tmp_path: Path) -> None:
+    tools = room.editor.session.tools
+    tools.history.change(room.draft.with_tiles({(5, 5): 1, (7, 6): 2}))
+    room.press("v")
+    room.drag((5 * 24 + 3, 5 * 24 + 3), (8 * 24 - 3, 7 * 24 - 3))
+    before = copied(room.draft, tools.selection)
+    room.mouse(*room.button("Stamps").centre)
+    room.choose("Keep as a stamp...")
+    room.fill("Stairs: 1", "Keep")
+    assert [path.name for path in (tmp_path / "stamps").iterdir()] == ["stairs-1.txt"]
+    room.editor.session.begin(new_source())
+    tools.clipboard = None
+    room.mouse(*room.button("Stamps").centre)
+    room.choose("stairs-1")
+    assert tools.ghost == before
+    (tmp_path / "stamps" / "stairs-1.txt").write_text("no level")
+    room.press("escape")
+    room.mouse(*room.button("Stamps").centre)
+    room.choose("stairs-1")
+    assert room.app.notice
+    assert not tools.ghost
 
 
 def test_a_click_beside_a_list_below_its_button_closes_it(room: Maker) -> None:
