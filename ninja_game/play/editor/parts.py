@@ -307,11 +307,9 @@ class PalettePart(EditorPart):
         super().__init__(view)
         self._palette = palette
         x, y, w, h = self.area
-        buttons = ("list", "List", 38, 34), ("stamps", "Stamps", 84, 44)
-        made = [
-            ToolButton((x + w - at, y + h - 15, wide, 14), name, text, run, view) for name, text, at, wide in buttons
-        ]
-        self.widgets = [palette, *made]
+        listed = ToolButton((x + w - 38, y + h - 15, 34, 14), "list", "List", run, view)
+        stamps = ToolButton((x + w - 52, y + 92, 46, 13), "stamps", "Stamps", run, view)
+        self.widgets = [palette, listed, stamps]
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
@@ -322,7 +320,7 @@ class PalettePart(EditorPart):
         x, y, w, h = self.area
         theme.canvas.fill_rect(surface, theme.palette.panel, x + 2, y, w - 4, h, 3)
         said = self._palette.said
-        theme.text(surface, said, x + 7, y + h - 13, size=8.5, width=w - 94, height=13, bold=True)
+        theme.text(surface, said, x + 7, y + h - 13, size=8.5, width=w - 48, height=13, bold=True)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         used = super().mouse(event, x, y)
