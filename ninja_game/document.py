@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Generic, TypeVar
@@ -87,10 +87,9 @@ def recovered_from(folder: Path, suffix: str, read: Callable[[Path], Found]) -> 
 class History(Generic[Draft]):
     """Undo and redo. ``draft``: the present one. A *stroke*, such as a line of tiles, is undone as one."""
 
-    def __init__(self, draft: Draft) -> None:
+    def __init__(self, draft: Draft, done: Sequence[Draft] = (), undone: Sequence[Draft] = ()) -> None:
         self.draft = draft
-        self._done: list[Draft] = []
-        self._undone: list[Draft] = []
+        self._done, self._undone = [*done], [*undone]
         self._began: Draft | None = None
 
     @property
@@ -100,6 +99,14 @@ class History(Generic[Draft]):
     @property
     def can_redo(self) -> bool:
         return bool(self._undone)
+
+    def steps(self, most: int) -> tuple[list[Draft], list[Draft]]:
+        """The drafts to which undo and redo lead, the next one last, at most so many of each."""
+        began = [] if self._began in (None, self.draft) else [self.began]
+        return [*self._done, *began][-most:], self._undone[-most:]
+
+    def copy(self) -> History[Draft]:
+        return History(self.draft, *self.steps(len(self._done) + len(self._undone) + 1))
 
     @property
     def began(self) -> Draft:

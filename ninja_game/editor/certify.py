@@ -28,8 +28,8 @@ from ninja_game.runtime import NewestJob, install_hint
 from ninja_game.sim.events import LOCK_OPENED
 from ninja_game.sim.grid import Cell, cell_of, is_inside, middle_of
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
-from ninja_game.sim.kinds import MOVING_ENEMIES
-from ninja_game.sim.level import Level, makes_object
+from ninja_game.sim.kinds import DOOR, MOVING_ENEMIES, NINJA
+from ninja_game.sim.level import Level, ObjectSpec, makes_object
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND, TOP_SPEED, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import FALLING, JUMPING, OUTCOME_DEAD
 from ninja_game.simulation import Simulation
@@ -76,6 +76,27 @@ def route_of(level: Level, inputs: bytes) -> PathPoints:
     """The ninja's route to the end of the run or of the inputs; () if it cannot be played, or costs too much."""
     run = _played(level, inputs)
     return tuple(iter_unpack("<2d", run.places)) if run else ()
+
+
+def drone_round(draft: Draft, drone: ObjectSpec) -> Level:
+    """The tiles and doors of a level with one drone, for ``round_of``; the ninja is far away."""
+    doors = (spec for spec in draft.objects if spec.kind == DOOR)
+    return Level(draft.level.tiles, (ObjectSpec(NINJA, (-400.0, -400.0)), drone, *doors))
+
+
+def round_of(level: Level) -> PathPoints:
+    """The places of the drone of a ``drone_round`` until it moves as before, px; at most a minute."""
+    run, places = Simulation(level), dict[tuple[tuple[float, float], tuple[float, float]], None]()
+    drone = run.world.objects[2]
+    now = drone.x, drone.y
+    for _ in range(60 * TICKS_PER_SECOND):
+        before = now
+        run.step_keys(0)
+        now = drone.x, drone.y
+        if (before, now) in places:
+            break
+        places[before, now] = None
+    return tuple(after for _, after in places)
 
 
 def map_of(tries: Iterable[Try]) -> TestMap:

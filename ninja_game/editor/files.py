@@ -14,9 +14,9 @@ from itertools import takewhile
 from operator import eq
 from pathlib import Path
 
-from ninja_game.document import RecoveryFile, check_free, digest_of_file, recovered_from
+from ninja_game.document import History, RecoveryFile, check_free, digest_of_file, recovered_from
 from ninja_game.editor.draft import Draft
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import DAMAGED, LevelError, NinjaGameError
 from ninja_game.files.locking import remove_abandoned
 from ninja_game.files.reading import digest_of, read_bytes, read_utf8
 from ninja_game.files.user_folder import EDITING
@@ -116,45 +116,88 @@ SPACING = 0.4
 """Least seconds between two autosaves."""
 
 
+UNDO = "undo"  # the folder of kept histories, in EDITING
+UNDO_BYTES, LEVELS_WITH_UNDO = 2**21, 50
+"""The size up to which steps of a level are kept, about, and the most levels whose steps are kept."""
+
+
+def _undo_file(folder: Path, key: str) -> Path:
+    return folder / EDITING / UNDO / f"{digest_of(key.encode())}{AUTOSAVE_SUFFIX}"
+
+
+def keep_history(folder: Path, key: str, history: History[Draft]) -> None:
+    """Keep a level's history. ``key``: the digest of its file, wherever that goes, or the name of an autosave."""
+    file = _undo_file(folder, key)
+    if key and (history.can_undo or history.can_redo):
+        steps = history.steps(max(1, min(100, UNDO_BYTES // (2000 + 50 * len(history.draft.objects)))))
+        kept = [[draft.as_json() for draft in drafts] for drafts in ([history.draft], *steps)]
+        with suppress(OSError, NinjaGameError):
+            file.parent.mkdir(parents=True, exist_ok=True)
+            write_atomically(file, json.dumps(kept, separators=(",", ":")))
+            files = sorted(file.parent.glob(f"*{AUTOSAVE_SUFFIX}"), key=lambda path: path.stat().st_mtime_ns)
+            for old in files[:-LEVELS_WITH_UNDO]:
+                old.unlink(missing_ok=True)
+
+
+def kept_history(folder: Path, key: str, draft: Draft) -> History[Draft]:
+    """The history that was kept with this key, with ``draft`` as its present; without a readable one a new history."""
+    with suppress(OSError, *DAMAGED):
+        kept = json.loads(read_utf8(_undo_file(folder, key)))
+        (now,), done, undone = ([Draft.of_json(each) for each in drafts] for drafts in kept)
+        history = History(now, done, undone)
+        # Discarded changes can be undone too.
+        history.change(draft)
+        return history
+    return History(draft)
+
+
 class Autosave(RecoveryFile):
     """Keeps the newest draft of one document, in a thread of its own."""
 
     def __init__(self, folder: Path, file: Path | None = None) -> None:
         super().__init__(folder / EDITING, AUTOSAVE_SUFFIX, file)
-        self._job: NewestJob[tuple[Draft, Source] | None, None] = NewestJob(self._work)
+        self._job: NewestJob[tuple[Source, History[Draft]] | None, None] = NewestJob(self._work)
         self._kept: Draft | None = None
         self._asked_at = 0.0
 
-    def poll(self, draft: Draft, source: Source) -> None:
-        """Save the draft if it has changed and it is time; a draft equal to its file needs no autosave."""
+    def poll(self, history: History[Draft], source: Source) -> None:
+        """Save the draft, with its history, if it has changed and it is time; one equal to its file needs none."""
+        draft = history.draft
         draft_now = None if draft == source.draft else draft
         if draft_now is not self._kept and time.monotonic() - self._asked_at >= SPACING and self._job.idle:
             self._asked_at = time.monotonic()
             self._kept = draft_now
-            self._job.ask((draft, source) if draft_now else None)
+            self._job.ask((source, history.copy()) if draft_now else None)
 
-    def flush(self, draft: Draft, source: Source) -> None:
+    def flush(self, history: History[Draft], source: Source) -> None:
         """Save the draft now, if it has changed, and wait for the disk."""
         self._job.finish()
         self._asked_at = -SPACING
-        self.poll(draft, source)
+        self.poll(history, source)
         self._job.finish()
 
-    def _work(self, job: tuple[Draft, Source] | None) -> None:
+    def _work(self, job: tuple[Source, History[Draft]] | None) -> None:
         if job is None:
-            with suppress(OSError):
-                self.file.unlink(missing_ok=True)
+            self._forget(self.file)
             return
         with self.reporting():
             self.lock()
-            draft, source = job
+            source, history = job
             path = str(source.path.absolute()) if source.path else ""
-            kept = {"path": path, "digest": source.digest, "level": ascii_text(draft)}
+            kept = {"path": path, "digest": source.digest, "level": ascii_text(history.draft)}
             write_atomically(self.file, json.dumps(kept, indent=1))
+            keep_history(self.file.parent.parent, self.file.stem, history)
+
+    def _forget(self, *files: Path) -> None:
+        for file in (*files, _undo_file(self.file.parent.parent, self.file.stem)):
+            with suppress(OSError):
+                file.unlink(missing_ok=True)
 
     def close(self, *, keep: bool = False) -> None:
         """End. ``keep``: keep the autosave for the next editor."""
         self._job.finish()
+        if not keep:
+            self._forget()
         super().close(keep=keep)
 
 

@@ -123,6 +123,14 @@ def copied(draft: Draft, selection: Selection) -> Stamp:
     return Stamp(tiles, tuple(draft.objects[number] for number in sorted(selection.numbers)))
 
 
+def stamp_of(draft: Draft) -> Stamp:
+    """All of a level, from its first to its last column and row with a tile."""
+    parts, tiles = everything(draft).parts, [cell for cell in cells_of((1, 1, COLUMNS, ROWS)) if draft.tile(cell)]
+    columns, rows = zip(*tiles, strict=True) if tiles else ((), ())
+    area = area_between((min(columns), min(rows)), (max(columns), max(rows))) if tiles else None
+    return copied(draft, Selection(area, parts))
+
+
 def removed(draft: Draft, selection: Selection) -> Draft:
     tiles = dict.fromkeys(cells_of(selection.area), 0) if selection.area else {}
     kept = tuple(spec for number, spec in enumerate(draft.objects) if number not in selection.numbers)

@@ -94,7 +94,6 @@ class EditorTools:
         self.clipboard: stamps.Stamp | None = None
         self.ghost: stamps.Stamp | None = None  #: what the next press pastes
         self.marquee: tuple[Cell, Cell] | None = None  #: the corners of the frame of a selection
-        self.takes = TAKES[0]
         self._gesture = Gesture.IDLE
         self._copies = False
         self._chosen_before = stamps.Selection()
@@ -103,6 +102,7 @@ class EditorTools:
     def _take_first(self) -> None:
         self.tool, self.symmetry = "brush", "off"  #: one of TOOLS; a name
         self.nearest = True  #: whether doors go to the side of a cell nearest to the pointer, not to their own
+        self.takes = TAKES[0]
         self.objects, self.tile = False, brush.FULL  #: whether the brush draws the spec, not the tile
         self.spec: ObjectSpec = brush.object_of_type("gold")
 
@@ -140,14 +140,10 @@ class EditorTools:
         """Whether anything is being drawn or dragged."""
         return bool(self._gesture)
 
-    def load(self, draft: Draft, history: History[Draft] | None = None) -> None:
-        """Edit another level, with the first tile and without a symmetry.
-
-        ``history``: of the level when it was last edited.
-        """
+    def load(self, history: History[Draft]) -> None:
+        """Edit another level, with the first tile and without a symmetry."""
         self.finish()
-        self.history, self.selection = history or History(draft), stamps.Selection()
-        self.history.change(draft)
+        self.history, self.selection = history, stamps.Selection()
         self._take_first()
 
     def move(self, x: float, y: float) -> None:

@@ -19,6 +19,7 @@ DAILY = "daily-levels"  # in the folder of levels: the pack of daily levels
 REPLAYS = "replays"
 EXPORTS = "exports"  # files that the game writes on request
 EDITING = "editing"  # levels under edit
+STAMPS = "stamps"  # parts of levels, kept in the level editor
 
 # Files in it.
 SETTINGS = "settings.toml"

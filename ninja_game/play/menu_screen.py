@@ -162,7 +162,10 @@ class MenuScreen(Screen):
         able = [widget for widget in self.widgets if widget.focusable]
         if able:
             place = able.index(self.focus) if self.focus in able else -1
-            self.focus_on(able[(place + step) % len(able)])
+            widget = able[(place + step) % len(able)]
+            if isinstance(widget, TextEntry):
+                widget.edited.select_all()
+            self.focus_on(widget)
 
     def _move(self, dx: int, dy: int) -> None:
         """The focus goes to the nearest widget in a direction.
@@ -295,12 +298,16 @@ CANCEL: MenuRow = ("Cancel", nothing, "")
 
 
 class Panel(MenuScreen):
-    """Rows over another screen. ``row_height``: px, with the gap; ``veil``: alpha of the shade over what is below."""
+    """Rows over another screen. ``row_height``: px, with the gap; ``veil``: alpha of the shade over what is below.
+
+    ``head``, ``side``: px above the rows, and beside them; ``size``: of their texts.
+    """
 
     see_through = True
     offers_back = False
     row_height = ROW
     veil = 130
+    head, side, size = 48, 30, 12.0
 
     def __init__(self, app: App, title: str) -> None:
         super().__init__(app)
@@ -325,9 +332,11 @@ class Panel(MenuScreen):
         return (WIDTH - PANEL_WIDTH) / 2, (HEIGHT - height) / 2, PANEL_WIDTH, height
 
     def build(self) -> Sequence[Widget]:
-        (x, y, w, _), high = self._box, self.row_height
+        (x, y, w, _), high, side = self._box, self.row_height, self.side
         return [
-            Button((x + 30, y + 48 + high * k, w - 60, 0.8 * high), text, action, hint=hint, size=12)
+            Button(
+                (x + side, y + self.head + high * k, w - 2 * side, 0.8 * high), text, action, hint=hint, size=self.size
+            )
             for k, (text, action, hint) in enumerate(self.rows())
         ]
 
@@ -401,6 +410,27 @@ class Menu(Panel):
 
     def rows(self) -> list[MenuRow]:
         return self._rows
+
+
+class DropDown(Menu):
+    """A menu below a ``button``, which a click elsewhere closes."""
+
+    veil, row_height, head, side, size = 0, 23, 4, 4, 9.5
+
+    def __init__(self, app: App, button: Area, rows: Sequence[MenuRow], *, at: int = 0) -> None:
+        super().__init__(app, "", rows, at=at)
+        self._button = button
+
+    @property
+    def _box(self) -> Area:
+        x, y, w, h = self._button
+        return x, y + h + 1, max(w, 110.0), 4 + self.row_height * len(self.rows())
+
+    def _handle_mouse(self, event: pygame.Event) -> None:
+        if event.type == pygame.MOUSEBUTTONDOWN and not self._at(*self.theme.canvas.logical(event.pos)):
+            self.back()
+        else:
+            super()._handle_mouse(event)
 
 
 def ask_received(app: App, pack: str, copy: Action, change: Action) -> None:

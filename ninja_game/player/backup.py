@@ -26,7 +26,7 @@ from ninja_game.files.reading import SUFFIXES, files_in, read_bytes
 from ninja_game.files.shown_text import MAX_SHOWN, name_key, name_problem, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.untrusted import open_zip, unpacked
-from ninja_game.files.user_folder import EDITING, EXPORTS, LEVELS, RECORDS, REPLAYS, SETTINGS, quarantine
+from ninja_game.files.user_folder import EDITING, EXPORTS, LEVELS, RECORDS, REPLAYS, SETTINGS, STAMPS, quarantine
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import parse_replays
@@ -55,6 +55,7 @@ FOLDERS = {
     REPLAYS: (*SUFFIXES, BRANCHES),
     EXPORTS: (*SUFFIXES, ".gif", ".png", ".webm"),
     EDITING: (".json",),
+    STAMPS: SUFFIXES,
 }
 """The files of the player's folder in a backup besides settings and records: only with these suffixes, since systems
 act on some others by themselves, such as a ``desktop.ini``.

@@ -14,10 +14,15 @@ import pytest
 from ninja_game.document import History, OccupiedError, digest_of_file
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import (
+    LEVELS_WITH_UNDO,
+    UNDO,
+    UNDO_BYTES,
     Autosave,
     ascii_text,
     draft_of,
     draft_of_text,
+    keep_history,
+    kept_history,
     new_source,
     open_source,
     reads_as,
@@ -217,9 +222,9 @@ def test_an_autosave_is_found_only_after_its_editor_has_died(tmp_path: Path) -> 
     source = open_source(path)
     draft = source.draft.with_tiles({(9, 9): 1})
     autosave = Autosave(tmp_path)
-    autosave.poll(source.draft, source)
+    autosave.poll(History(source.draft), source)
     assert not (tmp_path / EDITING).exists()
-    autosave.poll(draft, source)
+    autosave.poll(History(draft), source)
     autosave._job.finish()
     assert not autosave.problem
     assert not list(recovered(tmp_path))
@@ -278,7 +283,7 @@ def test_an_autosave_names_its_file_wherever_the_next_editor_starts(
     monkeypatch.chdir(tmp_path)
     source = open_source(Path("cave.txt"))
     autosave = Autosave(tmp_path)
-    autosave.flush(source.draft.with_tiles({(9, 9): 1}), source)
+    autosave.flush(History(source.draft.with_tiles({(9, 9): 1})), source)
     autosave.close(keep=True)
     (tmp_path / "elsewhere").mkdir()
     monkeypatch.chdir(tmp_path / "elsewhere")
@@ -291,13 +296,13 @@ def test_an_autosave_goes_when_the_draft_is_saved_or_left(tmp_path: Path, monkey
     source = new_source()
     draft = source.draft.with_tiles({(9, 9): 1})
     autosave = Autosave(tmp_path)
-    autosave.poll(draft, source)
+    autosave.poll(History(draft), source)
     autosave._job.finish()
     assert list((tmp_path / EDITING).glob("*.json"))
-    autosave.poll(draft, save(source, draft, tmp_path / "a.txt"))
+    autosave.poll(History(draft), save(source, draft, tmp_path / "a.txt"))
     autosave._job.finish()
     assert not list((tmp_path / EDITING).glob("*.json"))
-    autosave.poll(draft.with_tiles({(1, 1): 1}), source)
+    autosave.poll(History(draft.with_tiles({(1, 1): 1})), source)
     autosave.close()
     assert not list((tmp_path / EDITING).iterdir())
 
@@ -310,21 +315,56 @@ def test_a_damaged_autosave_and_a_folder_that_cannot_be_written_stop_nothing(tmp
     blocked = tmp_path / "file"
     blocked.write_text("")
     autosave = Autosave(blocked)
-    autosave.poll(new_source().draft.with_tiles({(9, 9): 1}), new_source())
+    autosave.poll(History(new_source().draft.with_tiles({(9, 9): 1})), new_source())
     autosave._job.finish()
     assert "cannot be kept safe" in autosave.problem
     autosave.close()
 
 
+def test_the_newest_histories_are_kept_by_content_and_damaged_ones_are_new(tmp_path: Path) -> None:
+    drafts = [Draft(Level(), f"{number}") for number in range(4)]
+    history = History(drafts[2], drafts[:2], drafts[3:])
+    for number in range(LEVELS_WITH_UNDO + 5):
+        keep_history(tmp_path, f"{number}", history)
+    files = list((tmp_path / EDITING / UNDO).iterdir())
+    assert len(files) == LEVELS_WITH_UNDO
+    assert not kept_history(tmp_path, "0", drafts[2]).can_undo
+    again = kept_history(tmp_path, "54", drafts[2])
+    assert again.draft == drafts[2]
+    assert again.steps(9) == history.steps(9)
+    texts: list[object] = [
+        None,
+        "",
+        "[" * 99,
+        [[], [], []],
+        [[[[0], [], *"nacts"]], [], []],
+        [[[*Draft(Level(), says="?").as_json()]], [], []],
+    ]
+    for damaged in (text if isinstance(text, str) else json.dumps(text) for text in texts):
+        for file in files:
+            file.write_text(damaged)
+        assert kept_history(tmp_path, "54", drafts[0]).steps(9) == ([], [])
+
+
+def test_the_history_of_a_crowded_level_is_kept_up_to_a_size(tmp_path: Path) -> None:
+    crowd = tuple(ObjectSpec(GOLD, (24.0 * k % 700, 24.0)) for k in range(5000))
+    drafts = [Draft(Level(objects=crowd), f"{number}") for number in range(100)]
+    keep_history(tmp_path, "crowd", History(drafts[-1], drafts[:-1]))
+    (file,) = (tmp_path / EDITING / UNDO).iterdir()
+    assert file.stat().st_size < 2 * UNDO_BYTES
+    assert kept_history(tmp_path, "crowd", drafts[-1]).steps(1) == ([drafts[-2]], [])
+
+
 KILLED = """
 import sys, time
 from pathlib import Path
+from ninja_game.document import History
 from ninja_game.editor.files import Autosave
 from ninja_game.editor.files import new_source
 source = new_source()
 autosave = Autosave(Path(sys.argv[1]))
 for number in range(34 * 34):
-    autosave.poll(source.draft.with_tiles({(1, 1): number // 34, (2, 1): number % 34, (3, 1): 1}), source)
+    autosave.poll(History(source.draft.with_tiles({(1, 1): number // 34, (2, 1): number % 34, (3, 1): 1})), source)
     print(number, flush=True)
     time.sleep(0.05)
 """

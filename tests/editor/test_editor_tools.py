@@ -8,6 +8,7 @@ from unittest.mock import patch
 
 import pytest
 
+from ninja_game.document import History
 from ninja_game.editor import stamp
 from ninja_game.editor.brush import (
     FAMILIES,
@@ -505,7 +506,7 @@ def test_what_is_pasted_can_be_mirrored_and_turned_in_hand(tools: EditorTools) -
 
 
 def test_the_tool_select_drags_a_message_in_one_edit(tools: EditorTools) -> None:
-    tools.load(Draft(Level(), says="start: Go | at 12,5: Jump: here"))
+    tools.load(History(Draft(Level(), says="start: Go | at 12,5: Jump: here")))
     tools.tool = "select"
     drag(tools, (12 * 24 + 3, 5 * 24 + 3), (400, 300), (20 * 24 + 3, 6 * 24 + 3), (2, 2))
     assert tools.draft.says == "start: Go | at 20,6: Jump: here", "the border is no place for it"

@@ -10,6 +10,7 @@ from threading import Event
 import pytest
 
 from ninja_game import runtime
+from ninja_game.document import History
 from ninja_game.editor.certify import Certifier
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_replays
@@ -126,7 +127,7 @@ def test_a_level_that_cannot_be_examined_or_certified_says_why(
     try:
         maker.open("Editor")
         session = maker.editor.session
-        session.tools.load(ROOM)
+        session.tools.load(History(ROOM))
         maker.wait(lambda: maker.app.notice)
         assert maker.app.notice == f"The level could not be examined: {why}"
         maker.press("f7")

@@ -223,7 +223,7 @@ def test_tab_goes_to_the_next_field_and_never_hides_what_is_typed(at: Writer) ->
     assert second is not first
     at.key("tab", SHIFT)
     assert at.field is first
-    assert first.text == "one two-three"
+    assert first.text == first.edited.selected == "one two-three", "typing replaces it"
 
 
 NO_TEXT = {"tab", "escape", "return", "kp_enter", "up", "down", "left", "right", "home", "end", "pageup", "pagedown",

@@ -8,13 +8,15 @@ from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.certify import place_before, with_ninja_at
-from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
+from ninja_game.editor.draft import Draft, change_text
+from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered, save as save_draft
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
+from ninja_game.editor.stamp import Stamp, put, stamp_of
 from ninja_game.editor.tools import TAKES, TOOLS
 from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import counted, file_stem
-from ninja_game.files.user_folder import LEVELS, free_path
+from ninja_game.files.user_folder import LEVELS, STAMPS, free_path, short_path
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.named_level import NamedLevel
@@ -28,7 +30,7 @@ from ninja_game.play.editor.session import UNREACHABLE, EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menu_screen import CANCEL, Action, FormPanel, Menu, MenuRow, ask_text, nothing
+from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, ask_text, nothing
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
@@ -39,6 +41,7 @@ from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.ui.audio.music import SILENCE
+from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import following
 
 TABLE = CommandTable(bundled_commands("level-editor.txt"))
@@ -51,8 +54,9 @@ it begins; take the exit, click where it is, then where its switch is. Test play
 look for a run, Save (in File) puts it into the menu Levels.
 The right button erases, the middle one picks; the wheel zooms, then the middle one drags the level. \
 Doors go to the nearest side of a cell, or to the one chosen; then click where the switch is. \
-Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette shows; \
-W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move what is selected."""
+Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette shows, \
++6 is Shift and 6; W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move \
+what is selected."""
 
 
 NAMELESS = "My level"
@@ -61,6 +65,9 @@ NAMELESS = "My level"
 IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
 
 IN_MORE = ("reach", "tests", "paths", "lines", "list", "slopes", "next_finding")
+
+STAMPS_SHOWN = 12
+"""The most stamps in their menu, the newest."""
 
 _AGAIN = "Esc again opens the File menu, where Leave is too"
 
@@ -96,8 +103,8 @@ class EditorCommands(DocumentCommands):
             "test": self.test, "test_here": lambda: self.test(tools.pointer), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "messages": self.messages,
-            "undo": tools.undo, "redo": tools.redo,
-            "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
+            "undo": self.undo, "redo": self.redo,
+            "stamps": self.stamps, "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
             "takes": lambda: tools.take(following(TAKES, tools.takes)),
             "choose_all": tools.choose_all, "delete": tools.delete,
             "next_tool": lambda: self.run(following(TOOLS, tools.tool)),
@@ -118,8 +125,42 @@ class EditorCommands(DocumentCommands):
             "previous_entry": lambda: self._palette.step(-1),
         }  # fmt: skip
 
-    def choose(self, name: str) -> None:
-        """Do a command; one with several steps shows a list of them."""
+    def undo(self) -> None:
+        before, tools = self.session.draft, self.session.tools
+        if tools.undo() and (text := change_text(tools.draft, before)):
+            self.view.hint = f"Undone: {text}"
+
+    def redo(self) -> None:
+        before, tools = self.session.draft, self.session.tools
+        if tools.redo() and (text := change_text(before, tools.draft)):
+            self.view.hint = f"Redone: {text}"
+
+    def stamps(self) -> None:
+        """Choose a stamp to paste, or keep what is selected, or was copied, as one."""
+        tools = self.session.tools
+        tools.copy()
+        keep = partial(self._keep_stamp, tools.clipboard) if tools.clipboard else None
+        rows: list[MenuRow] = [("Keep as a stamp...", keep, "What is selected; without that, what was copied last")]
+        files = sorted(self._stamps.glob(f"*{SUFFIX}"), key=lambda path: -path.stat().st_mtime)[:STAMPS_SHOWN]
+        rows += [(path.stem, partial(self._load, partial(self._take_stamp, path)), short_path(path)) for path in files]
+        self.app.push(Menu(self.app, "Stamps", [*rows, CANCEL]))
+
+    def _take_stamp(self, path: Path) -> None:
+        self.session.tools.clipboard = stamp_of(open_source(path).draft)
+        self.session.tools.paste()
+
+    def _keep_stamp(self, stamp: Stamp) -> None:
+        def keep(name: str) -> None:
+            path = free_path(self._stamps, file_stem(name.strip(), "stamp"), SUFFIX)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            save_draft(Source(Draft(Level())), put(Draft(Level(), name), stamp), path)
+            self.app.notify(f"Kept as a stamp: {path.stem}")
+
+        prompt, load = "Name of the stamp", self._load
+        ask_text(self.app, "Keep as a stamp", prompt, "", "Keep", lambda name: load(partial(keep, name)), 40)
+
+    def choose(self, name: str, button: Area) -> None:
+        """Do a command; one with several steps shows a list of them below its button."""
         tools, view = self.session.tools, self.view
         steps: dict[str, dict[str, Action]] = {
             "symmetry": {symmetry: partial(self.mirror, symmetry) for symmetry in SYMMETRIES},
@@ -128,9 +169,8 @@ class EditorCommands(DocumentCommands):
         }
         rows: list[MenuRow] = [(label[0].upper() + label[1:], do, "") for label, do in steps.get(name, {}).items()]
         if rows:
-            title = {"symmetry": "Mirror", "grid": "Grid", "snap_next": "Snap"}[name]
             now = {"symmetry": tools.symmetry, "grid": view.grid.name, "snap_next": tools.snap}[name]
-            self.app.push(Menu(self.app, title, [*rows, CANCEL], at=list(steps[name]).index(now)))
+            self.app.push(DropDown(self.app, button, rows, at=list(steps[name]).index(now)))
         else:
             self.run(name)
 
@@ -272,6 +312,10 @@ class EditorCommands(DocumentCommands):
         self.app.push(CommandMenu(self.app, "Level", rows, TABLE, IN_MENU, self.run))
 
     @property
+    def _stamps(self) -> Path:
+        return self.app.player.folder / STAMPS
+
+    @property
     def _levels(self) -> Path:
         return self.app.player.folder / LEVELS
 
@@ -381,7 +425,7 @@ class EditorCommands(DocumentCommands):
         self._load(lambda: self.session.begin(open_source(path)))
 
     def _load(self, action: Action) -> None:
-        """Load something, and show a notice if its file cannot be read."""
+        """Load or keep something, and show a notice if its file cannot be read or written."""
         try:
             action()
         except (NinjaGameError, OSError) as error:

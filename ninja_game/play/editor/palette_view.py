@@ -180,13 +180,15 @@ def live_changes(tools: EditorTools) -> dict[str, dict[str, str | int]]:
 def entry_of_key(tools: EditorTools, key: str, taken: Collection[str]) -> Entry | None:
     """What a key chooses: with tiles a digit chooses a family, a letter a quarter of it; all other keys choose objects.
 
-    E and D choose tiles if they change nothing. ``taken``: the letters that make changes (``live_changes``).
+    With objects a digit chooses one of them; with Shift, it chooses in the other part. E and D choose tiles if they
+    change nothing. ``taken``: the letters that make changes (``live_changes``).
     """
-    if key in taken:
+    shifted, key = key.startswith("shift+"), key.removeprefix("shift+")
+    if key in taken or (shifted and key not in _FAMILY_OF_KEY):
         return None
     if key in ("e", "d"):
         return brush.FULL if key == "e" else brush.EMPTY
-    if tools.about_objects:
+    if tools.about_objects != shifted:
         return _OBJECT_TYPE_OF_KEY.get(key)
     family = next((item for item in brush.FAMILIES if tools.tile in item.tiles), brush.FAMILIES[0])
     place = family.tiles.index(tools.tile) if tools.tile in family.tiles else 0
@@ -208,7 +210,7 @@ class PaletteView(Widget):
         x, y, _, _ = self.area
         areas: list[tuple[Entry, Area]] = []
         for number, tile in enumerate((brush.EMPTY, brush.FULL)):
-            areas.append((tile, (x + 76 + number * (TILE + 14), y + 1, TILE, TILE)))
+            areas.append((tile, (x + 104 + number * (TILE + 14), y + 1, TILE, TILE)))
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             left, top = x + 11 + column * BLOCK, y + 21 + row * BLOCK_ROW
@@ -273,7 +275,8 @@ class PaletteView(Widget):
                 lit_area = x - 3, top - 2, w + 5, high
                 canvas.fill_rect(surface, mixed(palette.panel, palette.accent, 0.2), *lit_area, 3)
                 canvas.frame_rect(surface, palette.accent, *lit_area, 1, 3)
-            theme.text(surface, text if lit else f"{text}: `", x + 1, top + 2, size=10, bold=lit)
+            label, size = (text, 10.0) if lit else (f"{text}: ` or Shift", 9.0)
+            theme.text(surface, label, x + 1, top + 2, size=size, bold=lit)
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW
@@ -295,9 +298,10 @@ class PaletteView(Widget):
                 canvas.frame_rect(surface, palette.accent, *area, 2)
 
     def _draw_key(self, surface: pygame.Surface, theme: Theme, key: str, at: Point, *, live: bool) -> None:
-        """The key of an entry; none while the key means something else."""
-        if live:
-            theme.text(surface, key_label_of(key), *at, size=8, height=KEY, bold=True)
+        """The key of an entry, with + for Shift; none while the key means something else."""
+        if live or key in _FAMILY_OF_KEY:
+            text, left = (key_label_of(key), at[0]) if live else (f"+{key}", at[0] - 2.5)
+            theme.text(surface, text, left, at[1], size=8 if live else 7, height=KEY, bold=True)
 
     def _icon(self, theme: Theme, entry: Entry, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size

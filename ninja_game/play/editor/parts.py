@@ -121,7 +121,8 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         modes, set_slopes = [("slopes: by hand", False), ("slopes: by themselves", True)], view.session.set_slopes
         rows.append(lambda area: Choice(area, "", modes, lambda: tools.slopes, set_slopes, hint=TABLE.hint("slopes")))
     head = Label((x, y, w, 15), title, size=10)
-    made = [make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows)]
+    row = min(ROW, (area[3] - 17) / max(1, len(rows)))
+    made = [make((x, y + 17 + row * k, w, row - 3)) for k, make in enumerate(rows)]
     return [head, *(widget for widgets in made for widget in (widgets if isinstance(widgets, Sequence) else [widgets]))]
 
 
@@ -285,12 +286,12 @@ class Toolbar(EditorPart):
 
     area = LAYOUT.toolbar
 
-    def __init__(self, view: EditorView, run: Callable[[str], object]) -> None:
+    def __init__(self, view: EditorView, run: Callable[[str, Area], object]) -> None:
         super().__init__(view)
         x, buttons = 6.0, []
         for name, text, width, gap in _BUTTONS:
             area = (x, TOP, width, TALL)
-            buttons.append(ToolButton(area, name, text, run, view))
+            buttons.append(ToolButton(area, name, text, partial(lambda at, name: run(name, at), area), view))
             x += width + GAP + gap
         self.widgets = buttons
 
@@ -307,7 +308,9 @@ class PalettePart(EditorPart):
         super().__init__(view)
         self._palette = palette
         x, y, w, h = self.area
-        self.widgets = [palette, ToolButton((x + w - 38, y + h - 15, 34, 14), "list", "List", run, view)]
+        listed = ToolButton((x + w - 38, y + h - 15, 34, 14), "list", "List", run, view)
+        stamps = ToolButton((x + w - 52, y + 92, 46, 13), "stamps", "Stamps", run, view)
+        self.widgets = [palette, listed, stamps]
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
@@ -459,6 +462,8 @@ class StatusLine(EditorPart):
         if texts:
             return f"Double click opens the message, Select drags it: {texts[0]}"
         slopes = "Slopes by themselves. " if tools.sets_slopes else ""
+        if tools.tool == "select" and tools.takes != TAKES[0]:
+            slopes = f"Takes only {tools.takes}: Shift+V. "
         start = self.session.start
         shown = slopes + _TOOL_HINTS[tools.effective_tool] if start == "off" else _REACH.format(start)
         return self.view.hint or (shown if start == "off" or self.session.reach else _NO_REACH)

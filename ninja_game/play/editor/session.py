@@ -8,7 +8,6 @@ from functools import partial
 from pathlib import Path
 from time import monotonic
 
-from ninja_game.document import History
 from ninja_game.editor.certify import (
     STARTS,
     Ask,
@@ -18,17 +17,30 @@ from ninja_game.editor.certify import (
     Reach,
     TestMap,
     Try,
+    drone_round,
     find_reach,
     map_of,
+    round_of,
     route_of,
     search_of,
 )
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, open_source, save
+from ninja_game.editor.files import (
+    Autosave,
+    RecoveredDraft,
+    Source,
+    draft_of_text,
+    keep_history,
+    kept_history,
+    new_source,
+    open_source,
+    save,
+)
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import NO_FILE, stamp_of
 from ninja_game.files.user_folder import LEVELS
+from ninja_game.formats.ascii.places import is_inside
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel
@@ -46,8 +58,8 @@ from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
-from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.level import Level
+from ninja_game.sim.kinds import DRONE, EXIT
+from ninja_game.sim.level import Level, ObjectSpec, well_formed
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
 
@@ -61,10 +73,6 @@ CHECK_SPACING = 0.1
 """Least seconds between two examinations of the level."""
 
 PICTURE_WIDTH = 1584
-
-_HISTORIES: dict[Path, tuple[str, History[Draft]]] = {}
-"""The undo history of each of the last _LEFT levels that were left, with the digest of its file at that time."""
-_LEFT = 20
 
 Question = tuple[Level, tuple[Finding, ...], str]
 """A level to examine, what the solver has found about it, and its messages."""
@@ -97,9 +105,8 @@ class EditorSession:
     def _begin(self, source: Source, draft: RecoveredDraft | None = None) -> None:
         self.autosave = Autosave(self.app.player.folder, draft.file if draft else None)
         self.source = draft.source if draft else source
-        digest, history = _HISTORIES.get(source.path, ("", None)) if source.path and not draft else ("", None)
-        # Discarded changes can be undone too.
-        self.tools.load(draft.draft if draft else source.draft, history if digest == source.digest else None)
+        key = draft.file.stem if draft else source.digest
+        self.tools.load(kept_history(self.app.player.folder, key, (draft or source).draft))
         self.accepted = dict[str, str]()  #: why its pack accepts findings about it, by code
         with suppress(NinjaGameError, OSError):
             path = self.source.path
@@ -112,6 +119,8 @@ class EditorSession:
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
         self._known_runs: NewestJob[tuple[Level, Replay], Certification] = NewestJob(lambda known: search_of(*known))
+        self.rounds: NewestJob[Level, PathPoints] = NewestJob(round_of)
+        self._drone: tuple[Level, ObjectSpec | None] | None = None
         self.start = "off"  #: the ninja's state at the pointer for the search of what it can reach, of STARTS
         self._start_asked: Ask | None = None
         self._tries: dict[Level, tuple[Try, ...]] = {}
@@ -206,8 +215,23 @@ class EditorSession:
                 self._start_asked = ask
                 self._reaches.ask(ask)
 
+    def _follow_drone(self) -> None:
+        """Look for the round of the drone that is selected, or in hand over the level."""
+        tools = self.tools
+        in_hand = tools.objects and not tools.selection and tools.effective_tool not in ("select", "pick")
+        spec = tools.chosen or (tools.placed(*tools.pointer) if in_hand and is_inside(tools.cell) else None)
+        now = self.draft.level, spec if spec and spec.kind == DRONE and well_formed(spec) else None
+        if now != self._drone:
+            self._drone, self.rounds.result = now, None
+            self.rounds.ask(drone_round(self.draft, now[1])) if now[1] else None
+
+    @property
+    def drone_round(self) -> PathPoints:
+        return self.rounds.result or () if self._drone and self._drone[1] else ()
+
     def update(self) -> None:
         self._follow_pointer()
+        self._follow_drone()
         if self.draft.level is not self._tried_level:
             self._show_tries()
         known, self._known_runs.result = self._known_runs.result, None
@@ -217,7 +241,7 @@ class EditorSession:
             self.certifier.start(self.draft.level)
         if not self.certifier.busy:
             self.certify_file()
-        self.autosave.poll(self.draft, self.source)
+        self.autosave.poll(self.tools.history, self.source)
         if self.autosave.problem:
             self.app.notify(self.autosave.problem)
             self.autosave.problem = ""
@@ -334,11 +358,7 @@ class EditorSession:
     def _leave_search(self) -> None:
         """The level is closed: a search of the level in its file continues in the background, any other one ends."""
         path, level = self.source.path, self.source.draft.level
-        if path:
-            _HISTORIES.pop(path, None)
-            _HISTORIES[path] = self.source.digest, self.tools.history
-            if len(_HISTORIES) > _LEFT:
-                del _HISTORIES[next(iter(_HISTORIES))]
+        keep_history(self.app.player.folder, self.source.digest, self.tools.history)
         if path and self._keeps_runs(path) and self.certifier.busy and not self.certifier.is_stale(level):
             self.certifier.leave(partial(self._keep, path, name=self.source.draft.name or path.stem))
         else:
@@ -362,6 +382,7 @@ class EditorSession:
         self.source = save(self.source, named, path, replacing=replacing)
         # The file has the new name, so undo keeps it.
         self.tools.history.amend(lambda draft: replace(draft, name=named.name))
+        keep_history(self.app.player.folder, self.source.digest, self.tools.history)
 
     def export_picture(self) -> None:
         surface = thumbnail(self.draft.level, self.app.theme.palette, PICTURE_WIDTH)

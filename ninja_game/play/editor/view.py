@@ -207,7 +207,7 @@ class EditorView(Pane):
         self.app = app
         self.session = session
         self.hovering = self.by_keys = False  #: the pointer is shown; keys or a pad have moved it last
-        self.hint = ""  #: for the line below
+        self._hint = session.draft, ""
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
         self.listing = self.tests = False  #: the list of objects is shown, not the palette; the map of tests is shown
@@ -222,6 +222,16 @@ class EditorView(Pane):
         self._laid_out: tuple[object, ...] = ()
         self.sheet: LevelSheet
         self._lay_out()
+
+    @property
+    def hint(self) -> str:
+        """For the line below; it is about the level as it was then."""
+        about, text = self._hint
+        return text if about is self.session.draft else ""
+
+    @hint.setter
+    def hint(self, text: str) -> None:
+        self._hint = self.session.draft, text
 
     def _layout_key(self) -> tuple[object, ...]:
         return self.app.canvas, self.app.theme.palette.name, *self.camera.render_key
@@ -378,7 +388,7 @@ class EditorView(Pane):
         state = (
             session.draft.objects, self.lines, self.paths, session.last_try, certifier.search.route, stale,
             session.findings, session.tools.symmetry, session.draft.says, self.tests and session.test_map,
-            session.last_death,
+            session.last_death, session.drone_round,
         )  # fmt: skip
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
             return
@@ -389,6 +399,7 @@ class EditorView(Pane):
         ]
         routes: list[tuple[PathPoints, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
+        routes.append((session.drone_round, palette.bad))
         marks = level_marks(
             self.sheet.flat,
             palette,

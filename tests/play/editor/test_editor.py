@@ -12,13 +12,14 @@ import pygame
 import pytest
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.document import History
 from ninja_game.editor import packs
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, object_type_of, placed
 from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Certification, Reach, with_ninja_at
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.specs import BODY, SWITCH, points
-from ninja_game.editor.stamp import Selection, Stamp, chosen_in, put
+from ninja_game.editor.stamp import Selection, Stamp, chosen_in, copied, put
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
@@ -29,10 +30,9 @@ from ninja_game.play.editor.commands import TABLE, TryScreen
 from ninja_game.play.editor.palette_view import entry_of_key, live_changes
 from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine
 from ninja_game.play.editor.screen import EditorScreen
-from ninja_game.play.editor.session import _HISTORIES, _LEFT
 from ninja_game.play.editor.sheet import sign_mark
 from ninja_game.play.editor.view import LAYOUT
-from ninja_game.play.menu_screen import FormPanel, Menu
+from ninja_game.play.menu_screen import DropDown, FormPanel, Menu
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.runs.packs import lint
@@ -40,8 +40,9 @@ from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, obstacle
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.kinds import EXIT, NINJA
+from ninja_game.sim.kinds import DRONE, EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.simulation import Simulation
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Theme
@@ -292,7 +293,7 @@ def test_the_buttons_of_mirror_grid_and_snap_list_what_there_is(room: Maker, nam
     room.choose(chosen)
     tools, grid = room.editor.session.tools, room.editor.view.grid.name
     assert {"symmetry": tools.symmetry, "grid": grid, "snap_next": tools.snap}[name] == chosen.lower()
-    room.editor.commands.choose(name)
+    room.mouse(*button.centre)
     assert getattr(room.shown(Menu).focus, "text", "") == chosen, "what there is now has the focus"
 
 
@@ -431,7 +432,7 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
 
 def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
     far = ObjectSpec(NINJA, (9000.0, 300.0))
-    room.editor.session.tools.load(put(ROOM, Stamp({}, (far,))))
+    room.editor.session.tools.load(History(put(ROOM, Stamp({}, (far,)))))
     room.press("f5")
     room.frames(4)
     room.press("escape")
@@ -818,21 +819,110 @@ def test_the_sign_of_a_finding_leaves_its_cause_visible(room: Maker) -> None:
 
 
 def test_only_keys_that_act_stand_in_the_palette_and_its_part_in_use_is_lit(room: Maker) -> None:
-    for part, keys in (("Tiles", "12345678"), ("Objects", "1234567890")):
+    for part in ("Tiles", "Objects"):
         shown = drawn(room.app)
-        labels = re.findall(r"text '(\d)' at \S+ size 8 ", shown)
-        assert sorted(labels) == sorted([*keys, *"90"] if part == "Tiles" else keys)
+        labels = re.findall(r"text '(\+?\d)' at \S+ size [78] ", shown)
+        assert sorted(labels) == sorted(["9", "0", *"12345678", *(f"+{key}" for key in "12345678")])
         assert re.search(f"text '{part}' .*bold", shown)
         room.press("grave")
 
 
-def test_only_the_newest_levels_that_were_left_keep_their_undo(room: Maker, tmp_path: Path) -> None:
-    session, first = room.editor.session, tmp_path / "0.txt"
-    for number in range(_LEFT + 5):
-        session.save(tmp_path / f"{number}.txt")
-        session.begin(Source(ROOM))
-    assert len(_HISTORIES) == _LEFT
-    assert first not in _HISTORIES
+def test_shift_and_a_digit_choose_in_the_other_part_of_the_palette(room: Maker) -> None:
+    tools = room.editor.session.tools
+    for key, objects, kind in (("6", True, "zap drone"), ("3", False, ""), ("3", True, "mine")):
+        room.chord(key, pygame.KMOD_LSHIFT)
+        assert tools.objects == objects
+        assert not kind or object_type_of(tools.spec) == kind
+    room.press("4")
+    assert object_type_of(tools.spec) == "floor guard"
+
+
+def test_undo_and_redo_say_what_changed_until_the_next_change(room: Maker) -> None:
+    view = room.editor.view
+    room.editor.session.tools.history.change(replace(room.draft, author="somebody", comment="Dark"))
+    room.drag((300, 300))
+    for key, said in (("z", "Undone: 1 cell"), ("z", "Undone: author, comment"), ("y", "Redone: author, comment")):
+        room.chord(key, pygame.KMOD_LCTRL)
+        assert view.hint == said
+    room.drag((400, 300))
+    assert view.hint == ""
+
+
+def test_select_says_that_it_takes_only_tiles_and_takes_all_in_the_next_level(room: Maker) -> None:
+    room.chord("v", pygame.KMOD_LSHIFT)
+    assert "Takes only tiles: Shift+V" in drawn(room.app)
+    room.editor.session.begin(new_source())
+    assert room.editor.session.tools.takes == "both"
+
+
+def test_all_rows_about_several_drones_have_room_in_their_panel(room: Maker) -> None:
+    tools, drone = room.editor.session.tools, object_of_type("zap drone")
+    tools.history.change(
+        put(room.draft, Stamp({}, tuple(placed(drone, 100.0 + 48 * k, 100.0, "cell") for k in range(3))))
+    )
+    tools.choose_all()
+    room.frames()
+    room.editor.follow_parts()
+    _, y, _, h = LAYOUT.properties
+    widgets = room.editor.properties.widgets
+    assert any(getattr(each, "text", "") == "Kind..." for each in widgets)
+    assert max(each.area[1] + each.area[3] for each in widgets) <= y + h - 7
+
+
+def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) -> None:
+    session, drone = room.editor.session, object_of_type("zap drone")
+    room.chord("6", pygame.KMOD_LSHIFT)
+    room.mouse(*room.at(300, 540), click=False)
+    room.wait(lambda: session.drone_round, "the round of the drone in hand")
+    run = Simulation(put(room.draft, Stamp({}, (placed(drone, *session.tools.pointer, "cell"),))).level)
+    thing = next(each for each in run.world.objects if each.kind == DRONE)
+    for place in session.drone_round[:300]:
+        run.step_keys(0)
+        assert (thing.x, thing.y) == place
+    room.frames()
+    assert any(isinstance(key, tuple) and key[0] == "route" for key in room.editor.view.sheet.marks)
+    room.press("grave")
+    room.frames()
+    assert not session.drone_round
+    room.drag((300, 540))
+    assert not session.drone_round
+    session.tools.history.change(put(ROOM, Stamp({}, (placed(drone, 300, 540, "cell"),))))
+    session.tools.choose(frozenset({(len(room.draft.objects) - 1, BODY)}))
+    room.wait(lambda: session.drone_round, "the round of the drone that is selected")
+
+
+def test_what_is_selected_is_kept_as_a_stamp_for_every_level(room: Maker, tmp_path: Path) -> None:
+    tools = room.editor.session.tools
+    tools.history.change(room.draft.with_tiles({(5, 5): 1, (7, 6): 2}))
+    room.press("v")
+    room.drag((5 * 24 + 3, 5 * 24 + 3), (8 * 24 - 3, 7 * 24 - 3))
+    before = copied(room.draft, tools.selection)
+    room.mouse(*room.button("Stamps").centre)
+    room.choose("Keep as a stamp...")
+    room.fill("Stairs: 1", "Keep")
+    assert [path.name for path in (tmp_path / "stamps").iterdir()] == ["stairs-1.txt"]
+    room.editor.session.begin(new_source())
+    tools.clipboard = None
+    room.mouse(*room.button("Stamps").centre)
+    room.choose("stairs-1")
+    assert tools.ghost == before
+    (tmp_path / "stamps" / "stairs-1.txt").write_text("no level")
+    room.press("escape")
+    room.mouse(*room.button("Stamps").centre)
+    room.choose("stairs-1")
+    assert room.app.notice
+    assert not tools.ghost
+
+
+def test_a_click_beside_a_list_below_its_button_closes_it(room: Maker) -> None:
+    button = next(each for each in room.editor.widgets if getattr(each, "name", "") == "symmetry")
+    room.mouse(*button.centre)
+    menu = room.shown(DropDown)
+    assert all(each.area[1] > button.area[1] and abs(each.area[0] - button.area[0]) < 10 for each in menu.widgets)
+    before = room.draft
+    room.mouse(300, 400)
+    assert isinstance(room.top(), EditorScreen)
+    assert (room.draft, room.editor.session.tools.symmetry) == (before, "off")
 
 
 def test_a_level_with_a_name_is_saved_without_a_question(room: Maker, tmp_path: Path) -> None:

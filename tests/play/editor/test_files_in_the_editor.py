@@ -15,7 +15,7 @@ import pygame
 import pytest
 
 from ninja_game.cli.main import cli
-from ninja_game.editor.files import Autosave, Source, ascii_text, new_source, open_source, recovered
+from ninja_game.editor.files import Autosave, Source, ascii_text, kept_history, new_source, open_source, recovered
 from ninja_game.files.bundled import CHECKOUT, bundled_levels
 from ninja_game.files.user_folder import EDITING
 from ninja_game.formats.load import load_levels
@@ -63,10 +63,11 @@ def test_a_level_of_the_browser_is_edited_and_played_as_it_is_then(room: Maker) 
     assert browser.entries[0].named.level.tile(12, 12) == 1
 
 
-def test_a_level_that_is_opened_again_can_be_undone_as_before(room: Maker) -> None:
+def test_a_level_that_is_opened_again_can_be_undone_as_before(room: Maker, tmp_path: Path) -> None:
     room.drag((300, 300))
     drawn = room.draft
     room.chord("s", pygame.KMOD_LCTRL)
+    assert kept_history(tmp_path, room.editor.session.source.digest, drawn).steps(9) == ([ROOM], []), "at once"
     path = room.editor.session.source.path
     assert path
     room.drag((400, 300))
@@ -74,6 +75,7 @@ def test_a_level_that_is_opened_again_can_be_undone_as_before(room: Maker) -> No
     room.choose_in_menu("Leave the editor")
     room.choose("Discard changes")
     room.open("Editor")
+    path = path.rename(tmp_path / "elsewhere.txt")
     room.editor.commands.open_file(path)
     assert room.draft == drawn
     for before in (lost, drawn, ROOM, ROOM):
@@ -258,6 +260,10 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
     room.choose("Recover")
     assert room.draft == lost
     assert not room.editor.session.is_saved
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert room.draft == ROOM
+    room.chord("y", pygame.KMOD_LCTRL)
+    assert room.draft == lost
     room.chord("s", pygame.KMOD_LCTRL)
     room.wait(lambda: not list((tmp_path / EDITING).glob("*.json")), "end of the autosave")
 
