@@ -249,7 +249,7 @@ class MessagesScreen(MenuScreen):
         if message.when in _DETAILS:
             hint, detail = _DETAILS[message.when], partial(setattr, message, "detail")
             about.append(TextEntry((155, y, 66, 28), hint, message.detail, detail, longest=6, hint=hint))
-        usual = f"{shown_ticks(message.when, len(self._together(message))) // TICKS_PER_SECOND} s"
+        usual = f"{shown_ticks(message.when, len(self._together(message)), message.text) // TICKS_PER_SECOND} s"
         put_time = partial(setattr, message, "time")
         about.append(TextEntry((224, y, 48, 28), usual, message.time, put_time, longest=2, hint=_TIME_HINT))
         remove = Button((275, y, 55, 28), "Remove", lambda: self._remove(message), size=10)

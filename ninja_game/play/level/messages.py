@@ -14,7 +14,6 @@ from ninja_game.sim.states import SLIDING
 
 SHOWN_TICKS = 240  # for which a text is shown after its event
 START_TICKS = 480  # the same in play for a single text of the start or the switch
-READ_TICKS = 120  # after which a text counts as read
 FADE_TICKS = 20  # in which a text near a place fades at its end
 
 STILL = 0.05
@@ -58,8 +57,9 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 class MessageQueue:
     """The texts of one level. Each event's text is shown once; those of the start at each start until the exit is open.
 
-    Texts of one moment follow each other; a new event's text comes first, and then what it interrupted, if that belongs
-    to the start or nobody can have read it. ``text``: the present text or "", ``place``: its place, px; it ends when
+    Texts of one moment follow each other. A new one interrupts those of the start, which go on afterwards; any other
+    stays for its ``read_ticks``, and what happens meanwhile waits in order. A place and a time are waited for by their
+    own condition: one that the ninja has left by then comes at its next visit. ``text``: the present text or "", ``place``: its place, px; it ends when
     the ninja is far from there. ``helps``: the game gives advice too: to try again, to climb. ``named``: the things
     with a name and an arrow (``arrow_targets``).
     """
@@ -73,10 +73,13 @@ class MessageQueue:
         self._deaths = self._slips = 0
         self._climb, self._foot = "", 0.0
         self._began = 0.0, 0.0
+        self._next: list[_Text] = []
         self.at_start()
 
     def at_start(self) -> None:
-        """Called when the level waits at its start."""
+        """Called when the level waits at its start. What was still waiting has not been shown."""
+        waiting = {line[0] for line in self._next if not self._belongs_to_start(line[0])}
+        self._shown = {message for message in self._shown if message.text not in waiting}
         due = [message for message in self._messages if message.when == "death" and message.number == self._deaths]
         starts = [message for message in self._messages if message.when == "start" and message not in self._shown]
         self._say(*_in_turn([*due, *starts]))
@@ -85,22 +88,37 @@ class MessageQueue:
 
     def _say(self, *texts: _Text) -> None:
         (self.text, self._left, self.place), *self._next = texts or (_NOTHING,)
-        self._unread = READ_TICKS
+        self._unread = read_ticks(self.text)
 
-    def _say_first(self, *texts: _Text) -> None:
-        """Show these texts first, then the interrupted and waiting ones.
+    def _say_soon(self, *texts: _Text) -> None:
+        """Show these texts next: at once if the present one has been read or belongs to the start.
 
         Once the exit is open, none of the start without a time of its own.
         """
         over = {message.text for message in self._shown if message.when == "start" and not message.seconds}
         over.update(text for text, *_ in texts)
-        now = [(self.text, self._left, self.place)] if self.is_start or self._unread > 0 else []
-        self._say(*texts, *(line for line in (*now, *self._next) if line[0] and line[0] not in over))
+        lines = [(self.text, self._left, self.place), *self._next]
+        goes_on = [line for line in lines if self._belongs_to_start(line[0]) and line[0] not in over]
+        waiting = [line for line in self._next if not self._belongs_to_start(line[0])]
+        if self.is_unread:
+            self._left = min(self._left, self._unread)
+            hurried = [(text, min(ticks, read_ticks(text)), place) for text, ticks, place in waiting]
+            self._next = [*hurried, *texts, *goes_on]
+        else:
+            self._say(*texts, *waiting, *goes_on)
+
+    def _belongs_to_start(self, text: str) -> bool:
+        return any(message.text == text for message in self._messages if message.when == "start")
 
     @property
     def is_start(self) -> bool:
         """Whether the present text belongs to the start, also when it is said no more."""
-        return self.text in [message.text for message in self._messages if message.when == "start"]
+        return self._belongs_to_start(self.text)
+
+    @property
+    def is_unread(self) -> bool:
+        """Whether another text has to wait for the present one."""
+        return bool(self.text) and self._unread > 0 and not self.is_start
 
     @property
     def opacity(self) -> float:
@@ -129,22 +147,23 @@ class MessageQueue:
         if "switch" in happened:
             # The player has understood the goal: do not repeat the text of the start.
             self._shown.update(message for message in self._messages if message.when == "start")
+        free = not self.is_unread
         new = [
             message
             for message in self._messages
             if message not in self._shown
-            and (message.when in happened or _is_near(world, message.place) or _is_due(world, message))
+            and (message.when in happened or (free and (_is_near(world, message.place) or _is_due(world, message))))
         ]
         if new:
             self._shown.update(new)
-            self._say_first(*_in_turn(new))
+            self._say_soon(*_in_turn(new))
         if self._again and self._is_stuck(world):
             self._again = False
             self._say((AGAIN, SHOWN_TICKS, None))
-        if self.helps and (wall := self._slipped(world)):
+        if self.helps and (wall := self._slipped(world)) and not self.is_unread:
             towards, away = ("{right}", "{left}") if wall < 0 else ("{left}", "{right}")
             self._climb, self._foot = CLIMB % (towards, away), world.ninja.y
-            self._say_first((self._climb, START_TICKS, None))
+            self._say_soon((self._climb, START_TICKS, None))
         elif self.text == self._climb and self._foot - world.ninja.y > CLIMBED:
             self.text = ""
         return self.text != before
@@ -171,17 +190,23 @@ class MessageQueue:
         return away and self._still >= STILL_TICKS and self._quiet >= QUIET_TICKS
 
 
-def shown_ticks(when: str, together: int) -> int:
+def read_ticks(text: str) -> int:
+    """Ticks that a text needs to be read: 2 s, and 1 s for every 20 letters begun."""
+    return TICKS_PER_SECOND * (2 - -len(text) // 20)
+
+
+def shown_ticks(when: str, together: int, text: str) -> int:
     """Ticks for a text without a time of its own, of a moment with ``together`` texts.
 
-    A single one of the start or the switch stays longer.
+    A single one of the start or the switch stays longer, and so does a text that needs it.
     """
-    return START_TICKS if together == 1 and when in {"start", "switch"} else SHOWN_TICKS
+    usual = START_TICKS if together == 1 and when in {"start", "switch"} else SHOWN_TICKS
+    return max(usual, read_ticks(text))
 
 
 def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
     return [
-        (line.text, line.seconds * TICKS_PER_SECOND or shown_ticks(line.when, len(messages)), line.place)
+        (line.text, line.seconds * TICKS_PER_SECOND or shown_ticks(line.when, len(messages), line.text), line.place)
         for line in messages
     ]
 

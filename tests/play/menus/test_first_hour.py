@@ -21,10 +21,10 @@ from ninja_game.play.level.messages import (
     FADE_TICKS,
     FALL_HELP,
     QUIET_TICKS,
-    READ_TICKS,
     SHOWN_TICKS,
     START_TICKS,
     MessageQueue,
+    read_ticks,
 )
 from ninja_game.play.level.places import MUST, away_from, solid_place, tag_top
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
@@ -35,7 +35,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.rooms import room_level
 from ninja_game.player.playthrough import EpisodeSession, LevelSession
 from ninja_game.runs.deaths import SELF
-from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
+from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
@@ -157,7 +157,7 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
     messages = MessageQueue(says)
     simulation = Simulation(short_level(gold=1))
     seen = [messages.text]
-    for _ in range(60):
+    for _ in range(60 + SHOWN_TICKS):
         simulation.step_keys(2)
         if messages.on_tick(simulation.world):
             seen.append(messages.text)
@@ -213,7 +213,39 @@ def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
         simulation.world.event_count = int(kind is not None)
         simulation.world.events[0].kind = kind or 0
         texts += [quick.text for _ in range(1 if kind else 2 * START_TICKS) if quick.on_tick(simulation.world)]
-    assert texts == ["one", "three", "one", "two", ""], "what happens is said first, and takes nothing away"
+    assert texts == ["one", "two", "three", ""], "what happens waits for its turn, and takes nothing away"
+
+
+def test_a_text_stays_as_long_as_its_letters_need_and_what_happens_meanwhile_waits() -> None:
+    long = "Gold adds two seconds to the clock; " * 3
+    told = MessageQueue(parse_messages(f"gold: {long} | lock: open | at 3,22: Here | trap: shut"))
+    world = Simulation(room_level(["#@..#"], ())).world
+    heard = []
+    for tick in range(2 * START_TICKS):
+        world.event_count = int(tick in (0, 40, 50))
+        world.events[0].kind = {0: GOLD_TAKEN, 40: TRAP_CLOSED}.get(tick, LOCK_OPENED)
+        world.ninja.x = 84.0 if 60 < tick < 80 or tick > 600 else 400.0
+        world.ninja.y = 540.0
+        heard += [(tick, told.text)] if told.on_tick(world) else []
+    need = read_ticks(long.strip())
+    assert need == 8 * TICKS_PER_SECOND
+    assert [text for _, text in heard] == [long.strip(), "shut", "open", "Here", ""]
+    assert [tick for tick, _ in heard[:3]] == [0, need, need + read_ticks("shut")], (
+        "in order, and no longer than needed"
+    )
+
+
+def test_what_a_death_kept_from_being_said_is_said_when_it_happens_again() -> None:
+    told, world = MessageQueue(parse_messages("gold: one | trap: two")), Simulation(short_level()).world
+    world.event_count = 1
+    for world.events[0].kind in (GOLD_TAKEN, TRAP_CLOSED):
+        told.on_tick(world)
+    assert told.text == "one"
+    told.on_death()
+    told.at_start()
+    assert told.text == ""
+    assert told.on_tick(world)
+    assert told.text == "two"
 
 
 def test_text_of_the_start_with_a_time_of_its_own_keeps_it_after_the_exit_has_opened() -> None:
@@ -268,7 +300,7 @@ def test_text_at_a_place_is_said_there_once() -> None:
     assert (near.text, far.text) == ("here", "")
 
 
-@pytest.mark.parametrize("away, ticks", [(0, SHOWN_TICKS), (110, SHOWN_TICKS), (130, READ_TICKS + FADE_TICKS)])
+@pytest.mark.parametrize("away, ticks", [(0, SHOWN_TICKS), (110, SHOWN_TICKS), (130, read_ticks("Here") + FADE_TICKS)])
 def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, ticks: int) -> None:
     told = MessageQueue(parse_messages("at 3,22: Here"))
     ninja = (world := Simulation(room_level(["#@..#"], ())).world).ninja
