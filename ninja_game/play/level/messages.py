@@ -6,15 +6,17 @@ from collections.abc import Sequence
 from math import hypot
 
 from ninja_game.formats.ascii.places import Point
-from ninja_game.formats.messages import NEAR, LevelMessage, arrow_targets
+from ninja_game.formats.messages import LevelMessage, arrow_targets
+from ninja_game.sim.collision.rays import sees, solid_at
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 from ninja_game.sim.states import SLIDING
 
 SHOWN_TICKS = 240  # for which a text is shown after its event
 START_TICKS = 480  # the same in play for a single text of the start or the switch
 FADE_TICKS = 20  # in which a text near a place fades at its end
+FAR = 60.0  # px outside its frame at which it ends
 
 STILL = 0.05
 """Slower than this the ninja is still, px/tick."""
@@ -32,8 +34,8 @@ CLIMB = (
 SLIPS, CLIMBED = 2, 4 * CELL
 """CLIMB is shown after that many slips from a wall back to the jump, until the ninja is that many px higher."""
 
-_Text = tuple[str, int, Point | None]
-"""A text, its ticks on the screen, and its place, px."""
+_Text = tuple[str, int, LevelMessage | None]
+"""A text, its ticks on the screen, and its message; None for the game's advice."""
 
 _NOTHING: _Text = "", 0, None
 
@@ -59,13 +61,14 @@ class MessageQueue:
 
     Texts of one moment follow each other. A new one interrupts those of the start, which go on afterwards; any other
     stays for its ``read_ticks``, and what happens meanwhile waits in order. A place and a time are waited for by their
-    own condition: one that the ninja has left by then comes at its next visit. ``text``: the present text or "", ``place``: its place, px; it ends when
-    the ninja is far from there. ``helps``: the game gives advice too: to try again, to climb. ``named``: the things
-    with a name and an arrow (``arrow_targets``).
+    own condition: one that the ninja has left by then comes at its next visit. ``tiles``: they hide a place from
+    the ninja; None: only full ones and doors do. ``text``: the present text or "", ``place``: its place, px; it ends
+    when the ninja is far from there. ``helps``: the game gives advice too: to try again, to climb. ``named``: the
+    things with a name and an arrow (``arrow_targets``).
     """
 
-    def __init__(self, messages: Sequence[LevelMessage], *, helps: bool = False) -> None:
-        self._messages = messages
+    def __init__(self, messages: Sequence[LevelMessage], tiles: TileMap | None = None, *, helps: bool = False) -> None:
+        self._messages, self._map = messages, tiles or TileMap()
         self.named = arrow_targets(message.text for message in messages)
         self.helps = helps
         self._again = helps
@@ -87,7 +90,7 @@ class MessageQueue:
         self._jumped_at = self._wall = 0.0
 
     def _say(self, *texts: _Text) -> None:
-        (self.text, self._left, self.place), *self._next = texts or (_NOTHING,)
+        (self.text, self._left, self.message), *self._next = texts or (_NOTHING,)
         self._unread = read_ticks(self.text)
 
     def _say_soon(self, *texts: _Text) -> None:
@@ -97,15 +100,19 @@ class MessageQueue:
         """
         over = {message.text for message in self._shown if message.when == "start" and not message.seconds}
         over.update(text for text, *_ in texts)
-        lines = [(self.text, self._left, self.place), *self._next]
+        lines = [(self.text, self._left, self.message), *self._next]
         goes_on = [line for line in lines if self._belongs_to_start(line[0]) and line[0] not in over]
         waiting = [line for line in self._next if not self._belongs_to_start(line[0])]
         if self.is_unread:
             self._left = min(self._left, self._unread)
-            hurried = [(text, min(ticks, read_ticks(text)), place) for text, ticks, place in waiting]
+            hurried = [(text, min(ticks, read_ticks(text)), about) for text, ticks, about in waiting]
             self._next = [*hurried, *texts, *goes_on]
         else:
             self._say(*texts, *waiting, *goes_on)
+
+    @property
+    def place(self) -> Point | None:
+        return self.message and self.message.place
 
     def _belongs_to_start(self, text: str) -> bool:
         return any(message.text == text for message in self._messages if message.when == "start")
@@ -139,7 +146,7 @@ class MessageQueue:
         before = self.text
         self._left -= 1
         self._unread -= 1
-        if self.place and self._unread < 0 and not _is_near(world, self.place, 2 * NEAR):
+        if self.message and self.place and self._unread < 0 and not _is_near(world, self.message, FAR):
             self._left = min(self._left, FADE_TICKS)
         if self._left <= 0:
             self._say(*self._next)
@@ -152,7 +159,7 @@ class MessageQueue:
             message
             for message in self._messages
             if message not in self._shown
-            and (message.when in happened or (free and (_is_near(world, message.place) or _is_due(world, message))))
+            and (message.when in happened or (free and (self._is_at(world, message) or _is_due(world, message))))
         ]
         if new:
             self._shown.update(new)
@@ -167,6 +174,13 @@ class MessageQueue:
         elif self.text == self._climb and self._foot - world.ninja.y > CLIMBED:
             self.text = ""
         return self.text != before
+
+    def _is_at(self, world: World, message: LevelMessage) -> bool:
+        """Whether the ninja is in the frame of a message, with no wall between; a place in a wall is always seen."""
+        if not (_is_near(world, message) and (place := message.place)):
+            return False
+        ninja = world.ninja.x, world.ninja.y
+        return place == ninja or solid_at(self._map, *place) or sees(self._map, world, *place, *ninja)[0]
 
     def _slipped(self, world: World) -> float:
         """At a landing that calls for advice on climbing, the x of the wall's normal; else 0."""
@@ -206,7 +220,7 @@ def shown_ticks(when: str, together: int, text: str) -> int:
 
 def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
     return [
-        (line.text, line.seconds * TICKS_PER_SECOND or shown_ticks(line.when, len(messages), line.text), line.place)
+        (line.text, line.seconds * TICKS_PER_SECOND or shown_ticks(line.when, len(messages), line.text), line)
         for line in messages
     ]
 
@@ -215,5 +229,9 @@ def _is_due(world: World, message: LevelMessage) -> bool:
     return message.when == "after" and world.tick >= message.number * TICKS_PER_SECOND
 
 
-def _is_near(world: World, place: Point | None, near: float = NEAR) -> bool:
-    return place is not None and max(abs(world.ninja.x - place[0]), abs(world.ninja.y - place[1])) <= near
+def _is_near(world: World, message: LevelMessage, around: float = 0.0) -> bool:
+    """Whether the ninja is in the frame of a message's place, or ``around`` it, px."""
+    if (place := message.place) is None:
+        return False
+    across, down = abs(world.ninja.x - place[0]), abs(world.ninja.y - place[1])
+    return across <= message.reach[0] + around and down <= message.reach[1] + around

@@ -272,6 +272,23 @@ def test_a_click_in_the_picture_on_another_message_selects_it(room: Maker) -> No
     assert "choose Near a place" in room.app.notice
 
 
+def test_a_drag_of_the_frame_sizes_it_and_a_drag_beside_it_moves_it(room: Maker) -> None:
+    room.editor.session.tools.history.change(replace(room.draft, says="at 12,12: One | at 3,3: Two"))
+    screen = opened(room)
+    for begin, end, detail in (
+        ((14.5, 12), (16, 20), "12,12 9x5"), ((12, 14.5), (30, 12), "12,12 9x1"), ((16.5, 12.5), (13, 13), "12,12 3x3"),
+        ((20, 20), (22, 20), "22,20 3x3"), ((23.5, 21.5), (24, 22), "22,20"),
+    ):  # fmt: skip
+        for kind, cell in ((pygame.MOUSEBUTTONDOWN, begin), (pygame.MOUSEMOTION, end), (pygame.MOUSEBUTTONUP, end)):
+            more = {"rel": (0, 0), "buttons": (1, 0, 0)} if kind == pygame.MOUSEMOTION else {"button": 1}
+            pygame.event.post(pygame.Event(kind, pos=room.app.canvas.point(*in_picture(*cell)), touch=False, **more))
+        room.frames()
+        assert screen.messages[0].detail == detail
+    assert screen.source == "at 22,20: One | at 3,3: Two"
+    room.mouse(*in_picture(3, 3))
+    assert screen.selected is screen.messages[1]
+
+
 def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) -> None:
     room.editor.session.tools.history.change(replace(room.draft, says="start: Go | at 20,22: Here | switch: Out"))
     screen = opened(room)

@@ -9,7 +9,8 @@ from unittest.mock import patch
 import pygame
 import pytest
 
-from ninja_game.formats.messages import parse_messages
+from ninja_game.formats.ascii.places import cell_of
+from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, PlacedMessage
@@ -277,8 +278,8 @@ def test_text_at_a_place_does_not_lie_over_the_ninja_that_has_come_there(driver:
     driver.press("return")
     level, hud = driver.shown(LevelScreen), Hud(driver.app.theme)
     level.begin()
-    play, place = level.play, (396.0, 300.0)
-    play.messages.text, play.messages.place, play.things = "Jump up here", place, ()
+    play, (here,) = level.play, parse_messages("at 16,12: Jump up here")
+    play.messages.text, play.messages.message, play.things = here.text, here, ()
     x, y, w, h = hud.box(hud_view(play).message or PlacedMessage("", (), (), None, covers=False)).area
     for play.message_spot in ((x + 4, y + 4), (x + w - 4, y + h - 4), (x + w / 2, y + h / 2)):
         said = hud_view(play).message
@@ -315,6 +316,21 @@ def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, 
     assert solid[:-FADE_TICKS] == [1.0] * (len(solid) - FADE_TICKS)
     assert solid[-FADE_TICKS:] == sorted(solid[-FADE_TICKS:], reverse=True)
     assert solid[-1] < 0.1
+
+
+def test_a_place_has_a_frame_of_its_size_and_a_wall_hides_it() -> None:
+    room = Simulation(room_level(["#........#", "##########", "#@.......#"], ()))
+    ninja = room.world.ninja
+    middle, floor, above = 24 * 6 + 12.0, ninja.y, ninja.y - 48
+    for source, x, y, seen in (
+        ("at 6,3", middle, above, False), ("at 6,3", middle, floor, True), ("at 6,3", middle - 50, floor, True),
+        ("at 6,3 3x1", middle - 50, floor, False), ("at 6,3 3x1", middle + 30, floor, True),
+        ("at 6,2", middle + 30, above, True), ("at 6,3", middle - 70, floor, False),
+        ("at 6,3 7x1", middle - 70, floor, True),
+    ):  # fmt: skip
+        told = MessageQueue(parse_messages(f"{source}: Here"), room.tiles)
+        ninja.x, ninja.y = x, y
+        assert told.on_tick(room.world) is seen, (source, x, y)
 
 
 def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
@@ -611,7 +627,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
     driver: MenuDriver, place: tuple[float, float], words: int
 ) -> None:
     level, text = LevelScreen(driver.app, LevelSession(driver.player, entry(short_level()))), " ".join(["word"] * words)
-    level.play.messages._say((text, 99, place))
+    level.play.messages._say((text, 99, LevelMessage("at", text, cell=cell_of(*place))))
     level.play.message_spot = (10.0, 10.0)
     view = hud_view(level.play)
     assert view.message
