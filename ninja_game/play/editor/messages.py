@@ -11,7 +11,6 @@ from math import dist
 import pygame
 
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.specs import BODY, SWITCH, object_type_name, points
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.places import Cell, Point, cell_of, is_inside
 from ninja_game.formats.messages import (
@@ -28,12 +27,14 @@ from ninja_game.formats.messages import (
     unknown_words,
 )
 from ninja_game.levels.episodes import Mood
+from ninja_game.levels.findings import Finding
 from ninja_game.levels.lint import Ground, unseen_messages
 from ninja_game.play.app import App
+from ninja_game.play.editor.sheet import said_at
 from ninja_game.play.level.hud import Hud, HudView, PlacedMessage
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
-from ninja_game.play.level.messages import shown_ticks
+from ninja_game.play.level.messages import shown_ticks, waits
 from ninja_game.play.level.places import Things
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuRow, MenuScreen, ask_to_keep
 from ninja_game.sim.level import COLUMNS, ROWS, Level
@@ -72,11 +73,6 @@ _DETAILS = {
     "at": "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's: 12,5 or 12,5 3x3",
 }
 """What some moments need besides."""
-
-_SAID_AT = {
-    "switch": ("exit", SWITCH), "gold": ("gold", BODY), "lock": ("locked door", SWITCH), "trap": ("trap door", SWITCH),
-}  # fmt: skip
-"""The objects, with their parts, that the ninja has just touched at some moments."""
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
@@ -239,8 +235,8 @@ class MessagesScreen(MenuScreen):
         words = "Remove one first" if full else "Add a message"
         add = Button((36, y, 160, 28), words, None if full else self._add)
         if count > SHOWN:
-            text = f"{others + 1} to {min(others + SHOWN, count)}"
-            rows.append(Button((264, y, 66, 28), text, partial(self._select, others), hint="The other messages"))
+            text = f"Page {self._first // SHOWN + 1} of 2"
+            rows.append(Button((252, y, 78, 28), text, partial(self._select, others), hint="The other messages"))
         hint = "Play from just before the selected message; Esc comes back"
         test = Button((342, y, 132, 28), "Test", self._try, hint=hint)
         end = [Button((488, y, 132, 28), "OK", self._accept), Button((632, y, 132, 28), "Cancel", self.close)]
@@ -262,11 +258,11 @@ class MessagesScreen(MenuScreen):
 
         put(message.text)
         text.put = put
-        moment = Button((36, y, 116, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
+        moment = Button((36, y, 90, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
         about: list[Widget] = []
         if message.when in _DETAILS:
             hint, detail = _DETAILS[message.when], partial(setattr, message, "detail")
-            about.append(TextEntry((155, y, 66, 28), hint, message.detail, detail, longest=11, hint=hint))
+            about.append(TextEntry((129, y, 92, 28), hint, message.detail, detail, longest=11, hint=hint))
         usual = f"{shown_ticks(message.when, len(self._together(message)), message.text) // TICKS_PER_SECOND} s"
         put_time = partial(setattr, message, "time")
         about.append(TextEntry((224, y, 48, 28), usual, message.time, put_time, longest=2, hint=_TIME_HINT))
@@ -383,14 +379,15 @@ class MessagesScreen(MenuScreen):
             if message.unknown:
                 wrong = f"There is no {message.unknown}: the words are at the right"
             elif not message.problem[1]:
-                unseen = unseen_messages(message.source, self._ground)
+                unseen = self._unseen(message)
                 wrong = next((f"Never shown: {finding.text.rpartition(': ')[2]}" for finding in unseen), "")
+                wrong = wrong or self._wait_of(message)
             colour = theme.palette.bad if wrong else theme.palette.faint
             theme.text(surface, wrong or self._turn_of(message), 36, row + 95, size=8.5, colour=colour, width=WIDE - 56)
             if self.focus in self._row_widgets[number]:
                 self._selected = number
         count = f"{len(self.messages)} of {MAX_MESSAGES}"
-        theme.text(surface, count, 204, END + 21, size=11, colour=theme.palette.faint, width=58)
+        theme.text(surface, count, 204, END + 21, size=11, colour=theme.palette.faint, width=46)
         selected = self.selected
         self._draw_level(surface, selected)
         name, when = _WHEN[selected.when] if selected else ("", "")
@@ -398,17 +395,31 @@ class MessagesScreen(MenuScreen):
         about += ["A click in the picture moves it, a drag of its frame sizes it."] * bool(
             selected and selected.when == "at"
         )
-        if selected and not selected.problem[1]:
-            about += [finding.advice for finding in unseen_messages(selected.source, self._ground)]
+        advice = [finding.advice for finding in self._unseen(selected)]
         x, y, w, h = PICTURE
         below = x, y + h + 10, w, END - y - h - 10
-        theme.paragraph(surface, (*about, *_HELP), below, 11, 15, colour=theme.palette.faint)
+        theme.paragraph(surface, (*about, *advice, *_HELP[bool(advice) :]), below, 11, 15, colour=theme.palette.faint)
+
+    def _unseen(self, message: Message | None) -> list[Finding]:
+        return [*unseen_messages(message.source, self._ground)] if message and not message.problem[1] else []
 
     def _turn_of(self, message: Message) -> str:
         """The number of a message among those of its moment; '' for an only one."""
         together = self._together(message)
         place = next(k for k, other in enumerate(together, 1) if other is message)
         return f"No. {place} of {len(together)}" if len(together) > 1 else ""
+
+    def _wait_of(self, message: Message) -> str:
+        """How late a message comes in its author's run because others are read first; '' if it is in time."""
+        sound, inputs = [other for other in self.messages if not other.problem[1]], self._way()
+        if not inputs or message.when in {"start", "death"}:
+            return ""
+        lines = [line for other in sound for line in parse_messages(other.source)]
+        wait = waits(lines, self._draft.level, inputs)[sound.index(message)]
+        if wait is None:
+            return "Not shown in the known run: others are read then"
+        late = wait // TICKS_PER_SECOND
+        return f"{late} s late in the known run: others are read first" if late else ""
 
     def _together(self, message: Message) -> list[Message]:
         return [other for other in self.messages if other.moment == message.moment]
@@ -457,5 +468,4 @@ class MessagesScreen(MenuScreen):
         """Where the ninja is when a message appears, px; None at the start, or where that is unknown."""
         if line := self._line(message):
             return line.place
-        name, part = _SAID_AT.get(message.when, ("", BODY))
-        return next((points(spec).get(part) for spec in self._draft.objects if object_type_name(spec) == name), None)
+        return said_at(self._draft, message.when) if message.when != "start" else None

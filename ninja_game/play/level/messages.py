@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from math import hypot
 
 from ninja_game.formats.ascii.places import Point
 from ninja_game.formats.messages import LevelMessage, arrow_targets
 from ninja_game.sim.collision.rays import sees, solid_at
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
+from ninja_game.sim.level import Level
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 from ninja_game.sim.states import SLIDING
+from ninja_game.simulation import Simulation
 
 SHOWN_TICKS = 240  # for which a text is shown after its event
 START_TICKS = 480  # the same in play for a single text of the start or the switch
@@ -207,6 +210,29 @@ class MessageQueue:
 def read_ticks(text: str) -> int:
     """Ticks that a text needs to be read: 2 s, and 1 s for every 20 letters begun."""
     return TICKS_PER_SECOND * (2 - -len(text) // 20)
+
+
+def waits(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[int | None]:
+    """Ticks for which each message waits for others in a run; None: it is never shown because of them."""
+    # Only the lengths of the texts matter, in steps of 20 letters: what is typed seldom runs the level again.
+    texts = [str(number).ljust(-(-len(line.text) // 20) * 20) for number, line in enumerate(messages)]
+    lines = tuple(line._replace(text=text) for line, text in zip(messages, texts, strict=True))
+    together, alone = _heard(lines, level, inputs)
+    return [0 if text not in alone else together[text] - alone[text] if text in together else None for text in texts]
+
+
+@lru_cache(maxsize=8)
+def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[dict[str, int], dict[str, int]]:
+    """The ticks of a run in which texts first come: beside each other, and each as if it were the only one."""
+    run, together, alone = Simulation(level), dict[str, int](), dict[str, int]()
+    queues = [(MessageQueue([line], run.tiles), alone) for line in messages]
+    queues.append((MessageQueue(messages, run.tiles), together))
+    for tick, keys in enumerate(inputs):
+        run.step_keys(keys)
+        for queue, ticks in queues:
+            queue.on_tick(run.world)
+            ticks.setdefault(queue.text, tick)
+    return together, alone
 
 
 def shown_ticks(when: str, together: int, text: str) -> int:
