@@ -258,11 +258,11 @@ class MessagesScreen(MenuScreen):
 
         put(message.text)
         text.put = put
-        moment = Button((36, y, 90, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
+        moment = Button((36, y, 104, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
         about: list[Widget] = []
         if message.when in _DETAILS:
             hint, detail = _DETAILS[message.when], partial(setattr, message, "detail")
-            about.append(TextEntry((129, y, 92, 28), hint, message.detail, detail, longest=11, hint=hint))
+            about.append(TextEntry((143, y, 78, 28), hint, message.detail, detail, longest=11, hint=hint))
         usual = f"{shown_ticks(message.when, len(self._together(message)), message.text) // TICKS_PER_SECOND} s"
         put_time = partial(setattr, message, "time")
         about.append(TextEntry((224, y, 48, 28), usual, message.time, put_time, longest=2, hint=_TIME_HINT))
