@@ -19,7 +19,7 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import object_type_name
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
-from ninja_game.formats.messages import NEAR
+from ninja_game.formats.messages import SIZE
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.levels.lint import object_name
@@ -399,7 +399,7 @@ def place_before(draft: Draft, routes: Iterable[PathPoints], place: tuple[float,
     """
     column, row = cell_of(*place)
     start = next(iter(route_of(draft.level, bytes(1))), place)
-    near, places = NEAR + CELL, []
+    near, places = (max(SIZE) / 2 + 1) * CELL, []
     if max(abs(start[0] - place[0]), abs(start[1] - place[1])) <= near and start != place:
         return None
     for route in routes:

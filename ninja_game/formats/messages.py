@@ -12,8 +12,8 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
 MAX_MESSAGES, MAX_LETTERS = 8, 120
-NEAR = 2.5 * CELL
-"""Range, px along both axes, from the middle of its cell, within which a text with a place is shown."""
+SIZE = 5, 5
+"""Columns and rows of the frame around the cell of a text with a place, unless it has a size of its own."""
 BAR = "|"
 """Separates two texts."""
 
@@ -25,16 +25,16 @@ TARGETS = ("switch", "exit")
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _COUNTED = re.compile(r"death ([1-9][0-9]?)|after ([1-9][0-9]?) s")
-_PLACE = re.compile(r"at ([0-9]{1,2}),([0-9]{1,2})")
+_PLACE = re.compile(r"at ([0-9]{1,2}),([0-9]{1,2})(?: ([1-9][0-9]?)x([1-9][0-9]?))?")
 _TIME = re.compile(r"(.*) for ([1-9][0-9]?) s")
 _EVENTS = ("start", "switch", "gold", "lock", "trap")
-_WHEN = f"{', '.join(_EVENTS)}, 'death 3', 'after 20 s' or 'at 12,5', then perhaps 'for 9 s'"
+_WHEN = f"{', '.join(_EVENTS)}, 'death 3', 'after 20 s', 'at 12,5' or 'at 12,5 3x3', then perhaps 'for 9 s'"
 
 
 class LevelMessage(NamedTuple):
     """``when``: a name of _EVENTS, "death", "after" or "at". ``number``: after how many deaths, or seconds of a try.
 
-    ``cell``: column and row. ``seconds``: how long it is shown; 0: the usual time.
+    ``cell``: column and row. ``seconds``: how long it is shown; 0: the usual time. ``size``: of its frame, in cells.
     """
 
     when: str
@@ -42,11 +42,17 @@ class LevelMessage(NamedTuple):
     number: int = 0
     cell: tuple[int, int] = (0, 0)
     seconds: int = 0
+    size: tuple[int, int] = SIZE
 
     @property
     def place(self) -> tuple[float, float] | None:
         """The middle of the cell near which it is shown, px; None for other moments."""
         return middle_of(self.cell) if self.when == "at" else None
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Half the width and height of the frame in which the ninja is near the place, px."""
+        return self.size[0] * CELL / 2, self.size[1] * CELL / 2
 
 
 def parse_messages(value: str) -> tuple[LevelMessage, ...]:
@@ -80,11 +86,12 @@ def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
 def with_message_moved(says: str, number: int, cell: tuple[int, int]) -> str:
     """A header's value with one of its messages, by number from 0, moved to another cell.
 
-    >>> with_message_moved("start: Go | at 12,5 for 9 s: Jump: here", 1, (3, 4))
-    'start: Go | at 3,4 for 9 s: Jump: here'
+    >>> with_message_moved("start: Go | at 12,5 3x1 for 9 s: Jump: here", 1, (3, 4))
+    'start: Go | at 3,4 3x1 for 9 s: Jump: here'
     """
     parts = [part.strip() for part in says.split(BAR)]
-    parts[number] = _PLACE.sub(f"at {cell[0]},{cell[1]}", parts[number], count=1)
+    _, _, rest = parts[number].partition(",")
+    parts[number] = f"at {cell[0]},{cell[1]}" + rest.lstrip("0123456789")
     return f" {BAR} ".join(parts)
 
 
@@ -104,7 +111,9 @@ def _read(part: str) -> LevelMessage:
     if match := _COUNTED.fullmatch(moment):
         return LevelMessage(moment.split()[0], text, int(match[1] or match[2]), seconds=seconds)
     if (match := _PLACE.fullmatch(moment)) and 1 <= int(match[1]) <= COLUMNS and 1 <= int(match[2]) <= ROWS:
-        return LevelMessage("at", text, cell=(int(match[1]), int(match[2])), seconds=seconds)
+        size = (int(match[3]), int(match[4])) if match[3] else SIZE
+        if size[0] <= COLUMNS and size[1] <= ROWS:
+            return LevelMessage("at", text, cell=(int(match[1]), int(match[2])), seconds=seconds, size=size)
     raise LevelError("an unknown moment in 'says'", found=repr(when[:40]), expected=_WHEN)
 
 

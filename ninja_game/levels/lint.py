@@ -11,7 +11,7 @@ from math import cos, dist, isnan, pi, sin, sqrt
 
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.ascii.writer import best_form
-from ninja_game.formats.messages import NEAR, parse_messages
+from ninja_game.formats.messages import parse_messages
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.sim import kinds, rules
 from ninja_game.sim.arithmetic import is_set
@@ -84,11 +84,11 @@ class Ground:
         near = (cell for cell in _around(cell_at(x, y)) if cell in self.cells)
         return not self.certain or any(_touches(cell, x, y, radius) for cell in near)
 
-    def comes_near(self, x: float, y: float, reach: float) -> bool:
-        """Tell whether a ninja in a reached cell could be within ``reach`` px of a point in x and in y."""
-        far = reach + rules.CELL / 2
+    def comes_near(self, x: float, y: float, reach: tuple[float, float]) -> bool:
+        """Tell whether a ninja in a reached cell could be within ``reach`` px of a point, across and down."""
+        (wide, high), half = reach, rules.CELL / 2
         centres = ((tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell]) for cell in self.cells)
-        return not self.certain or any(max(abs(x - a), abs(y - b)) < far for a, b in centres)
+        return not self.certain or any(abs(x - a) < wide + half and abs(y - b) < high + half for a, b in centres)
 
     def is_in_wall(self, x: float, y: float, radius: float) -> bool:
         """Tell whether only a fast ninja, which sinks into tiles, could touch a disc. Tests every 2 px, generously."""
@@ -251,7 +251,7 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
     for message in parse_messages(says):
         if lacks := missing.get(message.when):
             yield level_finding("unseen-message", text=message.text, why=f"there is no {lacks}")
-        elif message.place and not ground.comes_near(*message.place, NEAR):
+        elif message.place and not ground.comes_near(*message.place, message.reach):
             why = "the ninja never comes near its place"
             yield level_finding("unseen-message", cells=(message.cell,), text=message.text, why=why)
 

@@ -35,6 +35,14 @@ def test_what_cannot_be_said_is_refused_with_its_line(value: str, words: str) ->
     assert words in str(caught.value)
 
 
+def test_a_place_has_a_frame_of_five_cells_or_of_its_own_size() -> None:
+    usual, own = parse_messages("at 12,5: a | at 3,4 31x1 for 9 s: b")
+    assert (usual.size, usual.reach, own.size, own.cell, own.seconds) == ((5, 5), (60.0, 60.0), (31, 1), (3, 4), 9)
+    for size in ("0x3", "3x0", "32x1", "1x24", "3", "3x3x3"):
+        with pytest.raises(LevelError, match="unknown moment"):
+            parse_messages(f"at 12,5 {size}: a")
+
+
 def test_each_moment_is_read() -> None:
     says = "start: a | switch: b | death 12: c | at 31,23 for 9 s: d | after 20 s for 99 s: e"
     read = parse_ascii_level(f"ninja-game level 1\nsays: {says}\n{PICTURE}").says

@@ -11,31 +11,33 @@ from math import dist
 import pygame
 
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.specs import BODY, SWITCH, object_type_name, points
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
     BAR,
     KEYS,
     MAX_LETTERS,
     MAX_MESSAGES,
-    NEAR,
+    SIZE,
     TARGETS,
+    LevelMessage,
     arrow_targets,
     named_keys,
     parse_messages,
     unknown_words,
 )
 from ninja_game.levels.episodes import Mood
+from ninja_game.levels.findings import Finding
 from ninja_game.levels.lint import Ground, unseen_messages
 from ninja_game.play.app import App
+from ninja_game.play.editor.sheet import said_at
 from ninja_game.play.level.hud import Hud, HudView, PlacedMessage
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
-from ninja_game.play.level.messages import shown_ticks
+from ninja_game.play.level.messages import shown_ticks, waits
 from ninja_game.play.level.places import Things
 from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow, MenuScreen, ask_to_keep
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
-from ninja_game.sim.level import Level
+from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.sim.rules import CELL, LIFETIME, TICKS_PER_SECOND
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.simulation import Simulation
@@ -68,14 +70,9 @@ _WHEN = {
 _DETAILS = {
     "death": "How many deaths: a number from 1 to 99",
     "after": "How many seconds: a number from 1 to 99",
-    "at": "Column and row of the cell: 1,1 to 31,23, as in 12,5",
+    "at": "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's: 12,5 or 12,5 3x3",
 }
 """What some moments need besides."""
-
-_SAID_AT = {
-    "switch": ("exit", SWITCH), "gold": ("gold", BODY), "lock": ("locked door", SWITCH), "trap": ("trap door", SWITCH),
-}  # fmt: skip
-"""The objects, with their parts, that the ninja has just touched at some moments."""
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
@@ -85,6 +82,9 @@ _HELP = (
 
 DETAIL, TIME, TEXT = 1, -3, -1
 """Places of the fields in a row."""
+
+GRIP = 9.0
+"""px of the level from the edge of a frame within which a drag sizes it."""
 
 _TIME_HINT = "Seconds that it stays: a number from 1 to 99; empty: as long as usual"
 
@@ -102,7 +102,7 @@ class Message:
 
     @property
     def moment(self) -> str:
-        return f"{self.when} {self.detail.replace(' ', '')}{' s' * (self.when == 'after')}".strip()
+        return f"{self.when} {' '.join(self.detail.split())}{' s' * (self.when == 'after')}".strip()
 
     @property
     def seconds(self) -> int:
@@ -140,10 +140,20 @@ def _fits(source: str) -> bool:
 
 
 def messages_of(says: str) -> list[Message]:
-    return [
-        Message(when, "{},{}".format(*cell) if when == "at" else str(number or ""), text, str(seconds or ""))
-        for when, text, number, cell, seconds in parse_messages(says)
-    ]
+    return [Message(line.when, _detail(line), line.text, str(line.seconds or "")) for line in parse_messages(says)]
+
+
+def _detail(line: LevelMessage) -> str:
+    if line.when != "at":
+        return str(line.number or "")
+    return "{},{}".format(*line.cell) + (" {}x{}".format(*line.size) if line.size != SIZE else "")
+
+
+def _edges_at(line: LevelMessage, x: float, y: float) -> tuple[bool, bool]:
+    """Whether a point, px, is on an upright and on a level edge of a message's frame."""
+    (px, py), (w, h) = line.place or (0.0, 0.0), line.reach
+    across, down = abs(x - px), abs(y - py)
+    return abs(across - w) <= GRIP and down <= h + GRIP, abs(down - h) <= GRIP and across <= w + GRIP
 
 
 class _Stage:
@@ -195,6 +205,7 @@ class MessagesScreen(MenuScreen):
         self._here, self._put, self._test = here, put, test
         self._row_widgets: list[list[Widget]] = []
         self._refused = False
+        self._sizes = False, False  #: whether the drag sizes the frame, across and down
 
     @property
     def source(self) -> str:
@@ -202,7 +213,10 @@ class MessagesScreen(MenuScreen):
 
     def enter(self) -> None:
         super().enter()
-        place = next((k for k, row in enumerate(self.messages) if self._wanted and row.detail == self._wanted), None)
+        place = next(
+            (k for k, row in enumerate(self.messages) if self._wanted and row.detail.split()[:1] == [self._wanted]),
+            None,
+        )
         if place is not None:
             self._wanted = ""
             self._select(place)
@@ -221,8 +235,8 @@ class MessagesScreen(MenuScreen):
         words = "Remove one first" if full else "Add a message"
         add = Button((36, y, 160, 28), words, None if full else self._add)
         if count > SHOWN:
-            text = f"{others + 1} to {min(others + SHOWN, count)}"
-            rows.append(Button((264, y, 66, 28), text, partial(self._select, others), hint="The other messages"))
+            text = f"Page {self._first // SHOWN + 1} of 2"
+            rows.append(Button((252, y, 78, 28), text, partial(self._select, others), hint="The other messages"))
         hint = "Play from just before the selected message; Esc comes back"
         test = Button((342, y, 132, 28), "Test", self._try, hint=hint)
         end = [Button((488, y, 132, 28), "OK", self._accept), Button((632, y, 132, 28), "Cancel", self.close)]
@@ -244,12 +258,12 @@ class MessagesScreen(MenuScreen):
 
         put(message.text)
         text.put = put
-        moment = Button((36, y, 116, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
+        moment = Button((36, y, 104, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
         details: list[Widget] = []
         if message.when in _DETAILS:
             hint, detail = _DETAILS[message.when], partial(setattr, message, "detail")
-            details.append(TextEntry((155, y, 66, 28), hint, message.detail, detail, longest=6, hint=hint))
-        usual = f"{shown_ticks(message.when, len(self._together(message))) // TICKS_PER_SECOND} s"
+            details.append(TextEntry((143, y, 78, 28), hint, message.detail, detail, longest=11, hint=hint))
+        usual = f"{shown_ticks(message.when, len(self._together(message)), message.text) // TICKS_PER_SECOND} s"
         put_time = partial(setattr, message, "time")
         details.append(TextEntry((224, y, 48, 28), usual, message.time, put_time, longest=2, hint=_TIME_HINT))
         remove = Button((275, y, 55, 28), "Remove", lambda: self._remove(message), size=10)
@@ -271,7 +285,7 @@ class MessagesScreen(MenuScreen):
         return self.messages[self._selected] if self._selected < len(self.messages) else None
 
     def _handle_mouse(self, event: pygame.Event) -> None:
-        """A click in the picture selects the message there, or moves the selected one there; a drag moves it on."""
+        """A click in the picture selects the message there, or moves the selected one; a drag moves or sizes it."""
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
         drags = event.type == pygame.MOUSEMOTION and event.buttons[0] and self._dragged is None
         x, y = self.theme.canvas.logical(event.pos) if pressed or drags else (0.0, 0.0)
@@ -282,10 +296,19 @@ class MessagesScreen(MenuScreen):
         column, row = cell_of(x, y)
         eyes = ((k, self._eye(message)) for k, message in enumerate(self.messages))
         there = {k: dist(eye, (x, y)) for k, eye in eyes if eye}
-        if pressed and min(there.values(), default=NEAR) < 1.5 * CELL:
+        line, selected = self._line(self.selected), self.selected
+        if pressed:
+            self._sizes = _edges_at(line, x, y) if line and min(there.values()) > GRIP else (False, False)
+        if pressed and not any(self._sizes) and min(there.values(), default=WIDTH) < 1.5 * CELL:
             self._select(min(there, key=there.__getitem__))
-        elif self.selected and self.selected.when == "at" and is_inside((column, row)):
-            self.selected.detail = f"{column},{row}"
+        elif line and selected and any(self._sizes):
+            wide = min(COLUMNS, 2 * abs(column - line.cell[0]) + 1) if self._sizes[0] else line.size[0]
+            high = min(ROWS, 2 * abs(row - line.cell[1]) + 1) if self._sizes[1] else line.size[1]
+            selected.detail = _detail(line._replace(size=(wide, high)))
+            self.enter()
+        elif selected and selected.when == "at" and is_inside((column, row)):
+            size = line.size if line else SIZE
+            selected.detail = _detail(LevelMessage("at", "", cell=(column, row), size=size))
             self.enter()
         elif pressed and self.selected:
             self.app.notify(f"To put it there, choose {_WHEN['at'][0]} for it")
@@ -356,31 +379,47 @@ class MessagesScreen(MenuScreen):
             if message.unknown:
                 wrong = f"There is no {message.unknown}: the words are at the right"
             elif not message.problem[1]:
-                unseen = unseen_messages(message.source, self._ground)
+                unseen = self._unseen(message)
                 wrong = next((f"Never shown: {finding.text.rpartition(': ')[2]}" for finding in unseen), "")
+                wrong = wrong or self._wait_of(message)
             colour = theme.palette.bad if wrong else theme.palette.faint
             theme.text(surface, wrong or self._turn_of(message), 36, row + 95, size=8.5, colour=colour, width=WIDE - 56)
             if self.focus in self._row_widgets[number]:
                 self._selected = number
         count = f"{len(self.messages)} of {MAX_MESSAGES}"
-        theme.text(surface, count, 204, END + 21, size=11, colour=theme.palette.faint, width=58)
+        theme.text(surface, count, 204, END + 21, size=11, colour=theme.palette.faint, width=46)
         selected = self.selected
         self._draw_level(surface, selected)
         name, when = _WHEN[selected.when] if selected else ("", "")
         help_texts = [f"{name}: {when[0].lower()}{when[1:]}."] if selected else []
         if selected and selected.when == "at":
-            help_texts.append("A click in the picture moves it.")
-        if selected and not selected.problem[1]:
-            help_texts += [finding.advice for finding in unseen_messages(selected.source, self._ground)]
+            help_texts.append("A click in the picture moves it, a drag of its frame sizes it.")
+        advice = [finding.advice for finding in self._unseen(selected)]
         x, y, w, h = PICTURE
         below = x, y + h + 10, w, END - y - h - 10
-        theme.paragraph(surface, (*help_texts, *_HELP), below, 11, 15, colour=theme.palette.faint)
+        lines = (*help_texts, *advice, *_HELP[bool(advice) :])
+        theme.paragraph(surface, lines, below, 11, 15, colour=theme.palette.faint)
+
+    def _unseen(self, message: Message | None) -> list[Finding]:
+        return [*unseen_messages(message.source, self._ground)] if message and not message.problem[1] else []
 
     def _turn_of(self, message: Message) -> str:
         """The number of a message among those of its moment; '' for an only one."""
         together = self._together(message)
         place = next(k for k, other in enumerate(together, 1) if other is message)
         return f"No. {place} of {len(together)}" if len(together) > 1 else ""
+
+    def _wait_of(self, message: Message) -> str:
+        """How late a message comes in its author's run because others are read first; '' if it is in time."""
+        sound, inputs = [other for other in self.messages if not other.problem[1]], self._way()
+        if not inputs or message.when in {"start", "death"}:
+            return ""
+        lines = [line for other in sound for line in parse_messages(other.source)]
+        wait = waits(lines, self._draft.level, inputs)[sound.index(message)]
+        if wait is None:
+            return "Not shown in the known run: others are read then"
+        late = wait // TICKS_PER_SECOND
+        return f"{late} s late in the known run: others are read first" if late else ""
 
     def _together(self, message: Message) -> list[Message]:
         return [other for other in self.messages if other.moment == message.moment]
@@ -404,8 +443,9 @@ class MessagesScreen(MenuScreen):
             layout = draft.level.tiles, self._things.get(cast, ()), self._eye(message), when == "start", when == "at"
             placed = PlacedMessage(text, *layout) if text else None
         for other in self.messages:
-            if other.when == "at" and (eye := self._eye(other)):
-                frame, chosen = (eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR), other is message
+            if (line := self._line(other)) and (eye := line.place):
+                (w, h), chosen = line.reach, other is message
+                frame = eye[0] - w, eye[1] - h, 2 * w, 2 * h
                 colour = palette.accent if chosen else mixed(palette.background, palette.accent, 0.4)
                 stage.hud.theme.canvas.frame_rect(picture, colour, *frame, 1 + chosen)
         foot = draft.name, f"gold 0 / {draft.level.gold}"
@@ -418,9 +458,14 @@ class MessagesScreen(MenuScreen):
                 theme.canvas.circle(surface, theme.palette.accent, (x, y), 6)
                 theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
 
+    def _line(self, message: Message | None) -> LevelMessage | None:
+        """A message near a place as the level will have it; None for others and without a valid place."""
+        if message and message.when == "at" and message.problem[0] != DETAIL:
+            return parse_messages(f"{message.moment}: a text")[0]
+        return None
+
     def _eye(self, message: Message) -> Point | None:
         """Where the ninja is when a message appears, px; None at the start, or where that is unknown."""
-        if message.when == "at" and message.problem[0] != DETAIL:
-            return parse_messages(f"{message.moment}: a text")[0].place
-        name, part = _SAID_AT.get(message.when, ("", BODY))
-        return next((points(spec).get(part) for spec in self._draft.objects if object_type_name(spec) == name), None)
+        if line := self._line(message):
+            return line.place
+        return said_at(self._draft, message.when) if message.when != "start" else None

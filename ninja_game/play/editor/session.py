@@ -40,7 +40,6 @@ from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import NO_FILE, stamp_of
 from ninja_game.files.user_folder import LEVELS
-from ninja_game.formats.ascii.places import is_inside
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel
@@ -58,6 +57,7 @@ from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
+from ninja_game.sim.grid import is_inside
 from ninja_game.sim.kinds import DRONE, EXIT
 from ninja_game.sim.level import Level, ObjectSpec, well_formed
 from ninja_game.ui.widgets import following

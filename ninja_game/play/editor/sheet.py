@@ -15,7 +15,7 @@ import pygame
 
 from ninja_game.editor.certify import PathPoints, TestMap
 from ninja_game.editor.draft import Draft, changed_cells
-from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
+from ninja_game.editor.specs import BODY, SWITCH, has_switch, object_type_name, points
 from ninja_game.formats.messages import parse_messages
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
@@ -280,11 +280,22 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 
 def said_places(draft: Draft) -> list[Point]:
-    """The centres of the cells with messages, and beside the ninja for its start, px."""
+    """The centres of the cells with messages, and beside the ninja or the object of other moments, px."""
     messages = parse_messages(draft.says)
-    starts = any(message.when == "start" for message in messages)
-    begins = [points(spec).get(BODY) for spec in draft.objects if starts and spec.kind == kinds.NINJA]
-    return [message.place for message in messages if message.place] + [(at[0] + 16, at[1] - 18) for at in begins if at]
+    things = (said_at(draft, when) for when in dict.fromkeys(message.when for message in messages))
+    return [message.place for message in messages if message.place] + [(at[0] + 16, at[1] - 18) for at in things if at]
+
+
+_SAID_AT = {
+    "start": ("ninja", BODY), "switch": ("exit", SWITCH), "gold": ("gold", BODY),
+    "lock": ("locked door", SWITCH), "trap": ("trap door", SWITCH),
+}  # fmt: skip
+
+
+def said_at(draft: Draft, when: str) -> Point | None:
+    """Where the ninja is at a moment of a message, px: what it has just touched; None where that is unknown."""
+    name, part = _SAID_AT.get(when, ("", BODY))
+    return next((points(spec).get(part) for spec in draft.objects if object_type_name(spec) == name), None)
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:

@@ -111,7 +111,7 @@ class LevelPlay:
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
-        self.messages = MessageQueue(messages, helps=context.shows_hints)
+        self.messages = MessageQueue(messages, self.attempt.simulation.tiles, helps=context.shows_hints)
         self.shown_lifetime = float(self.attempt.lifetime)
         self.ghosts: list[Ghost] = []
         self.tries: deque[bytes] = deque(maxlen=MAX_TRIES)  #: inputs of the failed ones

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from math import hypot
 
-from ninja_game.formats.messages import NEAR, LevelMessage, arrow_targets
+from ninja_game.formats.messages import LevelMessage, arrow_targets
+from ninja_game.sim.collision.rays import sees, solid_at
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.grid import Point
+from ninja_game.sim.level import Level
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
-from ninja_game.sim.schema.world_fields import World
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import SLIDING
+from ninja_game.simulation import Simulation
 
 SHOWN_TICKS = 240  # for which a text is shown after its event
 START_TICKS = 480  # the same in play for a single text of the start or the switch
-READ_TICKS = 120  # after which a text counts as read
 FADE_TICKS = 20  # in which a text near a place fades at its end
+FAR = 60.0  # px outside its frame at which it ends
 
 STILL = 0.05
 """Slower than this the ninja is still, px/tick."""
@@ -33,8 +37,8 @@ CLIMB = (
 SLIPS, CLIMBED = 2, 4 * CELL
 """CLIMB is shown after that many slips from a wall back to the jump, until the ninja is that many px higher."""
 
-_Text = tuple[str, int, Point | None]
-"""A text, its ticks on the screen, and its place, px."""
+_Text = tuple[str, int, LevelMessage | None]
+"""A text, its ticks on the screen, and its message; None for the game's advice."""
 
 _NOTHING: _Text = "", 0, None
 
@@ -58,14 +62,16 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 class MessageQueue:
     """The texts of one level. Each event's text is shown once; those of the start at each start until the exit is open.
 
-    Texts of one moment follow each other; a new event's text comes first, and then what it interrupted, if that belongs
-    to the start or nobody can have read it. ``text``: the present text or "", ``place``: its place, px; it ends when
-    the ninja is far from there. ``helps``: the game gives advice too: to try again, to climb. ``named``: the things
-    with a name and an arrow (``arrow_targets``).
+    Texts of one moment follow each other. A new one interrupts those of the start, which go on afterwards; any other
+    stays for its ``read_ticks``, and what happens meanwhile waits in order. A place and a time are waited for by their
+    own condition: one that the ninja has left by then comes at its next visit. ``tiles``: they hide a place from
+    the ninja; None: only full ones and doors do. ``text``: the present text or "", ``place``: its place, px; it ends
+    when the ninja is far from there. ``helps``: the game gives advice too: to try again, to climb. ``named``: the
+    things with a name and an arrow (``arrow_targets``).
     """
 
-    def __init__(self, messages: Sequence[LevelMessage], *, helps: bool = False) -> None:
-        self._messages = messages
+    def __init__(self, messages: Sequence[LevelMessage], tiles: TileMap | None = None, *, helps: bool = False) -> None:
+        self._messages, self._map = messages, tiles or TileMap()
         self.named = arrow_targets(message.text for message in messages)
         self.helps = helps
         self._again = helps
@@ -73,10 +79,13 @@ class MessageQueue:
         self._deaths = self._slips = 0
         self._climb, self._foot = "", 0.0
         self._began = 0.0, 0.0
+        self._next: list[_Text] = []
         self.at_start()
 
     def at_start(self) -> None:
-        """Called when the level waits at its start."""
+        """Called when the level waits at its start. What was still waiting has not been shown."""
+        waiting = {line[0] for line in self._next if not self._belongs_to_start(line[0])}
+        self._shown = {message for message in self._shown if message.text not in waiting}
         due = [message for message in self._messages if message.when == "death" and message.number == self._deaths]
         starts = [message for message in self._messages if message.when == "start" and message not in self._shown]
         self._say(*_in_turn([*due, *starts]))
@@ -84,23 +93,42 @@ class MessageQueue:
         self._jumped_at = self._wall = 0.0
 
     def _say(self, *texts: _Text) -> None:
-        (self.text, self._left, self.place), *self._next = texts or (_NOTHING,)
-        self._unread = READ_TICKS
+        (self.text, self._left, self.message), *self._next = texts or (_NOTHING,)
+        self._unread = read_ticks(self.text)
 
-    def _say_first(self, *texts: _Text) -> None:
-        """Show these texts first, then the interrupted and waiting ones.
+    def _say_soon(self, *texts: _Text) -> None:
+        """Show these texts next: at once if the present one has been read or belongs to the start.
 
         Once the exit is open, none of the start without a time of its own.
         """
         over = {message.text for message in self._shown if message.when == "start" and not message.seconds}
         over.update(text for text, *_ in texts)
-        now = [(self.text, self._left, self.place)] if self.is_start or self._unread > 0 else []
-        self._say(*texts, *(line for line in (*now, *self._next) if line[0] and line[0] not in over))
+        lines = [(self.text, self._left, self.message), *self._next]
+        goes_on = [line for line in lines if self._belongs_to_start(line[0]) and line[0] not in over]
+        waiting = [line for line in self._next if not self._belongs_to_start(line[0])]
+        if self.is_unread:
+            self._left = min(self._left, self._unread)
+            hurried = [(text, min(ticks, read_ticks(text)), about) for text, ticks, about in waiting]
+            self._next = [*hurried, *texts, *goes_on]
+        else:
+            self._say(*texts, *waiting, *goes_on)
+
+    @property
+    def place(self) -> Point | None:
+        return self.message and self.message.place
+
+    def _belongs_to_start(self, text: str) -> bool:
+        return any(message.text == text for message in self._messages if message.when == "start")
 
     @property
     def is_start(self) -> bool:
         """Whether the present text belongs to the start, also when it is said no more."""
-        return self.text in [message.text for message in self._messages if message.when == "start"]
+        return self._belongs_to_start(self.text)
+
+    @property
+    def is_unread(self) -> bool:
+        """Whether another text has to wait for the present one."""
+        return bool(self.text) and self._unread > 0 and not self.is_start
 
     @property
     def opacity(self) -> float:
@@ -121,7 +149,7 @@ class MessageQueue:
         before = self.text
         self._left -= 1
         self._unread -= 1
-        if self.place and self._unread < 0 and not _is_near(world, self.place, 2 * NEAR):
+        if self.message and self.place and self._unread < 0 and not _is_near(world, self.message, FAR):
             self._left = min(self._left, FADE_TICKS)
         if self._left <= 0:
             self._say(*self._next)
@@ -129,25 +157,33 @@ class MessageQueue:
         if "switch" in happened:
             # The player has understood the goal: do not repeat the text of the start.
             self._shown.update(message for message in self._messages if message.when == "start")
+        free = not self.is_unread
         new = [
             message
             for message in self._messages
             if message not in self._shown
-            and (message.when in happened or _is_near(world, message.place) or _is_due(world, message))
+            and (message.when in happened or (free and (self._is_at(world, message) or _is_due(world, message))))
         ]
         if new:
             self._shown.update(new)
-            self._say_first(*_in_turn(new))
+            self._say_soon(*_in_turn(new))
         if self._again and self._is_stuck(world):
             self._again = False
             self._say((AGAIN, SHOWN_TICKS, None))
-        if self.helps and (wall := self._slipped(world)):
+        if self.helps and (wall := self._slipped(world)) and not self.is_unread:
             towards, away = ("{right}", "{left}") if wall < 0 else ("{left}", "{right}")
             self._climb, self._foot = CLIMB % (towards, away), world.ninja.y
-            self._say_first((self._climb, START_TICKS, None))
+            self._say_soon((self._climb, START_TICKS, None))
         elif self.text == self._climb and self._foot - world.ninja.y > CLIMBED:
             self.text = ""
         return self.text != before
+
+    def _is_at(self, world: World, message: LevelMessage) -> bool:
+        """Whether the ninja is in the frame of a message, with no wall between; a place in a wall is always seen."""
+        if not (_is_near(world, message) and (place := message.place)):
+            return False
+        ninja = world.ninja.x, world.ninja.y
+        return place == ninja or solid_at(self._map, *place) or sees(self._map, world, *place, *ninja)[0]
 
     def _slipped(self, world: World) -> float:
         """At a landing that calls for advice on climbing, the x of the wall's normal; else 0."""
@@ -171,17 +207,46 @@ class MessageQueue:
         return away and self._still >= STILL_TICKS and self._quiet >= QUIET_TICKS
 
 
-def shown_ticks(when: str, together: int) -> int:
+def read_ticks(text: str) -> int:
+    """Ticks that a text needs to be read: 2 s, and 1 s for every 20 letters begun."""
+    return TICKS_PER_SECOND * (2 - -len(text) // 20)
+
+
+def waits(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[int | None]:
+    """Ticks for which each message waits for others in a run; None: it is never shown because of them."""
+    # Only the lengths of the texts matter, in steps of 20 letters: what is typed seldom runs the level again.
+    texts = [str(number).ljust(-(-len(line.text) // 20) * 20) for number, line in enumerate(messages)]
+    lines = tuple(line._replace(text=text) for line, text in zip(messages, texts, strict=True))
+    together, alone = _heard(lines, level, inputs)
+    return [0 if text not in alone else together[text] - alone[text] if text in together else None for text in texts]
+
+
+@lru_cache(maxsize=8)
+def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[dict[str, int], dict[str, int]]:
+    """The ticks of a run in which texts first come: beside each other, and each as if it were the only one."""
+    run, together, alone = Simulation(level), dict[str, int](), dict[str, int]()
+    queues = [(MessageQueue([line], run.tiles), alone) for line in messages]
+    queues.append((MessageQueue(messages, run.tiles), together))
+    for tick, keys in enumerate(inputs):
+        run.step_keys(keys)
+        for queue, ticks in queues:
+            queue.on_tick(run.world)
+            ticks.setdefault(queue.text, tick)
+    return together, alone
+
+
+def shown_ticks(when: str, together: int, text: str) -> int:
     """Ticks for a text without a time of its own, of a moment with ``together`` texts.
 
-    A single one of the start or the switch stays longer.
+    A single one of the start or the switch stays longer, and so does a text that needs it.
     """
-    return START_TICKS if together == 1 and when in {"start", "switch"} else SHOWN_TICKS
+    usual = START_TICKS if together == 1 and when in {"start", "switch"} else SHOWN_TICKS
+    return max(usual, read_ticks(text))
 
 
 def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
     return [
-        (line.text, line.seconds * TICKS_PER_SECOND or shown_ticks(line.when, len(messages)), line.place)
+        (line.text, line.seconds * TICKS_PER_SECOND or shown_ticks(line.when, len(messages), line.text), line)
         for line in messages
     ]
 
@@ -190,5 +255,9 @@ def _is_due(world: World, message: LevelMessage) -> bool:
     return message.when == "after" and world.tick >= message.number * TICKS_PER_SECOND
 
 
-def _is_near(world: World, place: Point | None, near: float = NEAR) -> bool:
-    return place is not None and max(abs(world.ninja.x - place[0]), abs(world.ninja.y - place[1])) <= near
+def _is_near(world: World, message: LevelMessage, around: float = 0.0) -> bool:
+    """Whether the ninja is in the frame of a message's place, or ``around`` it, px."""
+    if (place := message.place) is None:
+        return False
+    across, down = abs(world.ninja.x - place[0]), abs(world.ninja.y - place[1])
+    return across <= message.reach[0] + around and down <= message.reach[1] + around

@@ -21,13 +21,13 @@ from ninja_game.play.editor.messages import _WHEN, PICTURE, TEXT, TIME, Message,
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.level.hud import Box, Hud
-from ninja_game.play.level.messages import MessageQueue
+from ninja_game.play.level.messages import MessageQueue, read_ticks
 from ninja_game.play.menu_screen import Menu
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.search.certificate import verified_run
 from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.kinds import GOLD, MINE
+from ninja_game.sim.kinds import EXIT, GOLD, MINE
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Palette
@@ -148,7 +148,8 @@ def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
         room.type(name)
     assert not room.button("Remove one first").enabled
     assert [widget in screen.widgets for widget in (screen._row_widgets[3][0], screen._row_widgets[4][0])] == [0, 1]
-    room.choose("1 to 4")
+    assert "text 'Page 2 of 2'" in drawn(room.app)
+    room.choose("Page 2 of 2")
     assert screen.focus is screen._row_widgets[0][TEXT]
     room.type("z")
     screen.messages[5].text = ""
@@ -250,6 +251,11 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     assert said_places(room.draft) == [(24 * 20 + 12, 24 * 4 + 12)]
     both = replace(room.draft, says=f"{room.draft.says} | start: Go")
     assert said_places(both) == [(24 * 20 + 12, 24 * 4 + 12), (76.0, 524.0)], "beside the ninja"
+    of_things = replace(
+        put(both, Stamp({}, (ObjectSpec(GOLD, (60.0, 84.0)),))), says="gold: a | gold: b | switch: c | after 9 s: d"
+    )
+    switch = next(spec.values[2:] for spec in both.objects if spec.kind == EXIT)
+    assert said_places(of_things) == [(76.0, 66.0), (switch[0] + 16, switch[1] - 18)], "and beside gold and switch"
     room.frames()
     assert ("said", (492.0, 108.0)) in room.editor.view.sheet.marks
     tools.history.change(put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
@@ -270,6 +276,23 @@ def test_a_click_in_the_picture_on_another_message_selects_it(room: Maker) -> No
     room.mouse(*in_picture(25, 3))
     assert screen.source == "at 10,10: One | at 20,12: Two | start: Go", "what is said at the start has no place"
     assert "choose Near a place" in room.app.notice
+
+
+def test_a_drag_of_the_frame_sizes_it_and_a_drag_beside_it_moves_it(room: Maker) -> None:
+    room.editor.session.tools.history.change(replace(room.draft, says="at 12,12: One | at 3,3: Two"))
+    screen = opened(room)
+    for begin, end, detail in (
+        ((14.5, 12), (16, 20), "12,12 9x5"), ((12, 14.5), (30, 12), "12,12 9x1"), ((16.5, 12.5), (13, 13), "12,12 3x3"),
+        ((20, 20), (22, 20), "22,20 3x3"), ((23.5, 21.5), (24, 22), "22,20"),
+    ):  # fmt: skip
+        for kind, cell in ((pygame.MOUSEBUTTONDOWN, begin), (pygame.MOUSEMOTION, end), (pygame.MOUSEBUTTONUP, end)):
+            more = {"rel": (0, 0), "buttons": (1, 0, 0)} if kind == pygame.MOUSEMOTION else {"button": 1}
+            pygame.event.post(pygame.Event(kind, pos=room.app.canvas.point(*in_picture(*cell)), touch=False, **more))
+        room.frames()
+        assert screen.messages[0].detail == detail
+    assert screen.source == "at 22,20: One | at 3,3: Two"
+    room.mouse(*in_picture(3, 3))
+    assert screen.selected is screen.messages[1]
 
 
 def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) -> None:
@@ -417,7 +440,8 @@ def test_a_locked_door_and_a_trap_have_their_words() -> None:
     assert told.on_tick(world)  # type: ignore[arg-type]
     assert told.text == "The door is open"
     world.events[0].kind = TRAP_CLOSED
-    assert told.on_tick(world)  # type: ignore[arg-type]
+    for _ in range(read_ticks("The door is open")):
+        told.on_tick(world)  # type: ignore[arg-type]
     assert told.text == "Shut"
 
 
@@ -527,6 +551,20 @@ def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
     screen.messages = [Message("start", "", "x"), Message("trap", "", "y: z")]
     screen.enter()
     assert "text 'Never shown: there is no trap door'" in drawn(room.app), "also under one that is not selected"
+
+
+def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(type(room.editor.session), "way", property(lambda _: bytes(400)))
+    room.editor.session.tools.history.change(replace(room.draft, says="after 1 s: Go | after 2 s: On | after 9 s: No"))
+    screen = opened(room)
+    assert [line.partition(" at ")[0] for line in drawn(room.app).splitlines() if " late in" in line] == [
+        "text '2 s late in the known run: others are read first'"
+    ]
+    screen.messages[0].text = "long " * 24
+    assert "7 s late in" in drawn(room.app)
+    screen.messages[2].when, screen.messages[2].detail = "after", "3"
+    monkeypatch.setattr(type(room.editor.session), "way", property(lambda _: bytes(300)))
+    assert "Not shown in the known run: others are read then" in drawn(room.app)
 
 
 def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:

@@ -9,7 +9,8 @@ from unittest.mock import patch
 import pygame
 import pytest
 
-from ninja_game.formats.messages import parse_messages
+from ninja_game.formats.ascii.places import cell_of
+from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, PlacedMessage
@@ -21,10 +22,10 @@ from ninja_game.play.level.messages import (
     FADE_TICKS,
     FALL_HELP,
     QUIET_TICKS,
-    READ_TICKS,
     SHOWN_TICKS,
     START_TICKS,
     MessageQueue,
+    read_ticks,
 )
 from ninja_game.play.level.places import MUST, away_from, solid_place, tag_top
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
@@ -35,7 +36,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.rooms import room_level
 from ninja_game.player.playthrough import EpisodeSession, LevelSession
 from ninja_game.runs.deaths import SELF
-from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
+from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
@@ -159,7 +160,7 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
     messages = MessageQueue(says)
     simulation = Simulation(short_level(gold=1))
     seen = [messages.text]
-    for _ in range(60):
+    for _ in range(60 + SHOWN_TICKS):
         simulation.step_keys(2)
         if messages.on_tick(simulation.world):
             seen.append(messages.text)
@@ -215,7 +216,39 @@ def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
         simulation.world.event_count = int(kind is not None)
         simulation.world.events[0].kind = kind or 0
         texts += [quick.text for _ in range(1 if kind else 2 * START_TICKS) if quick.on_tick(simulation.world)]
-    assert texts == ["one", "three", "one", "two", ""], "what happens is said first, and takes nothing away"
+    assert texts == ["one", "two", "three", ""], "what happens waits for its turn, and takes nothing away"
+
+
+def test_a_text_stays_as_long_as_its_letters_need_and_what_happens_meanwhile_waits() -> None:
+    long = "Gold adds two seconds to the clock; " * 3
+    told = MessageQueue(parse_messages(f"gold: {long} | lock: open | at 3,22: Here | trap: shut"))
+    world = Simulation(room_level(["#@..#"], ())).world
+    heard = []
+    for tick in range(2 * START_TICKS):
+        world.event_count = int(tick in (0, 40, 50))
+        world.events[0].kind = {0: GOLD_TAKEN, 40: TRAP_CLOSED}.get(tick, LOCK_OPENED)
+        world.ninja.x = 84.0 if 60 < tick < 80 or tick > 600 else 400.0
+        world.ninja.y = 540.0
+        heard += [(tick, told.text)] if told.on_tick(world) else []
+    need = read_ticks(long.strip())
+    assert need == 8 * TICKS_PER_SECOND
+    assert [text for _, text in heard] == [long.strip(), "shut", "open", "Here", ""]
+    assert [tick for tick, _ in heard[:3]] == [0, need, need + read_ticks("shut")], (
+        "in order, and no longer than needed"
+    )
+
+
+def test_what_a_death_kept_from_being_said_is_said_when_it_happens_again() -> None:
+    told, world = MessageQueue(parse_messages("gold: one | trap: two")), Simulation(short_level()).world
+    world.event_count = 1
+    for world.events[0].kind in (GOLD_TAKEN, TRAP_CLOSED):
+        told.on_tick(world)
+    assert told.text == "one"
+    told.on_death()
+    told.at_start()
+    assert told.text == ""
+    assert told.on_tick(world)
+    assert told.text == "two"
 
 
 def test_text_of_the_start_with_a_time_of_its_own_keeps_it_after_the_exit_has_opened() -> None:
@@ -247,8 +280,8 @@ def test_text_at_a_place_does_not_lie_over_the_ninja_that_has_come_there(driver:
     driver.press("return")
     level, hud = driver.shown(LevelScreen), Hud(driver.app.theme)
     level.begin()
-    play, place = level.play, (396.0, 300.0)
-    play.messages.text, play.messages.place, play.things = "Jump up here", place, ()
+    play, (here,) = level.play, parse_messages("at 16,12: Jump up here")
+    play.messages.text, play.messages.message, play.things = here.text, here, ()
     x, y, w, h = hud.box(hud_view(play).message or PlacedMessage("", (), (), None, covers=False)).area
     for play.message_spot in ((x + 4, y + 4), (x + w - 4, y + h - 4), (x + w / 2, y + h / 2)):
         said = hud_view(play).message
@@ -270,7 +303,7 @@ def test_text_at_a_place_is_said_there_once() -> None:
     assert (near.text, far.text) == ("here", "")
 
 
-@pytest.mark.parametrize("away, ticks", [(0, SHOWN_TICKS), (110, SHOWN_TICKS), (130, READ_TICKS + FADE_TICKS)])
+@pytest.mark.parametrize("away, ticks", [(0, SHOWN_TICKS), (110, SHOWN_TICKS), (130, read_ticks("Here") + FADE_TICKS)])
 def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, ticks: int) -> None:
     told = MessageQueue(parse_messages("at 3,22: Here"))
     ninja = (world := Simulation(room_level(["#@..#"], ())).world).ninja
@@ -285,6 +318,21 @@ def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, 
     assert solid[:-FADE_TICKS] == [1.0] * (len(solid) - FADE_TICKS)
     assert solid[-FADE_TICKS:] == sorted(solid[-FADE_TICKS:], reverse=True)
     assert solid[-1] < 0.1
+
+
+def test_a_place_has_a_frame_of_its_size_and_a_wall_hides_it() -> None:
+    room = Simulation(room_level(["#........#", "##########", "#@.......#"], ()))
+    ninja = room.world.ninja
+    middle, floor, above = 24 * 6 + 12.0, ninja.y, ninja.y - 48
+    for source, x, y, seen in (
+        ("at 6,3", middle, above, False), ("at 6,3", middle, floor, True), ("at 6,3", middle - 50, floor, True),
+        ("at 6,3 3x1", middle - 50, floor, False), ("at 6,3 3x1", middle + 30, floor, True),
+        ("at 6,2", middle + 30, above, True), ("at 6,3", middle - 70, floor, False),
+        ("at 6,3 7x1", middle - 70, floor, True),
+    ):  # fmt: skip
+        told = MessageQueue(parse_messages(f"{source}: Here"), room.tiles)
+        ninja.x, ninja.y = x, y
+        assert told.on_tick(room.world) is seen, (source, x, y)
 
 
 def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
@@ -581,7 +629,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
     driver: MenuDriver, place: tuple[float, float], words: int
 ) -> None:
     level, text = LevelScreen(driver.app, LevelSession(driver.player, entry(short_level()))), " ".join(["word"] * words)
-    level.play.messages._say((text, 99, place))
+    level.play.messages._say((text, 99, LevelMessage("at", text, cell=cell_of(*place))))
     level.play.message_spot = (10.0, 10.0)
     view = hud_view(level.play)
     assert view.message
