@@ -800,9 +800,9 @@ def test_of_the_records_of_one_moment_the_first_page_has_the_last_of_a_level(
     level = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     assert "How the record" not in level, "of one moment there is one record"
     players = page.partition("<h2>Players</h2>")[2].partition("</thead>")[0]
-    assert re.findall("<th[^>]*>(?:<span[^>]*>)?([^<]+)", players)[3:] == [
-        "First, Fastest", "First, Highest score",
-    ], "no medals: these levels have no par times"  # fmt: skip
+    assert re.findall("<th[^>]*>(?:<span[^>]*>)?([^<]+)", players)[3:] == ["First, Fastest", "First, Highest score"], (
+        "no medals: these levels have no par times"
+    )
 
 
 def test_the_page_of_a_run_shows_its_path(runs: Path, levels: Path, tmp_path: Path) -> None:

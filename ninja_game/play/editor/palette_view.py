@@ -230,12 +230,12 @@ class PaletteView(Widget):
 
     @property
     def label(self) -> str:
-        """The name and the keys of the entry under the mouse, or else of the chosen one."""
+        """The name of the entry under the mouse, or else of the chosen one; of objects with the key."""
         what = self._in_hand if self.hovered is None else self.hovered
         if isinstance(what, brush.ObjectType):
             return f"{what.name.capitalize()} (key {key_label_of(what.key)})"
         name = brush.tile_name(what)
-        return f"{name[0].upper()}{name[1:]}: {brush.tile_key(what)}"
+        return f"{name[0].upper()}{name[1:]}"
 
     def _at(self, x: float, y: float) -> Entry | None:
         return next((entry for entry, area in self.places() if inside(area, x, y)), None)

@@ -309,7 +309,7 @@ class PalettePart(EditorPart):
         self._palette = palette
         x, y, w, h = self.area
         listed = ToolButton((x + w - 38, y + h - 15, 34, 14), "list", "List", run, view)
-        stamps = ToolButton((x + w - 52, y + 92, 46, 13), "stamps", "Stamps", run, view)
+        stamps = ToolButton((x + w - 78, y + h - 15, 39, 14), "stamps", "Stamps", run, view)
         self.widgets = [palette, listed, stamps]
 
     def render_key(self) -> tuple[object, ...]:
@@ -321,7 +321,7 @@ class PalettePart(EditorPart):
         x, y, w, h = self.area
         theme.canvas.fill_rect(surface, theme.palette.panel, x + 2, y, w - 4, h, 3)
         label = self._palette.label
-        theme.text(surface, label, x + 7, y + h - 13, size=8.5, width=w - 48, height=13, bold=True)
+        theme.text(surface, label, x + 5, y + h - 13, size=8, width=w - 83, height=13)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         used = super().mouse(event, x, y)

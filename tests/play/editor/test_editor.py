@@ -624,13 +624,13 @@ def test_the_list_of_objects_finds_selects_and_orders_them_by_clicks(room: Maker
 def test_the_palette_says_what_is_in_hand_or_under_the_mouse(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
     said = noted_texts(monkeypatch)
     room.press("4", "s")
-    assert "Hollow curve lower right: 4 S" in said
+    assert "Hollow curve lower right" in said
     gold = next(area for what, area in room.editor.palette.places() if getattr(what, "name", "") == "gold")
     room.mouse(gold[0] + 5, gold[1] + 5, click=False)
     assert "Gold (key 0)" in said
     said.clear()
     room.mouse(*room.at(300, 300), click=False)
-    assert "Hollow curve lower right: 4 S" in said
+    assert "Hollow curve lower right" in said
 
 
 def test_a_click_on_the_lower_edge_of_help_does_not_leave_the_editor(room: Maker) -> None:

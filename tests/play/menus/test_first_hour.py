@@ -9,7 +9,6 @@ from unittest.mock import patch
 import pygame
 import pytest
 
-from ninja_game.formats.ascii.places import cell_of
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
@@ -37,6 +36,7 @@ from ninja_game.play.rooms import room_level
 from ninja_game.player.playthrough import EpisodeSession, LevelSession
 from ninja_game.runs.deaths import SELF
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
+from ninja_game.sim.grid import cell_of
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
@@ -121,7 +121,7 @@ def test_text_of_the_start_covers_what_is_solid_and_no_way() -> None:
     for thing in ((x + 10, y + 10, MUST), (x + 350, y - 8, MUST)):
         left, top, *_ = solid_place(block, 360.0, 59.0, (thing,))
         assert not (left < thing[0] < left + 360 and top < thing[1] < top + 59), "a thing is never covered"
-    left, top, *_ = solid_place((1,) * 713, 120.0, 60.0, about=(600.0, 300.0))
+    left, top, *_ = solid_place((1,) * 713, 120.0, 60.0, near=(600.0, 300.0))
     assert hypot(left + 60 - 600, top + 30 - 300) < 40, "of equal places the nearest"
 
 
