@@ -20,13 +20,14 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App
 from ninja_game.play.replay import playback
 from ninja_game.play.replay.film import Film, film_pictures, write_film
-from ninja_game.play.replay.playback import Playback
+from ninja_game.play.replay.playback import Playback, draw_names
 from ninja_game.play.replay.screen import SHOWN_AFTER_END, SPEEDS, ReplayScreen
 from ninja_game.runs import save_states
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.bindings import InputEvent
-from ninja_game.ui.theme import RUN_COLOURS
+from ninja_game.ui.theme import RUN_COLOURS, Theme
 from tests.support.draw_log import noted_texts
 from tests.support.heavy import heavy_level
 from tests.support.own_pack import PACK
@@ -270,6 +271,16 @@ def test_no_turn_of_the_costliest_run_is_longer_than_others(
         frames(app, 3)
         # A tick of each of the worlds is the least that there can be beside it.
         assert max(turns) <= TURN_WORK + 4 * tick_cost(run.level)
+
+
+@pytest.mark.parametrize("x", [24.0, 768.0])
+def test_a_long_name_of_a_ghost_stays_between_the_sides_of_the_level(x: float) -> None:
+    """What is drawn beside the level, in a wide window, is not drawn over again."""
+    with viewer(RUN, replace(RUN, file="", replay=replace(RUN.replay, author="M" * 24))) as (_, screen):
+        theme = Theme(screen.theme.palette, Canvas((1280, 600)))
+        with patch.object(screen.ghosts[0], "place", return_value=(x, 300.0)):
+            (covered,) = draw_names(pygame.Surface((1280, 600)), theme, screen.ghosts, 1.0)
+    assert theme.canvas.rect(0, 0, 792, 600).inflate(2, 0).contains(covered)
 
 
 def test_ghosts_have_names_and_colours_and_are_in_the_film(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,6 +17,7 @@ from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import SaveState, Simulation
+from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.theme import Theme, run_colour
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.view.sprites.drawing import is_near
@@ -202,6 +203,8 @@ def draw_names(
 ) -> list[pygame.Rect]:
     """Draw the names of ghosts above them, higher where one would cover another; their rectangles, px.
 
+    All of a name stays between the sides of the level: beside it nothing is drawn again.
+
     ``size``: of the letters, px of the level.
     """
     covered = list[pygame.Rect]()
@@ -209,8 +212,9 @@ def draw_names(
         x, y = ghost.place(fraction)
         if not is_near(x, y):
             continue
+        half, above = theme.width(ghost.name, size) / 2, y - 15 - size
+        x = max(half, min(x, WIDTH - half))
         write = partial(theme.text, text=ghost.name, x=x, size=size, colour=ghost.shade, align="centre")
-        above = y - 15 - size
         while write(None, y=above).collidelist(covered) >= 0:
             above -= size
         covered.append(write(surface, y=above))
