@@ -59,7 +59,7 @@ def parse_messages(value: str) -> tuple[LevelMessage, ...]:
     """The texts in a header's value, separated by bars. Raises LevelError.
 
     >>> parse_messages("start: {jump} jumps | death 3 for 9 s: Wait for the drone")[1]
-    LevelMessage(when='death', text='Wait for the drone', number=3, cell=(0, 0), seconds=9)
+    LevelMessage(when='death', text='Wait for the drone', number=3, cell=(0, 0), seconds=9, size=(5, 5))
     """
     parts = value.split(BAR) if value.strip() else []
     if len(parts) > MAX_MESSAGES:

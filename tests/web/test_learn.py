@@ -207,7 +207,7 @@ def test_a_figure_follows_mouse_and_keys_and_its_controls(new_visitor: Callable[
     visitor = new_visitor(viewport={"width": 1000, "height": 900})
     page = visitor.page
     figure = open_figure(visitor, "04-projection")
-    place = drag_to(page, figure, 0.52, 0.5)
+    place = drag_to(page, figure, 0.52, 0.27)
     eventually(page, lambda: shown(figure)[:6] == moved("projection", *place).numbers()[:6], "the mouse")
     page.keyboard.press("ArrowLeft")
     expected = moved("projection", *place)
