@@ -319,10 +319,10 @@ class EditorSession:
         return path.parent == self.app.player.folder / LEVELS or is_pack(path.parent)
 
     def certify_file(self) -> None:
-        """Write the known runs beside the level's file if that holds this level: packs then need no other."""
+        """Write the known runs beside the level's file if that holds their level: packs then need no other."""
         search, path = self.certifier.search, self.source.path
         known = search.run, search.full, path
-        if path and search.run and known != self._certified and self.is_saved:
+        if path and self.way and known != self._certified and self.is_saved:
             self._certified = known
             self._keep(path, search)
 

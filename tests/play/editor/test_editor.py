@@ -415,6 +415,28 @@ def test_a_certified_level_needs_no_other_certificate_in_a_pack(room: Maker, tmp
     assert (pack / "certificates" / "room.exit.replay.txt").read_text() == before, "what is not saved certifies nothing"
 
 
+def test_a_run_found_while_another_version_was_saved_is_kept_once_its_level_is_saved(
+    room: Maker, tmp_path: Path
+) -> None:
+    session, kept = room.editor.session, tmp_path / "levels" / "certificates" / "room.exit.replay.txt"
+    searched = session.draft.level
+    room.drag((300, 300))
+    room.chord("s", pygame.KMOD_LCTRL)
+    session.certifier.search = Certification(
+        searched, run=verified_run(searched, with_press_bits(bytes([2]) * 100)), end="Done"
+    )
+    before = room.app.notice
+    room.frames()
+    assert not kept.exists(), "the file has another level"
+    assert room.app.notice == before, "the panel says that the run is of another version"
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert session.keeping == "Kept when the level is saved"
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.frames()
+    assert session.keeping == "Kept with the level"
+    assert kept.exists()
+
+
 def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_there(room: Maker) -> None:
     session, level = room.editor.session, room.draft.level
     exit_ = next(number for number, record in enumerate(level.objects) if record.kind == EXIT)
