@@ -391,21 +391,31 @@ def with_ninja_at(draft: Draft, place: tuple[float, float]) -> Level:
     return put(draft, Stamp({}, (placed(object_of_type("ninja"), *place, "px"),))).level
 
 
-def place_before(draft: Draft, routes: Iterable[PathPoints], place: tuple[float, float]) -> tuple[float, float] | None:
+def place_before(
+    draft: Draft, routes: Iterable[PathPoints], place: tuple[float, float], size: Cell = SIZE
+) -> tuple[float, float] | None:
     """Where a test of what is said near a place begins, px; None: at the level's start.
 
-    It is where the first of these routes that comes there last stood; else a cell beside the place, with a floor and
-    on the side of the start rather than without. A ninja that presses nothing lives there.
+    It is where the first of these routes that comes there last stood; else a cell beside the frame, with a floor and
+    on the side of the start rather than without. A ninja that presses nothing lives there. ``size``: of the frame
+    around the place, in cells.
     """
     column, row = cell_of(*place)
     start = next(iter(route_of(draft.level, bytes(1))), place)
-    near, places = (max(SIZE) / 2 + 1) * CELL, []
-    if max(abs(start[0] - place[0]), abs(start[1] - place[1])) <= near and start != place:
+    places = []
+
+    def is_near(x: float, y: float) -> bool:
+        return abs(x - place[0]) <= (size[0] / 2 + 1) * CELL and abs(y - place[1]) <= (size[1] / 2 + 1) * CELL
+
+    if is_near(*start) and start != place:
         return None
     for route in routes:
-        came = next((k for k, (x, y) in enumerate(route) if max(abs(x - place[0]), abs(y - place[1])) <= near), 0)
+        came = next((k for k, at in enumerate(route) if is_near(*at)), 0)
         places += [there for before, there in pairwise(route[:came]) if before[1] == there[1]][-1:]
-    ways = [[(column + step * k, row) for k in range(1, 4)] for step in ((1, -1) if start > place else (-1, 1))]
+    ways = [
+        [(column + step * k, row) for k in range(1, size[0] // 2 + 2)]
+        for step in ((1, -1) if start > place else (-1, 1))
+    ]
     for way in sorted(ways, key=lambda way: -sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way)):
         if all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way):
             places.append(middle_of(way[-1]))

@@ -235,11 +235,11 @@ class EditorCommands(DocumentCommands):
             return
         self.app.push(screen)
 
-    def test_message(self, place: Point | None, says: str) -> None:
-        """Play the level with these messages, from just before a place, as the solver's run or the last test came."""
+    def test_message(self, place: Point | None, size: Cell, says: str) -> None:
+        """Play the level with these messages, from just before a frame, as the solver's run or the last test came."""
         session = self.session
         routes = session.certifier.search.route if session.way else (), session.last_try
-        self.test(place and place_before(session.draft, routes, place), says)
+        self.test(place and place_before(session.draft, routes, place, size), says)
 
     def certify(self) -> None:
         certifier = self.session.certifier

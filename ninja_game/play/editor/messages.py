@@ -174,8 +174,9 @@ class _Stage:
 class MessagesScreen(MenuScreen):
     """``here``: the default cell of a new message near a place. ``put``: gets the new value of the header.
 
-    ``test``: plays the level from before a place, or its start, with such a value. ``at``: the cell of the message that
-    gets the focus. ``mood``: in which the level is played. ``way``: gives the inputs of its author's run, if any.
+    ``test``: plays the level from before a place, with the size of its frame, or its start, with such a value. ``at``:
+    the cell of the message that gets the focus. ``mood``: in which the level is played. ``way``: gives the inputs of
+    its author's run, if any.
     """
 
     title = "Messages to the player"
@@ -187,7 +188,7 @@ class MessagesScreen(MenuScreen):
         draft: Draft,
         here: Cell,
         put: Callable[[str], object],
-        test: Callable[[Point | None, str], object],
+        test: Callable[[Point | None, Cell, str], object],
         mood: Mood,
         way: Callable[[], bytes],
         at: Cell | None = None,
@@ -340,8 +341,8 @@ class MessagesScreen(MenuScreen):
 
     def _try(self) -> None:
         if self._is_sound():
-            eye = self._eye(self.selected) if self.selected else None
-            self._test(eye, self.source)
+            eye, line = self._eye(self.selected) if self.selected else None, self._line(self.selected)
+            self._test(eye, line.size if line else SIZE, self.source)
 
     def close(self) -> None:
         """Leave; ask first whether changes are kept."""

@@ -308,6 +308,11 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
         room.press("escape")
         assert room.top() is screen
     assert places == [(60.0, 3), (17 * 24 + 12.0, 3), (2 * 24 + 12.0, 3)]
+    screen.messages[1].detail = "20,22 9x5"
+    room.mouse(*screen._row_widgets[1][-1].centre)
+    room.choose("Test")
+    assert room.shown(TryScreen).attempt.simulation.ninja.x == 15 * 24 + 12.0, "before its wider frame"
+    room.press("escape")
     screen.messages[0].text = ""
     room.choose("Test")
     assert room.top() is screen
@@ -324,6 +329,9 @@ def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room:
     # Both sides of this one are deadly, so it is the level's start.
     assert place_before(draft, (), (14 * 24 + 12.0, 540.0)) == (17 * 24 + 12.0, 540.0)
     assert place_before(draft, (), (8 * 24 + 12.0, 540.0)) == (5 * 24 + 12.0, 540.0)
+    wide, high = (18 * 24 + 12.0, 18 * 24 + 12.0), (19 * 24 + 12.0, 17 * 24 + 12.0)
+    assert place_before(draft, (), wide, (7, 1)) == (14 * 24 + 12.0, 18 * 24 + 12.0), "outside its frame"
+    assert place_before(draft, (), high, (1, 7)) == (18 * 24 + 12.0, 17 * 24 + 12.0), "beside its frame"
     tight = put(draft, Stamp({}, (ObjectSpec(MINE, (5 * 24 + 12.0, 540.0)),)))
     assert place_before(tight, (), (8 * 24 + 12.0, 540.0)) is None
     # Where a run comes in from the right in a jump, it is where the run last stood.
