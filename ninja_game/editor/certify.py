@@ -122,9 +122,8 @@ class Certification:
     began: float = field(default_factory=monotonic)
     end: str = ""  #: why it is over; "" before that
     seconds: float = 0.0  #: for the search
-    obstacles: tuple[
-        Finding, ...
-    ] = ()  #: why it found no run in all its seconds, or the doors that its run leaves closed
+    #: Why it found no run in all its seconds, or the doors that its run leaves closed
+    obstacles: tuple[Finding, ...] = ()
     full: Replay | None = None  #: the best run with all gold
     then: Callable[[Certification], object] | None = None  #: called at the end, in the solver's thread
     failed: bool = False  #: whether an error ended it

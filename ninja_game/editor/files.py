@@ -143,7 +143,7 @@ def kept_history(folder: Path, key: str, draft: Draft) -> History[Draft]:
     """The history that was kept with this key, with ``draft`` as its present; without a readable one a new history."""
     with suppress(OSError, *DAMAGED):
         kept = json.loads(read_utf8(_undo_file(folder, key)))
-        (now,), done, undone = ([Draft.of_json(each) for each in drafts] for drafts in kept)
+        (now,), done, undone = ([Draft.of_json(draft_kept) for draft_kept in drafts] for drafts in kept)
         history = History(now, done, undone)
         # Discarded changes can be undone too.
         history.change(draft)

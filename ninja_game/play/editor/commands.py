@@ -352,7 +352,7 @@ class EditorCommands(DocumentCommands):
         self._load(follow)
 
     def saved_text(self, path: Path) -> str:
-        return f"Saved{', and in the menu Levels' * path.is_relative_to(self._levels)}: {path.name}"
+        return f"Saved{', and in the menu Levels' if path.is_relative_to(self._levels) else ''}: {path.name}"
 
     def save_as(self, then: Action = nothing) -> None:
         """Ask for the level's name, write it into a file of that name, and call ``then``."""

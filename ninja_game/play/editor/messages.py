@@ -102,7 +102,7 @@ class Message:
 
     @property
     def moment(self) -> str:
-        return f"{self.when} {' '.join(self.detail.split())}{' s' * (self.when == 'after')}".strip()
+        return f"{self.when} {' '.join(self.detail.split())}{' s' if self.when == 'after' else ''}".strip()
 
     @property
     def seconds(self) -> int:

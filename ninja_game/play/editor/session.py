@@ -223,7 +223,8 @@ class EditorSession:
         now = self.draft.level, spec if spec and spec.kind == DRONE and well_formed(spec) else None
         if now != self._drone:
             self._drone, self.rounds.result = now, None
-            self.rounds.ask(drone_round(self.draft, now[1])) if now[1] else None
+            if now[1]:
+                self.rounds.ask(drone_round(self.draft, now[1]))
 
     @property
     def drone_round(self) -> PathPoints:

@@ -141,7 +141,7 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
         if play.show_tutorial and not play.messages.text:
             return f"{key('left')} and {key('right')} to run    {key('jump')} to jump, hold it to go higher    {begin}"
         inside = f"    {key('overlay_hitboxes')} to {key('overlay_thinkers')}: look inside"
-        return begin + inside * play.context.practice_mode
+        return begin + (inside if play.context.practice_mode else "")
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
     named = play.phase is not Phase.PASSED and play.attempt.simulation.tick < _TOOLS_NAMED
