@@ -285,7 +285,7 @@ class EditorTools:
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
         if not self.objects:
             tile, cells = 0 if erasing else self.tile, stamps.covered("line", before, self.cell, 0.0)
-            cells += stamps.steps(cells) if self.slopes else []
+            cells += stamps.steps(cells) if self.slopes and tile in (brush.EMPTY, brush.FULL) else []
             self._change(stamps.Stamp(dict.fromkeys(cells, tile)))
         elif erasing:
             self.delete_nearest()

@@ -376,6 +376,10 @@ def test_a_quick_freehand_diagonal_is_one_band_with_slopes(
     # At every move of the mouse a cell on and a cell up or down.
     drag(tools, *((ax + (bx - ax) * k / 4, ay + (by - ay) * k / 4) for k in range(5)))
     assert picture(tools, range(2, 7), range(2, 7)) == rows
+    tools.undo()
+    before, tools.tile = tools.draft, 6
+    drag(tools, *((ax + (bx - ax) * k / 4, ay + (by - ay) * k / 4) for k in range(5)))
+    assert len(changed_cells(before, tools.draft)) == 5, "a slope in hand has no step that slopes join"
 
 
 def test_slopes_that_nobody_touched_stay_as_they_are(root: Path) -> None:
