@@ -16,7 +16,7 @@ from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, has_switch, points, properties, with_word, word
 from ninja_game.formats.ascii.object_lines import SIDES
-from ninja_game.formats.messages import parse_messages, with_message_moved
+from ninja_game.formats.messages import messages_at, parse_messages, with_message_moved
 from ninja_game.sim.grid import Cell, cell_of, is_inside, middle_of
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, LAUNCH_PAD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
@@ -55,11 +55,6 @@ class Gesture(StrEnum):
 
 OTHER_KINDS = tuple(kind.name for kind in brush.OBJECT_TYPES if kind.spec.kind not in (NINJA, EXIT, DOOR))
 """Types that an object can become: without single ones, and those with a side or a switch."""
-
-
-def said_cells(says: str) -> list[Cell | None]:
-    """The cell of each message of a level; None for one without a place."""
-    return [message.cell if message.place else None for message in parse_messages(says)]
 
 
 def can_be_remade(spec: ObjectSpec) -> bool:
@@ -162,7 +157,7 @@ class EditorTools:
             self._drag()
         elif self._gesture == Gesture.MESSAGE and is_inside(self.cell):
             began = self.history.began
-            place = said_cells(began.says).index(cell_of(*self._pressed_at))
+            place = parse_messages(began.says).index(messages_at(began.says, cell_of(*self._pressed_at))[0])
             self.history.change(replace(began, says=with_message_moved(began.says, place, self.cell)))
         elif self._gesture == Gesture.CHOOSE:
             self.marquee = cell_of(*self._pressed_at), self.cell
@@ -378,7 +373,7 @@ class EditorTools:
             self._begin_drag()
             return
         self._chosen_before = self.selection if add else stamps.Selection()
-        if part is None and not add and self.cell in said_cells(self.draft.says):
+        if part is None and not add and messages_at(self.draft.says, self.cell):
             self.history.begin()
             self._gesture = Gesture.MESSAGE
         elif part is None:

@@ -83,6 +83,11 @@ def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
     return TARGETS if any(name in TARGETS for text in texts for name in _KEY.findall(text)) else ()
 
 
+def messages_at(says: str, cell: tuple[int, int]) -> list[LevelMessage]:
+    """The messages of a level with this cell as their place."""
+    return [message for message in parse_messages(says) if message.place and message.cell == cell]
+
+
 def with_message_moved(says: str, number: int, cell: tuple[int, int]) -> str:
     """A header's value with one of its messages, by number from 0, moved to another cell.
 

@@ -17,7 +17,7 @@ from ninja_game.files.shown_text import counted
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.ascii.places import place_text, read_place
 from ninja_game.formats.ascii.writer import best_form
-from ninja_game.formats.messages import parse_messages
+from ninja_game.formats.messages import messages_at
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.commands import TABLE
 from ninja_game.play.editor.palette_view import PaletteView, live_changes
@@ -457,10 +457,9 @@ class StatusLine(EditorPart):
             return "Click where the switch is; Esc gives up"
         if tools.ghost:
             return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc gives up"
-        messages = parse_messages(tools.draft.says) if self.view.hovering else ()
-        texts = [message.text for message in messages if message.place and message.cell == tools.cell]
-        if texts:
-            return f"Double click opens the message, Select drags it: {texts[0]}"
+        messages = messages_at(tools.draft.says, tools.cell) if self.view.hovering else ()
+        if messages:
+            return f"Double click opens the message, Select drags it: {messages[0].text}"
         slopes = "Slopes by themselves. " if tools.sets_slopes else ""
         if tools.tool == "select" and tools.takes != TAKES[0]:
             slopes = f"Takes only {tools.takes}: Shift+V. "

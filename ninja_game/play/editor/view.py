@@ -11,8 +11,9 @@ from ninja_game.editor.certify import SQUARE, PathPoints, Reach, TestMap
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
-from ninja_game.editor.stamp import CellArea, Stamp, area_between, nearest
-from ninja_game.editor.tools import PICK_REACH, EditorTools, said_cells
+from ninja_game.editor.stamp import Stamp, area_between, nearest
+from ninja_game.editor.tools import PICK_REACH, EditorTools
+from ninja_game.formats.messages import messages_at
 from ninja_game.play.app import App
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.session import EditorSession
@@ -127,7 +128,7 @@ class Overlay:
     def _note(self, rect: pygame.Rect) -> None:
         self.target.covered.append(rect.inflate(4, 4))
 
-    def _frame(self, area: CellArea, colour: Colour) -> None:
+    def _frame(self, area: Area, colour: Colour) -> None:
         column, row, columns, rows = area
         rect = self.canvas.rect(CELL * column, CELL * row, CELL * columns, CELL * rows)
         pygame.draw.rect(self.target.surface, colour, rect, self.canvas.px(1.6))
@@ -153,10 +154,11 @@ class Overlay:
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
         if not draws:
             target = tools.near(PICK_REACH)
-            if tools.draft.says and tools.cell in said_cells(tools.draft.says):
-                # The range of a message, NEAR: it appears when the ninja comes in.
-                column, row = tools.cell
-                self._frame((column - 2, row - 2, 5, 5), self.sheet.palette.accent)
+            for message in messages_at(tools.draft.says, tools.cell):
+                # It appears when the ninja comes in.
+                (column, row), (columns, rows) = message.cell, message.size
+                area = column - (columns - 1) / 2, row - (rows - 1) / 2, columns, rows
+                self._frame(area, self.sheet.palette.accent)
             if target:
                 self.target.sprite(_ring("faint"), *points(tools.draft.objects[target[0]])[target[1]])
                 return
@@ -297,7 +299,7 @@ class EditorView(Pane):
         before, now = None if erase or pick else self._pressed, pygame.time.get_ticks()
         self._pressed = cell, now, self.session.draft
         twice = before and before[0] == cell and now - before[1] < DOUBLE_MS
-        if before and twice and cell in said_cells(before[2].says):
+        if before and twice and messages_at(before[2].says, cell):
             # Undo what the first click of the two has drawn.
             self.session.tools.finish()
             if self.session.draft is not before[2]:

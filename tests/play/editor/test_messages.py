@@ -295,6 +295,20 @@ def test_a_drag_of_the_frame_sizes_it_and_a_drag_beside_it_moves_it(room: Maker)
     assert screen.selected is screen.messages[1]
 
 
+def test_a_message_under_the_mouse_shows_the_frame_that_it_has(room: Maker) -> None:
+    room.editor.session.tools.history.change(replace(room.draft, says="at 12,12 8x3: One"))
+    room.editor.session.tools.tool = "select"
+    room.mouse(*room.at(12 * 24 + 12, 12 * 24 + 12), click=False)
+    room.frames(2)
+    accent = room.app.theme.palette.accent
+    middle = 12 * 24 + 12
+    edges = [(middle - 4 * 24, middle), (middle + 4 * 24 - 1, middle), (middle, middle - 36), (middle, middle + 35)]
+    for edge in edges:
+        x, y = room.app.canvas.point(*room.at(*edge))
+        near = [room.app.surface.get_at((x + i, y + j)) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+        assert accent in near, edge
+
+
 def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) -> None:
     room.editor.session.tools.history.change(replace(room.draft, says="start: Go | at 20,22: Here | switch: Out"))
     screen = opened(room)
