@@ -1,4 +1,4 @@
-"""The pages of levels and of runs, and the parts of all pages of a board: links, tables of any length, drawings."""
+"""The pages of levels and of runs."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ SPLITS_OF = "Seconds, and px per tick; numbers are those in the pictures above"
 
 
 class _Ranks(NamedTuple):
-    """A table of a level: its first ``rows`` without those far behind, these, and near copies that are better."""
+    """A table of a level: its first ``rows`` without those far behind, these, and runs that wait and are better."""
 
     leaderboard: Leaderboard
     rows: list[Ranked]
@@ -107,7 +107,7 @@ class LevelPages:
             about = seconds_text(tick), f"{speeds[tick]:.2f}", "" if other is None else signed(tick - other)
             lines.append((tag("a", number, href=f"#{PLACE}{number}"), row.split.name, *about))
         where, splits = None, None
-        if lines:
+        if ghosts:
             first = self.parts.shown_name(beside[-1].player)
             heads = "No.", "Split", "Time", "Speed", f"Later than {first}"
             splits = section("Splits", table(SPLITS_OF, heads, lines))
