@@ -87,9 +87,9 @@ class Ranking:
         for row in sorted(valued, key=itemgetter(0, 1)):
             best.setdefault(row[2].player, row)
         table: list[Ranked] = []
-        for number, (near, values, run) in enumerate(best.values(), 1):
+        for number, (waits, values, run) in enumerate(best.values(), 1):
             shared = table and table[-1].values == values
-            place = 0 if near else table[-1].place if shared else number
+            place = 0 if waits else table[-1].place if shared else number
             first = (table[0].values if table else values)[0]
             table.append(Ranked(place, run, values, values[0] - first, category.far(values[0], first)))
         return table
@@ -114,13 +114,13 @@ class Ranking:
         """Runs that wait and are better than their player's run in the table."""
         ladder, category = leaderboard
         best = {row.run.player: row for row in table if row.run.ladder == ladder}
-        near_copies = []
+        waiting = []
         for run in self.by_level.get(level, ()):
             values, row = self.values(category, run), best.get(run.player)
             if run.waits and run.ladder == ladder and values and row and values < row.values:
                 first = table[0].values[0]
-                near_copies.append(Ranked(0, run, values, values[0] - first, category.far(values[0], first)))
-        return near_copies
+                waiting.append(Ranked(0, run, values, values[0] - first, category.far(values[0], first)))
+        return waiting
 
     def side_by_side(self, level: str, most: int) -> tuple[Category, list[Run]]:
         """The first category of a level with runs, and its first runs: of both ladders in turn, played ones first.

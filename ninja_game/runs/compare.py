@@ -280,17 +280,18 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
         raise ArgumentError(f"runs of {n} and {m} ticks are too long to be compared place by place")
     came_from = np.zeros((n, m), np.uint8)
     # Each diagonal is a slice: of these cells in steps of m - 1, and of the other run backwards.
-    cells, backwards = came_from.reshape(-1), theirs[::-1]
+    cells, (x, y), (other_x, other_y) = came_from.reshape(-1), ours.T.copy(), theirs[::-1].T.copy()
     # Costs of the last two diagonals, by the tick of ours plus one; all paths begin in front of both first ticks.
     costs, last, before = (np.full(n + 1, np.inf) for _ in range(3))
     before[0] = 0.0
     for diagonal in range(n + m - 1):
         start, end, shift = max(0, diagonal - m + 1), min(n, diagonal + 1), m - 1 - diagonal
+        here, there = slice(start, end), slice(start + shift, end + shift)
         both, left, right = before[start:end], last[start:end], last[start + 1 : end + 1]
         one = np.minimum(left, right)
-        way = np.where(both <= one, 0, np.where(left <= right, 1, 2))
+        way = (both > one) * (1 + (left > right))  # 0: both step, 1: only ours, 2: only the other
         cells[start * (m - 1) + diagonal : (end - 1) * (m - 1) + diagonal + 1 : max(1, m - 1)] = way
-        apart = np.hypot(*(ours[start:end] - backwards[start + shift : end + shift]).T)
+        apart = np.hypot(x[here] - other_x[there], y[here] - other_y[there])
         costs[start + 1 : end + 1] = np.minimum(both, one) + apart
         # Entries of the oldest beyond the next diagonal are never read, except the place in front of the first ticks.
         before[0] = np.inf

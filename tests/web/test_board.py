@@ -33,6 +33,7 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.levels.published import published_levels
+from ninja_game.runs.compare import aligned
 from ninja_game.runs.run import record_replay
 from ninja_game.web.board.charts import paths, speed_and_keys
 from ninja_game.web.board.pages import BoardPages
@@ -813,6 +814,19 @@ def test_the_page_of_a_run_shows_its_path(runs: Path, levels: Path, tmp_path: Pa
     (picture,) = (attributes["href"] for name, attributes in found if name == "image")
     assert (page.parent / str(picture)).is_file()
     assert str(next(each["d"] for _, each in found if each.get("class") == "way")).startswith("M100 566l")
+
+
+def test_two_runs_are_aligned_once_for_all_pages_of_their_level(
+    runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(runs, "a.txt", replay(author="Ann"))
+    put(runs, "b.txt", slow_walk(author="Bea"))
+    counting = Mock(wraps=aligned)
+    monkeypatch.setattr("ninja_game.web.board.level_pages.aligned", counting)
+    board = board_of(runs, levels, tmp_path / "site")
+    pages = [*(board / "levels").glob(f"{DIGEST[:16]}.html"), *(board.parent / "replays").glob("*.html")]
+    assert sum("<h2>Where time goes</h2>" in page.read_text("utf-8") for page in pages) == 2
+    assert counting.call_count == 1
 
 
 def test_the_page_of_a_run_shows_its_speed_keys_and_splits(runs: Path, levels: Path, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The pages of levels and of runs, and the parts of all pages of a board: links, tables of any length, drawings."""
+"""The pages of levels and of runs."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ SPLITS_OF = "Seconds, and px per tick; numbers are those in the pictures above"
 
 
 class _Ranks(NamedTuple):
-    """A table of a level: its first ``rows`` without those far behind, these, and near copies that are better."""
+    """A table of a level: its first ``rows`` without those far behind, these, and runs that wait and are better."""
 
     leaderboard: Leaderboard
     rows: list[Ranked]
@@ -59,6 +59,7 @@ class LevelPages:
     def __init__(self, parts: Parts) -> None:
         self.parts, self.ranking = parts, parts.ranking
         self._ghosts: dict[Key, RunSplits] = {}
+        self._compared: dict[tuple[Key, Key], list[int | None]] = {}
 
     def write_run_page(self, run: Run, beside: Sequence[Run]) -> None:
         """``beside``: the runs of the level that are shown side by side."""
@@ -106,12 +107,12 @@ class LevelPages:
             about = seconds_text(tick), f"{speeds[tick]:.2f}", "" if other is None else signed(tick - other)
             lines.append((tag("a", number, href=f"#{PLACE}{number}"), row.split.name, *about))
         where, splits = None, None
-        if lines:
+        if ghosts:
             first = self.parts.shown_name(beside[-1].player)
             heads = "No.", "Split", "Time", "Speed", f"Later than {first}"
             splits = section("Splits", table(SPLITS_OF, heads, lines))
         if len(ghosts) > 1:
-            where = section("Where time goes", *_where_time_goes([(first, ghosts[1], 1), (name, ghosts[0], 0)]))
+            where = section("Where time goes", *self._where_time_goes([(first, beside[1], 1), (name, run, 0)]))
         best = int(speeds.argmax())
         fast = f"Fastest at {seconds_text(best)} s: {speeds[best]:.2f} px per tick; {speeds.mean():.2f} on average."
         chart = speed_and_keys(speeds, run.inputs, ticks)
@@ -148,6 +149,7 @@ class LevelPages:
         for run in runs:
             run.folder.forget(run.key)
         self._ghosts.clear()
+        self._compared.clear()
         if runs:
             heads, back = ("Player", "Time", "Score", *RUN_HEADS), tag("a", "The level", href=UP + page_name(digest))
             name, caption = f"levels/{digest[:16]}-runs", "All runs, the fastest first"
@@ -254,8 +256,8 @@ class LevelPages:
         ghosts = [*map(self._ghost, runs)]
         if len(runs) == 1:
             return paths(UP + picture_name(runs[0].level), [(names[0], path_data(ghosts[0].positions))]), None
-        by_time = sorted(zip(names, ghosts, range(len(runs)), strict=True), key=lambda named: named[1].ticks)
-        rows = _split_rows([ghost for _, ghost, _ in by_time])
+        by_time = sorted(zip(names, runs, range(len(runs)), strict=True), key=lambda named: named[1].tick)
+        rows = _split_rows([self._ghost(run) for _, run, _ in by_time])
         ways = [(name, path_data(ghost.positions)) for ghost, name in zip(ghosts, names, strict=True)]
         drawn = paths(UP + picture_name(runs[0].level), ways, [(row.split.x, row.split.y) for row in rows])
         text = f"Watch the first {len(runs)} together"
@@ -274,7 +276,7 @@ class LevelPages:
         note = f"Seconds; later than {fastest}: +; numbers are those in the picture"
         splits = table(note, ("No.", "Split", fastest, "Fastest segment", *others), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
-        where = _where_time_goes(by_time, tabled=len(rows) < ENOUGH_SPLITS)
+        where = self._where_time_goes(by_time, tabled=len(rows) < ENOUGH_SPLITS)
         return joined(drawn, together), joined(
             section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS),
             section("Where time goes", *where) if where else None,
@@ -291,35 +293,41 @@ class LevelPages:
         both = [runs[at], runs[other]]
         return self.parts.watch_link(both, UP, signed(both[0].tick - both[1].tick), (at, other)) if at != other else ""
 
+    def _where_time_goes(self, runs: Sequence[tuple[str, Run, int]], *, tabled: bool = False) -> list[Markup]:
+        """Where each named run loses most on the first, the fastest, and a chart of how much later it is on the way.
 
-def _where_time_goes(runs: Sequence[tuple[str, RunSplits, int]], *, tabled: bool = False) -> list[Markup]:
-    """Where each named run loses most on the first, the fastest, and a chart of how much later it is on the way.
+        The number of a run is that of its colour. ``tabled``: also as a table, at each second of the first.
+        """
+        (fastest, first, _), *others = runs
+        if max(run.tick for _, run, _ in runs) >= MAX_ALIGNED_TICKS:
+            return []
+        length = first.tick + 1
+        seconds = range(step := TICKS_PER_SECOND * (1 + length // MAX_SECONDS), length, step)
+        ticks = sorted({*range(0, length, 1 + length // MAX_LEADS), *seconds, first.tick})
+        late = [dict(zip(ticks, self._late(first, other, ticks), strict=True)) for _, other, _ in others]
+        sentences = []
+        for (name, *_), at in zip(others, late, strict=True):
+            near = [(0, 0), *((tick, lead) for tick in seconds if (lead := at[tick]) is not None)]
+            lost, start, end = max(((b[1] - a[1], a[0], b[0]) for a, b in pairwise(near)), default=(0, 0, 0))
+            span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of {fastest}"
+            sentences += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
+        caption = f"Seconds by which each is later where {fastest} is then; a gap: it goes another way"
+        lines = [(number, [*at.values()]) for (*_, number), at in zip(others, late, strict=True)]
+        legend = tag("ul", *(tag("li", swatch(number), f" {name}") for name, _, number in others), class_="facts")
+        shown = [*sentences, tag("p", caption, class_="faint"), lead_chart(ticks, lines, caption), legend]
+        rows = [
+            (f"{tick // TICKS_PER_SECOND} s", *("" if at[tick] is None else signed(at[tick] or 0) for at in late))
+            for tick in seconds
+        ]
+        rows = [row for row in rows if tabled and any(row[1:])]
+        heads = [name for name, *_ in runs]
+        return [*shown, tag("details", tag("summary", "As a table"), table(caption, heads, rows))] if rows else shown
 
-    The number of a run is that of its colour. ``tabled``: also as a table, at each second of the first.
-    """
-    (fastest, first, _), *others = runs
-    if max(run.ticks for _, run, _ in runs) > MAX_ALIGNED_TICKS:
-        return []
-    seconds = range(step := TICKS_PER_SECOND * (1 + first.ticks // MAX_SECONDS), first.ticks, step)
-    ticks = sorted({*range(0, first.ticks, 1 + first.ticks // MAX_LEADS), *seconds, first.ticks - 1})
-    late = [dict(zip(ticks, _leads(first.positions, other.positions, ticks), strict=True)) for _, other, _ in others]
-    sentences = []
-    for (name, *_), at in zip(others, late, strict=True):
-        near = [(0, 0), *((tick, lead) for tick in seconds if (lead := at[tick]) is not None)]
-        lost, start, end = max(((b[1] - a[1], a[0], b[0]) for a, b in pairwise(near)), default=(0, 0, 0))
-        span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of {fastest}"
-        sentences += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
-    caption = f"Seconds by which each is later where {fastest} is then; a gap: it goes another way"
-    lines = [(number, [*at.values()]) for (*_, number), at in zip(others, late, strict=True)]
-    legend = tag("ul", *(tag("li", swatch(number), f" {name}") for name, _, number in others), class_="facts")
-    shown = [*sentences, tag("p", caption, class_="faint"), lead_chart(ticks, lines, caption), legend]
-    rows = [
-        (f"{tick // TICKS_PER_SECOND} s", *("" if at[tick] is None else signed(at[tick] or 0) for at in late))
-        for tick in seconds
-    ]
-    rows = [row for row in rows if tabled and any(row[1:])]
-    heads = [name for name, *_ in runs]
-    return [*shown, tag("details", tag("summary", "As a table"), table(caption, heads, rows))] if rows else shown
+    def _late(self, first: Run, other: Run, ticks: Sequence[int]) -> list[int | None]:
+        """As ``_leads``, compared once for all pages of the level. ``ticks``: always the same of a first run."""
+        if (pair := (first.key, other.key)) not in self._compared:
+            self._compared[pair] = _leads(self._ghost(first).positions, self._ghost(other).positions, ticks)
+        return self._compared[pair]
 
 
 def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
