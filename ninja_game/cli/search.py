@@ -169,7 +169,7 @@ def improve(
         task = replace(task, others=(*others, *theirs), seconds=left, seed=task.seed + log.starts)
     played = run_level(task.level, task.first, body=task.body)
     if played.outcome != "exit":
-        known = next((inputs for inputs in task.others if inputs not in theirs), None)
+        known = next((run.inputs for run in earlier if run.level == task.level), None)
         first = known or to_exit(
             task.level, task.first[: played.ticks], task.seconds / 2, body=task.body, seed=task.seed, threads=task.jobs
         )

@@ -259,7 +259,7 @@ class Session:
         if self.journal.file.exists():
             self.journal.note(run.as_json())
         else:
-            self.journal.opened = self._opened()
+            self.journal.opened["beside"].append(run.as_json())
 
     def watch(self, formulas: Iterable[str]) -> None:
         self._change_branches({"watch": list(formulas)})

@@ -242,11 +242,13 @@ class SpanResults:
         miss = next((result for result in self.better if result.missed_by is not None), None)
         if miss is None:
             return ""
-        last, ending = self.task.first + miss.ticks - 1, self.shown_run(miss).ending
+        # Only what is named is played: nearer misses come often while a search runs.
+        to_exit = miss.missed_by == 0.0 or "won" in self.task.goal
+        last, ending = self.task.first + miss.ticks - 1, self.shown_run(miss).ending if to_exit else ""
         if miss.missed_by == 0.0:
             return f"With what follows the goal, {ending}. Try: {WITHOUT_REST.lower()}; or Same end, sooner."
         lacks = ", ".join(miss.missing) or score_text(self.task, miss).removeprefix("closest: ").partition(" after ")[0]
-        shut = f"; {ending}" if "untouched" in ending and "won" in self.task.goal else ""
+        shut = f"; {ending}" if "untouched" in ending else ""
         late = miss.ticks > 0.9 * self.task.length
         part = "; or a part of the goal alone" if miss.missing else ""
         remedy = "a longer span, it is nearest at its end" if late else "an earlier first tick"

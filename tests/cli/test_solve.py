@@ -6,6 +6,7 @@ import json
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 from click.testing import CliRunner, Result
@@ -138,6 +139,11 @@ def test_improve_leads_a_run_that_ends_before_the_exit_there(tmp_path: Path, dem
     replay = parse_replay(out.read_text("utf-8"))
     assert (replay.outcome, replay.final_tick <= WALK_END + 20) == ("exit", True)
     assert (replay.made.searches, replay.made.begun_by) == (("improve",), "unknown (short.txt)")
+    copy, log = out.with_name("copy.replay.txt"), tmp_path / "night.log"
+    copy.write_bytes(out.read_bytes())
+    words = "improve", short, "--ticks", "1", "--jobs", "1", "--against", copy, "--resume", log, "-o", out
+    with patch("ninja_game.search.formula.methods.to_exit", side_effect=AssertionError):
+        assert command(*words).exit_code == 0, "goes on from its best run, also beside the same one"
 
 
 def test_improve_goes_on_from_its_best_run_and_says_so_in_its_log(tmp_path: Path) -> None:

@@ -260,6 +260,17 @@ def test_what_cannot_be_written_is_told_and_comes_later(
     assert found.branches.all == session.branches.all
 
 
+def test_a_run_beside_does_not_lose_edits_that_are_yet_to_be_written(session: Session, tmp_path: Path) -> None:
+    (tmp_path / FOLDER).write_text("in the way")
+    session.change(session.track.replaced(0, 1, [1, 1]))
+    session.show_beside(BesideRun("Cy", session.track, Contributions()))
+    (tmp_path / FOLDER).unlink()
+    session.change(session.track.replaced(1, 2, [4]))
+    session.journal.close(keep=True)
+    (found,) = recovered(tmp_path)
+    assert (found.tracks[-1:], [run.name for run in found.beside]) == ((session.track,), ["Cy"])
+
+
 def test_a_place_without_files_is_told(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(), "utf-8")

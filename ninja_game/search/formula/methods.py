@@ -94,7 +94,7 @@ class Results:
         return trials
 
     def try_some(self, keys: list[Keys], *, own_route: bool = True) -> None:
-        """Try a few keys, one array per span."""
+        """Try a few arrays of keys, each for the whole span."""
         self.try_all(np.stack((keys * (WORLDS // len(keys) + 1))[:WORLDS], axis=1), own_route=own_route)
 
     def spend(self, ticks: int) -> bool:

@@ -263,11 +263,13 @@ class SpanWorlds:
 
     def _missing(self, index: int) -> tuple[str, ...]:
         """The parts of the goal that are not true in a world, and how far it is to each."""
+
+        def there(values: Values) -> float:
+            return float(np.broadcast_to(values, (self.batch.count,))[index])
+
         with np.errstate(all="ignore"):
-            parts = [(text, part.value(self.view), part.margin(self.view)) for text, part in self.goal.parts]
-        shape = (self.batch.count,)
-        each = [(text, *(np.broadcast_to(values, shape)[index] for values in pair)) for text, *pair in parts]
-        return tuple(f"{text}: {_short_text(text, margin)}" for text, value, margin in each if not value > 0)
+            left = [(text, part) for text, part in self.goal.parts if not there(part.value(self.view)) > 0]
+            return tuple(f"{text}: {_short_text(text, there(part.margin(self.view)))}" for text, part in left)
 
     def try_all(self, keys: Keys) -> Trials:
         """Play keys, (ticks of the span, worlds), from the start of the span."""

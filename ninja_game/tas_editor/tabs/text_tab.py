@@ -129,8 +129,8 @@ class TextTab(Tab):
             self.list.fill(range(len(self.starts)))
             if not self._clicked:  # a clicked line stays under the mouse
                 self.list.show_around()
-            self._clicked = False
             self.field.show(self._shown_text)
+        self._clicked = False
 
     def left(self) -> None:
         """Escape: the field shows what the run has, not what was typed."""

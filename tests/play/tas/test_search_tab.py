@@ -577,6 +577,7 @@ def test_a_goal_out_of_reach_gets_advice(at: TasDriver, tab: SearchTab) -> None:
         tab.paint(at.app.surface, at.screen.theme)
     shown = " ".join(call.args[2] for call in text.call_args_list)
     assert results.advice in shown, "below the row"
+    assert results._preview is None, "no run is played for a goal that does not ask how it ends"
     rest = replace(miss, missed_by=0.0, inputs=miss.inputs[:1])
     results.better = (rest,)
     (id_,) = (id_ for id_, kind, _, _ in at.session.timeline.objects if kind == EXIT)

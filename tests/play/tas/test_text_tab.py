@@ -208,6 +208,11 @@ def test_the_line_of_the_cursor_stays_in_the_middle_third_but_under_the_mouse(at
     at.mouse(x + w / 2, y + h / 2)
     at.frames()
     assert (tab.list.index, tab.list.first) == (first + lines - 1, first), "a click does not scroll"
+    at.mouse(x + w / 2, y + h / 2)
+    at.frames()
+    at.editor.go(40)
+    at.frames()
+    assert tab.list.index - tab.list.first <= 2 * (lines // 3), "a click on the cursor's line is over with its picture"
 
 
 def test_a_taller_window_shows_more_lines() -> None:
