@@ -185,6 +185,7 @@ def test_security_page_states_the_limits_that_hold() -> None:
 def test_every_public_name_is_listed_and_has_a_docstring(module: ModuleType) -> None:
     assert {*module.__all__} <= {*dir(module)}
     public = {name: getattr(module, name) for name in module.__all__ if name != "__version__"}
+    assert len(dir(module)) == len({*dir(module)})
     members = {
         f"{name}.{key}": member
         for name, value in public.items()

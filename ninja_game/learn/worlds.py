@@ -244,9 +244,8 @@ class EnvWorlds:
         level_of: Indices = np.asarray(self._worlds.level_of)
         self.levels_now: Indices = np.full(count, NO_LEVEL) if self._unbounded else level_of
         self.rewards = np.zeros(count)
-        self._facts = np.zeros((8, count), np.int64).T
-        self.outcomes, self.ticks, self.gold, self.events = self._facts.T[:ENDED]
-        self._ended, self.played = self._facts[:, ENDED], self._facts[:, PLAYED]
+        self._facts = np.zeros((8, count), np.int64)
+        self.outcomes, self.ticks, self.gold, self.events, self._ended, self.played = self._facts[:WAIT]
         self._longest_wait = longest_wait
         self.terminated, self.truncated = np.zeros((2, count), np.bool_)
         weights = context.table(weights_of(terms), np.float64)
@@ -254,7 +253,7 @@ class EnvWorlds:
         self._places = (self._worlds.maps, level_of, self._worlds.worlds)
         chance = int(repeat * CHANCES)
         ends = self.terminated, self.truncated
-        self._episodes = (frame_skip, time_limit, chance, weights, self.rewards, self._facts.T, self._changed, *ends)
+        self._episodes = (frame_skip, time_limit, chance, weights, self.rewards, self._facts, self._changed, *ends)
         self._settings: dict[str, Any] = {
             "level": self.source, "count": count, "observation": self.observation.parts, "flat": flat, "reward": terms,
             "frame_skip": frame_skip, "time_limit": time_limit, "repeat": repeat,
@@ -321,7 +320,8 @@ class EnvWorlds:
 
     def ended(self) -> Indices:
         """Indices of the worlds whose episode is over, (k,) intp."""
-        return self._ended.nonzero()[0]
+        ended: Indices = self._ended.nonzero()[0]
+        return ended
 
     # --- single worlds ---
 
@@ -340,9 +340,9 @@ class EnvWorlds:
             self._enter(numbers, chosen)
         else:
             self._worlds.load(numbers.tolist(), chosen.tolist())
-        self._facts[numbers] = 0
+        self._facts[:, numbers] = 0
         self.terminated[numbers] = self.truncated[numbers] = False
-        self._facts[numbers, WAIT], self._facts[numbers, RANDOM] = draw_starts(drawn, self._longest_wait)
+        self._facts[WAIT:, numbers] = draw_starts(drawn, self._longest_wait)
         self._look(numbers, None)
 
     def _enter(self, numbers: Indices, chosen: Indices) -> None:
@@ -369,7 +369,7 @@ class EnvWorlds:
         """Save the states of worlds and of their episodes, for ``restore``."""
         numbers = numbers_of(worlds, self.count, "worlds")
         starts = self.goal.start[numbers] if self.goal else np.zeros(len(numbers))
-        saved = self._worlds.save_many(numbers), starts, self._facts[numbers]
+        saved = self._worlds.save_many(numbers), starts, self._facts[:, numbers]
         return EnvState(self.levels_now[numbers], *saved, self._owner())
 
     def restore(self, state: EnvState, worlds: WorldChoice = None) -> None:
@@ -383,8 +383,8 @@ class EnvWorlds:
         if self._unbounded:
             self._enter(numbers, state.levels)
         self._worlds.restore_many(state.states, numbers, numbers if self._unbounded else state.levels)
-        self._facts[numbers, :RANDOM] = state.facts[:, :RANDOM]
-        self._facts[numbers, EVENTS] = 0
+        self._facts[:RANDOM, numbers] = state.facts[:RANDOM]
+        self.events[numbers] = 0
         self.terminated[:], self.truncated[:] = self._ended == TERMINATED, self._ended == TRUNCATED
         self._look(numbers, state.starts)
 

@@ -141,3 +141,18 @@ def test_a_restored_world_shows_no_events_of_the_step_before(memory: str) -> Non
     worlds.restore(worlds.save([0]), [1])
     assert worlds.events[0]
     assert not worlds.events[1]
+
+
+def test_a_restored_world_has_ended_as_it_had() -> None:
+    worlds = make(3, time_limit=60)
+    worlds.reset(levels=[0, 0, 0])
+    start = worlds.save([0])
+    while worlds.ended().size != 2:
+        worlds.step(np.array([KEY_RIGHT, KEY_LEFT, 0], np.uint8), restart=np.array([2]))
+    passed_and_late = worlds.save([0, 1])
+    worlds.restore(start, [0])
+    assert (worlds.terminated.tolist(), worlds.truncated.tolist()) == ([False] * 3, [False, True, False])
+    worlds.reset()
+    worlds.restore(passed_and_late, [2, 0])
+    assert (worlds.terminated.tolist(), worlds.truncated.tolist()) == ([False, False, True], [True, False, False])
+    assert worlds.ended().tolist() == [0, 2]

@@ -21,7 +21,7 @@ from ninja_game.play.replay.paths import draw_path
 from ninja_game.runs.run import run_level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.canvas import WIDTH, Canvas
-from ninja_game.ui.theme import PALETTES, Palette, Theme
+from ninja_game.ui.theme import PALETTES, Theme
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 COLUMNS = 2
@@ -53,18 +53,18 @@ def draw_level(named: NamedLevel, certificates: Path | None) -> tuple[pygame.Sur
     return picture, ", ".join(words) if words or not certificates else "no certificates"
 
 
-def grid(pictures: list[tuple[str, pygame.Surface]], width: int, palette: Palette, columns: int = 3) -> pygame.Surface:
-    """Labelled pictures of one size side by side."""
+def grid(pictures: list[tuple[str, pygame.Surface]]) -> pygame.Surface:
+    """Labelled pictures side by side, WIDTH px wide."""
+    palette = PALETTES["dark"]
     theme = Theme(palette, Canvas((1188, 900)))
-    w = (width - MARGIN * (columns + 1)) // columns
-    h = w * 25 // 33
-    rows = -(-len(pictures) // columns)
-    sheet = pygame.Surface((width, rows * (h + 44) + MARGIN))
+    h = WIDTH * 25 // 33
+    rows = -(-len(pictures) // COLUMNS)
+    sheet = pygame.Surface((COLUMNS * (WIDTH + MARGIN) + MARGIN, rows * (h + 44) + MARGIN))
     sheet.fill(palette.background)
     for k, (label, picture) in enumerate(pictures):
-        x, y = MARGIN + k % columns * (w + MARGIN), MARGIN + k // columns * (h + 44)
-        sheet.blit(pygame.transform.smoothscale(picture, (w, h)), (x, y))
-        sheet.blit(theme.lettering.rendered(label, 9, palette.faint), (x, y + h + 4), (0, 0, w, 44))
+        x, y = MARGIN + k % COLUMNS * (WIDTH + MARGIN), MARGIN + k // COLUMNS * (h + 44)
+        sheet.blit(pygame.transform.smoothscale(picture, (WIDTH, h)), (x, y))
+        sheet.blit(theme.lettering.rendered(label, 9, palette.faint), (x, y + h + 4), (0, 0, WIDTH, 44))
     return sheet
 
 
@@ -82,7 +82,7 @@ def main(argv: list[str]) -> int:
         named = f"{Path(level.file).stem[:4]} {level.name}: {words}"
         pictures.append((str(len(pictures) + 1) if args.unnamed else named, drawn))
     pygame.font.init()
-    pygame.image.save(grid(pictures, COLUMNS * (WIDTH + MARGIN) + MARGIN, PALETTES["dark"], COLUMNS), args.out)
+    pygame.image.save(grid(pictures), args.out)
     return 0
 
 

@@ -25,6 +25,8 @@ def parse_demo(text: str, *, length: float | None = None) -> Demo:
     Odd texts read as in the game: a missing or malformed number is 0, a second ``:`` ends the words. ``length`` is the
     playback length of legacy texts, which have none; without it all of the text is played.
 
+    Raises DemoError for a text that is too long, and for a legacy text that the game cannot have written.
+
     >>> demo = parse_demo("3:801")
     >>> demo.inputs, demo.playback(5)
     (b'\x01\x02\x03', b'\x01\x02\x03\x03\x00')
