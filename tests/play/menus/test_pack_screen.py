@@ -424,6 +424,31 @@ def test_problems_are_looked_for_beside_the_window(
     assert "1 problem'" in drawn(driver.app)
 
 
+def test_a_check_that_fails_ends_the_wait_for_it(
+    driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> None:
+    go_on = Event()
+    request.addfinalizer(go_on.set)
+
+    def fail(*_: object) -> list[PackFinding]:
+        assert go_on.wait(LONGEST)
+        raise OSError(5, "the disk cannot be read")
+
+    monkeypatch.setattr("ninja_game.play.menus.packer.problems_of", fail)
+    screen = opened(driver)
+    driver.choose("Problems")
+    assert "text 'Looking for problems: 0 s'" in drawn(driver.app)
+    go_on.set()
+    assert [problem.text for problem in problem_page(driver).problems] == ["the disk cannot be read"]
+    assert "text '1 problem'" in drawn(driver.app)
+    driver.press("escape")
+    assert "the disk cannot be read" in screen.status.counts()
+    monkeypatch.setattr("ninja_game.play.menus.packer.problems_of", lambda *_: [])
+    index = path / "pack.toml"
+    index.write_text(index.read_text("utf-8") + "\n", "utf-8")
+    assert [problem.text for problem in problems_of(driver, screen)] != ["the disk cannot be read"]
+
+
 def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(driver: MenuDriver) -> None:
     screen = opened(driver)
     assert "a zip to drop here" in drawn(driver.app)
