@@ -65,7 +65,7 @@ class Packer(Aside):
     @property
     def fresh(self) -> bool:
         """Whether the zip has all that is in the pack now."""
-        return self.text.startswith("Saved")
+        return self.saved is not None and self.text == self._result_text
 
     def start(self, path: Path, seconds: float = SECONDS) -> None:
         self.path, self.busy, self._stopped = path, True, False
