@@ -416,10 +416,15 @@ def test_problems_are_looked_for_beside_the_window(
     opened(driver)
     driver.choose("Problems")
     assert "text 'Looking for problems: 0 s'" in drawn(driver.app)
-    driver.frames(40, 50)
+    with patch.object(ProblemsScreen, "draw_frame", autospec=True, side_effect=ProblemsScreen.draw_frame) as draw:
+        driver.frames(40, 50)
+    assert draw.call_count == 2, "once a second"
     assert "text 'Looking for problems: 2 s'" in drawn(driver.app)
     go_on.set()
-    assert problem_page(driver).problems[0].text == "The pack has no author"
+    with patch.object(ProblemsScreen, "draw_frame", autospec=True, side_effect=ProblemsScreen.draw_frame) as draw:
+        assert problem_page(driver).problems[0].text == "The pack has no author"
+        driver.frames()
+    assert draw.called, "and what was found at once"
     assert main_thread() not in threads
     assert "1 problem'" in drawn(driver.app)
 
