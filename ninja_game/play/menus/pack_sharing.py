@@ -29,13 +29,16 @@ _STOPS = "It can be stopped at any time: what was found is kept."
 
 
 def problems(desk: PackDesk) -> list[Problem] | None:
-    """The findings about the shown pack as it is on the disk, then the next step; None until they are known."""
+    """The findings about the shown pack as it is on the disk, then the next step; None until they are known.
+
+    A check that failed is a problem itself.
+    """
     desk.read_packs(news=True)
     pack, status = desk.pack and desk.pack.pack, desk.status
     if pack is None:
         return []
     if status.present is None:
-        return None
+        return [Problem(status.failure)] if status.failure else None
     rows = [_problem(desk, pack, finding) for finding in status.present.findings]
     to_do, verdict = status.to_do(), "" if status.present.problems else "Nothing is wrong"
     step, go, hint = "Make ready", partial(make_ready, desk), _STOPS if to_do else "It writes the zip and the link."

@@ -65,7 +65,7 @@ class Packer(Aside):
     @property
     def fresh(self) -> bool:
         """Whether the zip has all that is in the pack now."""
-        return self.text.startswith("Saved")
+        return self.saved is not None and self.text == self._result_text
 
     def start(self, path: Path, seconds: float = SECONDS) -> None:
         self.path, self.busy, self._stopped = path, True, False
@@ -169,6 +169,7 @@ class PackStatus:
         self.packer, self.catalogue = packer, catalogue
         self.pack: EpisodeSet | None = None
         self.checked: Checked | None = None  #: findings about it, or about the pack as it was before a change
+        self.failure = ""  #: why the last check found out nothing
         self._states: dict[int, str] = {}
         self._asked_for: tuple[Pack | None, int] = None, 0  #: the pack of the last check, and the number of obstacles
         self._checks: NewestJob[Pack, Checked] = NewestJob(self.check)
@@ -180,14 +181,15 @@ class PackStatus:
         question = pack and pack.pack, len(self.packer.obstacles)
         if question[0] and question != self._asked_for:
             self.checked = self.checked if question[1] == self._asked_for[1] else None
-            self._asked_for = question
+            self._asked_for, self.failure = question, ""
             self._checks.ask(question[0])
 
     def update(self) -> bool:
-        """Whether there are new findings."""
-        news = self._checks.idle and self._checks.result is not self.checked
-        self.checked = self._checks.result if news else self.checked
-        return news
+        """Whether there are new findings, or a new reason why there are none."""
+        checked, failure = self.checked, self.failure
+        if self._checks.idle:
+            self.checked, self.failure = self._checks.result, self._checks.problem
+        return self.checked is not checked or self.failure != failure
 
     def check(self, pack: Pack) -> Checked:
         findings = problems_of(pack, self.packer.obstacles)
@@ -240,7 +242,7 @@ class PackStatus:
         to_do = self.to_do() or (f"{vain} without a run" if vain else "All certified and measured")
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
         size = f"{counted(len(levels), 'level')} in {counted(len(index.episodes), 'episode')}{alone}"
-        present, unknown = self.present, self._checks.problem or "Looking for problems"
+        present, unknown = self.present, self.failure or "Looking for problems"
         problems = counted(len(present.problems), "problem") if present else unknown
         return f"{size}. {to_do}. {problems}" if levels else size
 

@@ -67,10 +67,11 @@ class ProblemsScreen(MenuScreen):
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
         if self._looks:
-            self._looks += real_ms
-            self.redraw = True
+            before, self._looks = self._looks, self._looks + real_ms
+            self.redraw |= self._looks // 1000 > before // 1000
         if self._news():
             self.enter()
+            self.redraw = True
 
     @property
     def selected(self) -> Problem:

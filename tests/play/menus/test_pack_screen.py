@@ -416,12 +416,42 @@ def test_problems_are_looked_for_beside_the_window(
     opened(driver)
     driver.choose("Problems")
     assert "text 'Looking for problems: 0 s'" in drawn(driver.app)
-    driver.frames(40, 50)
+    with patch.object(ProblemsScreen, "draw_frame", autospec=True, side_effect=ProblemsScreen.draw_frame) as draw:
+        driver.frames(40, 50)
+    assert draw.call_count == 2, "once a second"
     assert "text 'Looking for problems: 2 s'" in drawn(driver.app)
     go_on.set()
-    assert problem_page(driver).problems[0].text == "The pack has no author"
+    with patch.object(ProblemsScreen, "draw_frame", autospec=True, side_effect=ProblemsScreen.draw_frame) as draw:
+        assert problem_page(driver).problems[0].text == "The pack has no author"
+        driver.frames()
+    assert draw.called, "and what was found at once"
     assert main_thread() not in threads
     assert "1 problem'" in drawn(driver.app)
+
+
+def test_a_check_that_fails_ends_the_wait_for_it(
+    driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> None:
+    go_on = Event()
+    request.addfinalizer(go_on.set)
+
+    def fail(*_: object) -> list[PackFinding]:
+        assert go_on.wait(LONGEST)
+        raise OSError(5, "the disk cannot be read")
+
+    monkeypatch.setattr("ninja_game.play.menus.packer.problems_of", fail)
+    screen = opened(driver)
+    driver.choose("Problems")
+    assert "text 'Looking for problems: 0 s'" in drawn(driver.app)
+    go_on.set()
+    assert [problem.text for problem in problem_page(driver).problems] == ["the disk cannot be read"]
+    assert "text '1 problem'" in drawn(driver.app)
+    driver.press("escape")
+    assert "the disk cannot be read" in screen.status.counts()
+    monkeypatch.setattr("ninja_game.play.menus.packer.problems_of", lambda *_: [])
+    index = path / "pack.toml"
+    index.write_text(index.read_text("utf-8") + "\n", "utf-8")
+    assert [problem.text for problem in problems_of(driver, screen)] != ["the disk cannot be read"]
 
 
 def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(driver: MenuDriver) -> None:
