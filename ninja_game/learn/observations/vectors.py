@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.learn.goal_distance import point_within
-from ninja_game.learn.observations.part import Part, PartContext, clamp, put
+from ninja_game.learn.observations.part import InitialObject, Part, PartContext, clamp, put
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
@@ -72,12 +72,6 @@ class Exit(NamedTuple):
     switch_y: float
 
 
-class Gold(NamedTuple):
-    slot: int
-    x: float
-    y: float
-
-
 @dataclass(frozen=True)
 class StateVector(Part):
     """Place, velocity and flags of the ninja, offsets to the exit, its switch and the nearest gold: ``FIELDS``.
@@ -112,7 +106,7 @@ class StateVector(Part):
             observe_state,
             context.ranges(box.low, box.high, divisors),
             *context.rows(exits, Exit),
-            *context.rows(lambda number: [Gold(o.slot, o.x, o.y) for o in context.objects(number, GOLD)], Gold),
+            *context.rows(lambda number: context.objects(number, GOLD), InitialObject),
             context.changed,
             *(context.table([0] * context.count, np.int64) for _ in range(2)),
         )
