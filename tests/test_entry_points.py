@@ -23,7 +23,7 @@ OURS = {
     "__main__": "opens what was closed, to lead nowhere", "runtime": "asks what the system can do",
     "cli/machine": "starts programs of the system, and reads nothing of what they say",
     "files/locking": "holds locks", "files/writing": "writes", "ui/audio/player": "silences a library",
-    "play/lab/figure": "the program's own figures", "play/menus/help": "its own help",
+    "play/lab/figure": "the program's own figures", "play/panels/help": "its own help",
     "play/menus/good_levels": "its own levels",
     "levels/findings": "its own texts",
     "learn/levels/source": "its own levels", "learn/levels/bench": "its own table",

@@ -44,7 +44,7 @@ class GoalDistance:
         self._free = list(range(len(self.fields)))
         self._row_of: dict[tuple[int, int], int] = {}
         self._stale = np.zeros(count, np.bool_)
-        self._switches = context.rows(lambda number: [(slot,) for slot in self._heuristics(number).slots.tolist()], 1)
+        self._switches = context.rows(lambda number: self._heuristics(number).slots.tolist(), int)
 
     def _heuristics(self, number: int) -> Heuristics:
         """The fields of a level. Both memories make equal ones, so the faster memory is used."""

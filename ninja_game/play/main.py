@@ -174,6 +174,6 @@ def _episodes(path: Path) -> Callable[[App], Screen]:
 
 
 def _main_menu(app: App) -> Screen:
-    from ninja_game.play.menus.main_menu import MainMenu
+    from ninja_game.play.main_menu import MainMenu
 
     return MainMenu(app)

@@ -1,1 +1,4 @@
-"""A player's data: attempts, records, progress, settings."""
+"""A player's data: attempts, records, progress, settings.
+
+``play`` shows them in its window; commands, pages and tests read them without one.
+"""

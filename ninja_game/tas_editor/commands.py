@@ -19,7 +19,7 @@ from ninja_game.formats.links import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menu_screen import Action, FormPanel, Menu, MenuRow, nothing
-from ninja_game.play.menus.help import HelpPage
+from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.workspace import CommandMenu, Commands, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.player_data import keep_replay

@@ -18,7 +18,7 @@ from ninja_game.play.app import App
 from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen, watch_screen
-from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.settings import SPECS
 from ninja_game.ui.input.keys import scancode_named

@@ -21,12 +21,12 @@ SHAPES = [(66, 50), (100, 6), (6, 90)]
 
 def whole_picture(worlds: EnvWorlds, index: int) -> Any:
     """A world's picture, all of it drawn in the order of the slots."""
-    tiles, view, layers, things = worlds._writers[0][1][2:]
+    tiles, view, _, bounds, things = worlds._writers[0][1][2:]
     level, w, frame = int(worlds.levels_now[index]), worlds.world(index), view.frame
     height = frame.high + 1
     size = frame.width * height
-    picture = np.array(tiles[level * size : (level + 1) * size], layers.pictures.dtype)
-    first, last = things.bounds[2 * level : 2 * level + 2]
+    picture = np.array(tiles[level * size : (level + 1) * size], np.asarray(worlds.observations).dtype)
+    first, last = bounds[2 * level : 2 * level + 2]
     draw_objects(w, picture, frame, things, int(first), int(last), EVERYWHERE, True)
     paint(picture, frame, w.ninja.x, w.ninja.y, RADIUS, RADIUS, True, view.ninja_shade)
     return picture.reshape(height, frame.width)

@@ -15,9 +15,9 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, build_app
 from ninja_game.play.level.screen import PausePanel
 from ninja_game.play.main import first_screen, main
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import MenuScreen
-from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.replays import watch_recording
+from ninja_game.play.panels.replays import watch_recording
 from ninja_game.play.window import Window
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import Settings

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pygame
 import pytest
 
+from ninja_game.formats.ascii.reader import room_level
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
 from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.help import Page, read_pages
-from ninja_game.play.rooms import room_level
+from ninja_game.play.panels.help import Page, read_pages
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.progress import HELPED
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT

@@ -12,15 +12,15 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.level.hud import Hud, bar_length
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, Phase
-from ninja_game.play.level.places import away_from, hidden_by
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import FileSession
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
+from ninja_game.view.hud import Hud, bar_length
+from ninja_game.view.places import away_from, hidden_by
 from tests.support.menu_driver import MenuDriver
 from tests.support.scripted import ScriptedControls, frames, open_level, phase_of, play_to_the_end, press, release, tap
 

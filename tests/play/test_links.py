@@ -18,10 +18,10 @@ from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.main import first_screen, watch_screen
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
-from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.replays import ReplaysScreen
+from ninja_game.play.panels.replays import ReplaysScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from tests.support.menu_driver import MenuDriver
 

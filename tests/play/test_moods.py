@@ -15,11 +15,11 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.episodes import Entry
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import Panel
-from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.play.panels.help import HelpScreen
 from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.play.thumbnails import Thumbnails
 from ninja_game.player.playthrough import LevelSession
 from ninja_game.player.settings import BY_COLUMN
 from ninja_game.sim import kinds

@@ -14,7 +14,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.level.screen import play_level
-from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.sim import states
 from ninja_game.sim.kinds import DRONE, EXIT, FLOOR_GUARD, LAUNCHER, TURRET
 from ninja_game.simulation import Simulation

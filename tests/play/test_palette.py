@@ -5,11 +5,11 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.play.level.hud import trough
 from ninja_game.player.settings import BY_COLUMN, Settings
 from ninja_game.ui.scenery import SCENERIES
 from ninja_game.ui.theme import MOODS, NINJA_COLOURS, PALETTES, ROLES, Palette, palette_named
 from ninja_game.view.effects import particles
+from ninja_game.view.hud import trough
 from ninja_game.view.ninja.figure import edge_of
 from ninja_game.view.sprites import moving_sprites as moving, static_sprites as static
 from ninja_game.view.sprites.drawing import Drawing, SpriteBook, SpriteKey

@@ -13,7 +13,7 @@ import pytest
 from ninja_game.errors import LevelError
 from ninja_game.play.app import App, Screen, build_app
 from ninja_game.play.main import main
-from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.replay.playback import RunClock
 from ninja_game.play.window import Window, fitting_size
 from ninja_game.player.settings import Settings

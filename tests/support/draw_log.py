@@ -18,7 +18,7 @@ import pytest
 
 from ninja_game.play.app import App
 from ninja_game.play.editor.view import EditorView, Overlay
-from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.play.thumbnails import Thumbnails
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.lettering import Lettering
 from ninja_game.ui.theme import ROLES, Palette, Theme

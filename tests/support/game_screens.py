@@ -27,14 +27,14 @@ from ninja_game.formats.named_level import parse_levels
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.screen import LevelScreen, PausePanel
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
-from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.packs import PackScreen
-from ninja_game.play.menus.replays import ReplaysScreen
-from ninja_game.play.menus.settings import SettingsScreen
+from ninja_game.play.panels.help import HelpScreen
+from ninja_game.play.panels.replays import ReplaysScreen
+from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.level import ObjectSpec
@@ -79,7 +79,7 @@ exit 28,20 switch 10,21
 """
 """A level in which everything that shoots sees the ninja."""
 
-WITHOUT_CHANCE = ("ninja_game.play.menus.main_menu.Random", "ninja_game.play.level.level_play.Random")
+WITHOUT_CHANCE = ("ninja_game.play.main_menu.Random", "ninja_game.play.level.level_play.Random")
 DATE = "2026-02-03T04:05:06+00:00"
 
 

@@ -14,9 +14,9 @@ from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.app import build_app
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import FormPanel
-from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.settings import SettingsScreen
+from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.screen import BaseScreen
 from ninja_game.player.player_data import PlayerData
 from ninja_game.tas_editor.opening import open_tas_editor

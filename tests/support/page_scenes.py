@@ -21,9 +21,9 @@ from ninja_game.play.level import level_play
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
-from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.replays import RecordsScreen
-from ninja_game.play.menus.settings import SettingsScreen
+from ninja_game.play.panels.help import HelpScreen
+from ninja_game.play.panels.replays import RecordsScreen
+from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.screen import BaseScreen
 from ninja_game.view.overlays import OVERLAY_ACTIONS

@@ -62,6 +62,16 @@ def test_it_is_short() -> None:
     assert lines <= MAX_LINES
 
 
+def test_the_painter_of_the_page_knows_the_same_kinds_of_entries() -> None:
+    text = (FOLDER.parent.parent / "page" / "painter.js").read_text("utf-8")
+    theirs = {name: int(number) for name, number in re.findall(r"^const ([A-Z]+) = (\d+);", text, re.MULTILINE)}
+    numbers = vars(shim.surface).items()
+    ours = {name: value for name, value in numbers if name.isalpha() and name.isupper() and type(value) is int}
+    del theirs["GRAIN"], ours["SRCALPHA"]
+    assert ours == theirs
+    assert len(ours) == shim.surface.LIMB + 1, "every kind, and the number of the screen"
+
+
 def test_it_has_every_name_that_the_game_asks_for() -> None:
     used = set()
     for path in (path for room in ("play", "ui", "view") for path in (ROOT / "ninja_game" / room).rglob("*.py")):

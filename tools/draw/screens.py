@@ -105,7 +105,7 @@ SCREENS = {
 
 def draw(name: str) -> pygame.Surface:
     """One of them, by a new player with the levels of the tests, which stay as they are; the menu begins alike."""
-    chance = patch("ninja_game.play.menus.main_menu.Random", lambda: Random(1))
+    chance = patch("ninja_game.play.main_menu.Random", lambda: Random(1))
     with tempfile.TemporaryDirectory() as folder, instead_of_ours(), chance:
         return SCREENS[name](Path(folder))
 

@@ -12,7 +12,7 @@ from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION
 from ninja_game.formats.lines import MAX_NAME, UNCOMMENTED, Line, numbered_lines, read_quoted
 from ninja_game.formats.messages import parse_messages
-from ninja_game.sim.level import Level
+from ninja_game.sim.level import COLUMNS, ROWS, Level
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,14 @@ def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:
     level = merge_picture_and_list(picture, objects, tiles, problems)
     problems.raise_if_any()
     return AsciiLevel(**dict.fromkeys(HEADER_KEYS, "") | fields, level=level)
+
+
+def room_level(room: Sequence[str], objects: Sequence[str]) -> Level:
+    """A level with a room's rows in its upper left corner; all the rest is solid."""
+    rows = [row.ljust(COLUMNS, "#") for row in room]
+    rows += ["#" * COLUMNS] * (ROWS - len(rows))
+    picture = "\n".join(f"|{row}|" for row in rows)
+    return parse_ascii_level(f"ninja-game level 1\n{picture}\n" + "\n".join(objects) + "\n").level
 
 
 def _check_first(lines: Sequence[Line], problems: Problems) -> None:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Array, Part, PartContext, clamp
+from ninja_game.learn.observations.part import Array, InitialObject, Part, PartContext, clamp, put
 from ninja_game.learn.observations.surroundings import FINE, solidity
 from ninja_game.learn.observations.vectors import MAX_SPEED
 from ninja_game.sim import kinds
@@ -104,6 +105,17 @@ DX = len(OBSERVED_KINDS)
 MAX_OBJECTS = 64
 
 
+class Numbered(NamedTuple):
+    """An object, by its slot, and the column or plane of its kind."""
+
+    slot: int
+    number: int
+
+
+def _numbered(objects: Iterable[InitialObject], numbers: Mapping[int, int]) -> list[Numbered]:
+    return [Numbered(o.slot, numbers[o.kind]) for o in objects]
+
+
 @dataclass(frozen=True)
 class NearObjects(Part):
     """The ``count`` objects nearest to the ninja, nearest first, float32 (count, 20): ``OBJECT_COLUMNS``, else 0.
@@ -145,8 +157,8 @@ class NearObjects(Part):
         return (
             observe_objects,
             self.count,
-            *(context.table(values, np.float64) for values in (1.0 / divisors, low, high)),
-            *context.rows(lambda number: [(o.slot, columns[o.kind]) for o in context.objects(number, *columns)], 2),
+            context.ranges(low, high, divisors),
+            *context.rows(lambda number: _numbered(context.objects(number, *columns), columns), Numbered),
             *(context.table(values, np.float64) for values in room),
         )
 
@@ -154,8 +166,7 @@ class NearObjects(Part):
 @kernel
 def observe_objects(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    count: int, factors: Any, lows: Any, highs: Any, bounds: Any, slots: Any, columns: Any,
-    nearest: Any, distances: Any,
+    count: int, ranges: Any, bounds: Any, objects: Any, nearest: Any, distances: Any,
 ) -> None:  # fmt: skip
     """Sort the nearest objects of some worlds by insertion, and write them."""
     for k in range(first, last):
@@ -166,7 +177,7 @@ def observe_objects(
         base = index * count
         count_here = 0
         for object_ in range(bounds[2 * level], bounds[2 * level + 1]):
-            o = w.objects[int(slots[object_])]
+            o = w.objects[objects[object_].slot]
             if is_there(w, o):
                 x, y = contact_place_of(o)
                 distance = (x - n.x) * (x - n.x) + (y - n.y) * (y - n.y)
@@ -179,21 +190,21 @@ def observe_objects(
                         place -= 1
                     distances[place] = distance
                     nearest[place] = object_
-        width = len(factors)
+        width = len(ranges)
         for j in range(offset, offset + count * width):
             out[index, j] = 0.0
         for rank in range(count_here):
             object_ = int(nearest[base + rank])
-            o = w.objects[int(slots[object_])]
+            o = w.objects[objects[object_].slot]
             at = offset + rank * width
             x, y = contact_place_of(o)
             vx, vy = velocity_of(o)
             face_x, face_y = face_of(o)
-            out[index, at + int(columns[object_])] = 1.0
-            out[index, at + DX] = clamp((x - n.x) * factors[DX], lows[DX], highs[DX])
-            out[index, at + DX + 1] = clamp((y - n.y) * factors[DX + 1], lows[DX + 1], highs[DX + 1])
-            out[index, at + DX + 2] = clamp(vx * factors[DX + 2], lows[DX + 2], highs[DX + 2])
-            out[index, at + DX + 3] = clamp(vy * factors[DX + 3], lows[DX + 3], highs[DX + 3])
+            out[index, at + objects[object_].number] = 1.0
+            put(out, index, at, DX, ranges, x - n.x)
+            put(out, index, at, DX + 1, ranges, y - n.y)
+            put(out, index, at, DX + 2, ranges, vx)
+            put(out, index, at, DX + 3, ranges, vy)
             out[index, at + DX + 4] = clamp(face_x, -1.0, 1.0)
             out[index, at + DX + 5] = clamp(face_y, -1.0, 1.0)
             out[index, at + DX + 6] = activity_of(o)
@@ -234,7 +245,7 @@ class LevelPlanes(Part):
         return (
             observe_planes,
             context.values(shades, values),
-            *context.rows(lambda number: [(o.slot, planes[o.kind]) for o in context.objects(number, *planes)], 2),
+            *context.rows(lambda number: _numbered(context.objects(number, *planes), planes), Numbered),
             MAX_BYTE * factor,
             CLOSED_EXIT * factor,
         )
@@ -243,7 +254,7 @@ class LevelPlanes(Part):
 @kernel
 def observe_planes(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    solid: Any, bounds: Any, slots: Any, planes: Any, highest: Any, closed: Any,
+    solid: Any, bounds: Any, objects: Any, highest: Any, closed: Any,
 ) -> None:  # fmt: skip
     for k in range(first, last):
         index = indices[k]
@@ -254,13 +265,13 @@ def observe_planes(
         for j in range(offset + TILES, offset + len(PLANES) * TILES):
             out[index, j] = 0
         for number in range(bounds[2 * level], bounds[2 * level + 1]):
-            o = w.objects[int(slots[number])]
+            o = w.objects[objects[number].slot]
             if is_there(w, o):
                 x, y = contact_place_of(o)
                 cell = interior_cell(x, y)
                 if cell >= 0:
                     is_closed = o.kind == EXIT and not o.is_open
-                    out[index, offset + int(planes[number]) * TILES + cell] = closed if is_closed else highest
+                    out[index, offset + objects[number].number * TILES + cell] = closed if is_closed else highest
         cell = interior_cell(w.ninja.x, w.ninja.y)
         if cell >= 0:
             out[index, offset + (len(PLANES) - 1) * TILES + cell] = highest

@@ -9,7 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, get_type_hints
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -69,26 +69,39 @@ class PartContext:
         self.writers.append(write)
         return table
 
-    def rows(self, make: Callable[[int], Sequence[tuple[float, ...]]], width: int) -> list[Any]:
-        """Tables with the values of ``make`` for each level: any number of rows of ``width`` numbers.
+    def records(self, rows: Iterable[Any], row: type) -> Any:
+        """A table for kernels, which read the fields of its rows by name. ``row``: as of ``rows``."""
+        return np.array(list(rows), _dtype(row)) if self.compiled else list(rows)
 
-        The first table has the bounds: level i has the rows from its number 2 i to 2 i + 1. Then float64 columns.
+    def ranges(self, lowest: Array, highest: Array, divisors: Array) -> Any:
+        """The records of ``Range`` for ``put``; the limits are those of the divided values."""
+        limits = zip(1.0 / divisors, lowest, highest, strict=True)
+        return self.records([Range(*map(float, numbers)) for numbers in limits], Range)
+
+    def rows(self, make: Callable[[int], Sequence[Any]], row: type) -> tuple[Any, Any]:
+        """The rows of ``make`` for each level, any number of them: a table of their bounds, and one of the rows.
+
+        Level i has the rows from number 2 i to 2 i + 1 of the bounds. ``row``: int, or a NamedTuple of ints and floats.
         """
         sizes = [self.max_objects or len(make(number)) for number in range(len(self.fresh))]
         starts = np.cumsum([0, *sizes])
         bounds = self.table(np.repeat(starts[:-1], 2), np.int64)
-        columns = [self.table(np.zeros(starts[-1]), np.float64) for _ in range(width)]
+        table: Any = np.zeros(starts[-1], _dtype(row)) if self.compiled else [None] * int(starts[-1])
 
         def write(number: int) -> None:
-            rows, start = make(number), bounds[2 * number]
+            rows, start = self.records(make(number), row), bounds[2 * number]
             bounds[2 * number + 1] = end = start + len(rows)
-            for column, numbers in zip(columns, zip(*rows, strict=True), strict=False):
-                column[start:end] = numbers
+            table[start:end] = rows
 
         for number in range(len(sizes)):
             write(number)
         self.writers.append(write)
-        return [bounds, *columns]
+        return bounds, table
+
+
+def _dtype(row: type) -> np.dtype[Any]:
+    codes = {int: "i8", float: "f8"}
+    return np.dtype([(name, codes[kind]) for name, kind in get_type_hints(row).items()] or codes[row])
 
 
 @dataclass(frozen=True)
@@ -117,8 +130,9 @@ class Part(ABC):
         """The kernel of the part, then its last arguments, which never change during an episode.
 
         ``kernel(maps, level_of, worlds, indices, first, last, out, offset, *tables)`` writes the values of the worlds
-        ``indices[first:last]`` into their rows of ``out``, from column ``offset`` on. Use arrays and numbers, no named
-        tuples: passing these takes 3 µs per call, half a step of one world.
+        ``indices[first:last]`` into their rows of ``out``, from column ``offset`` on. Use arrays, of
+        records where values belong together, and numbers, no named tuples: passing these takes 3 µs per call, half a
+        step of one world.
         """
 
     @property
@@ -136,6 +150,20 @@ def clamp(value: float, low: float, high: float) -> float:
     if value != value:
         return 0.0
     return value
+
+
+class Range(NamedTuple):
+    """How a value is written: times a factor, then limited."""
+
+    factor: float
+    lowest: float
+    highest: float
+
+
+@fast
+def put(out: Any, index: int, offset: int, j: int, ranges: Any, value: float) -> None:
+    """Write value j, multiplied by its factor and limited to its range."""
+    out[index, offset + j] = clamp(value * ranges[j].factor, ranges[j].lowest, ranges[j].highest)
 
 
 @fast

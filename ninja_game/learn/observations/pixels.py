@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.objects import OBSERVED, activity_of, is_there
-from ninja_game.learn.observations.part import Part, PartContext, clamp, copy_values
+from ninja_game.learn.observations.part import InitialObject, Part, PartContext, clamp, copy_values
 from ninja_game.learn.observations.surroundings import cached_by_tiles, solidity
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, UNIT_X, UNIT_Y
@@ -62,20 +62,16 @@ class PixelView(NamedTuple):
     ninja_shade: float
 
 
-class ObjectTables(NamedTuple):
-    """The objects of all levels in one table; level i has the rows from ``bounds[2 i]`` to ``bounds[2 i + 1]``.
+class DrawnObject(NamedTuple):
+    """An object by its slot. ``size``: radius or half side, px; ``moves``: 1 if it moves; ``x``, ``y``: first place."""
 
-    ``sizes``: radius or half side, px; ``boxes``: 1 for a box; ``moves``: 1 if it moves; ``xs``, ``ys``: first place.
-    """
-
-    bounds: Any
-    slots: Any
-    sizes: Any
-    boxes: Any
-    shades: Any
-    moves: Any
-    xs: Any
-    ys: Any
+    slot: int
+    size: float
+    box: int
+    shade: float
+    moves: int
+    x: float
+    y: float
 
 
 class Layers(NamedTuple):
@@ -228,12 +224,12 @@ class Pixels(Part):
             tiles = cached_by_tiles(tile_picture, context, number, across, down, pixel_x, pixel_y)
             return np.rint(np.pad(tiles, margins, constant_values=SAMPLES**2) * (SOLID_SHADE / SAMPLES**2)) * factor
 
-        def objects(number: int) -> list[tuple[float, ...]]:
-            shaded = context.objects(number, *SHADES)
-            return [(o.slot, *sizes[o.kind], SHADES[o.kind] * factor, o.kind not in STILL, o.x, o.y) for o in shaded]
+        def drawn(o: InitialObject) -> DrawnObject:
+            size, box = sizes[o.kind]
+            return DrawnObject(o.slot, size, box, SHADES[o.kind] * factor, o.kind not in STILL, o.x, o.y)
 
-        def movers(number: int) -> list[tuple[float, ...]]:
-            return [(place,) for place, o in enumerate(context.objects(number, *SHADES)) if o.kind not in STILL]
+        def movers(number: int) -> list[int]:
+            return [place for place, o in enumerate(context.objects(number, *SHADES)) if o.kind not in STILL]
 
         def later(number: int) -> NDArray[np.int16]:
             grid = np.full((2 * GRID_ROWS, 2 * GRID_COLUMNS), -1, np.int16)
@@ -253,8 +249,8 @@ class Pixels(Part):
             observe_pixels,
             context.values(picture, self.box.dtype),
             PixelView(frame, wide, high, int(self.view is not None), NINJA_SHADE * factor),
-            Layers(context.changed, layers, context.values(later, np.int16), *context.rows(movers, 1)),
-            ObjectTables(*context.rows(objects, 7)),
+            Layers(context.changed, layers, context.values(later, np.int16), *context.rows(movers, int)),
+            *context.rows(lambda number: list(map(drawn, context.objects(number, *SHADES))), DrawnObject),
         )
 
 
@@ -284,7 +280,7 @@ def tile_picture(
 @kernel
 def observe_pixels(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    tiles: Any, view: PixelView, layers: Layers, things: ObjectTables,
+    tiles: Any, view: PixelView, layers: Layers, bounds: Any, things: Any,
 ) -> None:  # fmt: skip
     """Draw the pictures of some worlds: the tiles, copied; the objects in the order of their slots; the ninja.
 
@@ -301,8 +297,8 @@ def observe_pixels(
         index = indices[k]
         level = level_of[index]
         w = worlds[index]
-        start = things.bounds[2 * level]
-        end = things.bounds[2 * level + 1]
+        start = bounds[2 * level]
+        end = bounds[2 * level + 1]
         picture = out[index][offset:]
         if view.follows:
             column = int(clamp(w.ninja.x / pixel_x, 0.0, view.across - 2.0 * width)) + width - width // 2
@@ -328,14 +324,14 @@ def observe_pixels(
             copy_values(picture[: width * height], layer, width * height)
             for turn in range(2):
                 for place in range(layers.bounds[2 * level], layers.bounds[2 * level + 1]):
-                    number = start + int(layers.movers[place])
-                    o = w.objects[int(things.slots[number])]
-                    size = things.sizes[number]
+                    number = start + layers.movers[place]
+                    o = w.objects[things[number].slot]
+                    size = things[number].size
                     area = area_of(o, size, 0.0)
                     if is_covered(number - start, level, layers.later, area) != (turn == 1):
                         continue
                     if not turn:
-                        draw_object(o, picture, frame, size, things.boxes[number] == 1.0, things.shades[number])
+                        draw_object(o, picture, frame, size, things[number].box == 1, things[number].shade)
                         continue
                     near = area_of(o, size, max(pixel_x, pixel_y) + 2.0 * ROUNDING)
                     first_column, last_column, first_row, last_row = pixels_of(area, frame)
@@ -353,21 +349,21 @@ def observe_pixels(
 
 @fast
 def draw_objects(
-    w: World, picture: Any, frame: Frame, things: ObjectTables, first: int, last: int, area: Any, moving: bool
+    w: World, picture: Any, frame: Frame, things: Any, first: int, last: int, area: Any, moving: bool
 ) -> None:
     """Draw the objects that exist and may lie in an area, with or without ``moving`` ones."""
     left, right, top, bottom = area
     for number in range(first, last):
-        moves = things.moves[number]
+        moves = things[number].moves
         if moving or not moves:
-            o = w.objects[int(things.slots[number])]
-            size = float(things.sizes[number])
-            x = things.xs[number]
-            y = things.ys[number]
+            o = w.objects[things[number].slot]
+            size = things[number].size
+            x = things[number].x
+            y = things[number].y
             here = area_of(o, size, 0.0) if moves else (x - size, x + size, y - size, y + size)
             overlaps = left < here[1] and here[0] < right and top < here[3] and here[2] < bottom
             if overlaps and is_there(w, o):
-                draw_object(o, picture, frame, size, things.boxes[number] == 1.0, things.shades[number])
+                draw_object(o, picture, frame, size, things[number].box == 1, things[number].shade)
 
 
 @fast

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.learn.goal_distance import point_within
-from ninja_game.learn.observations.part import Part, PartContext, clamp
+from ninja_game.learn.observations.part import InitialObject, Part, PartContext, clamp, put
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
@@ -62,6 +62,16 @@ FAR = 1.0e18
 MAX_EXITS = 60  # exits per level that are looked at: the first ones
 
 
+class Exit(NamedTuple):
+    """An exit and its switch: slot and places, px."""
+
+    slot: int
+    x: float
+    y: float
+    switch_x: float
+    switch_y: float
+
+
 @dataclass(frozen=True)
 class StateVector(Part):
     """Place, velocity and flags of the ninja, offsets to the exit, its switch and the nearest gold: ``FIELDS``.
@@ -79,24 +89,24 @@ class StateVector(Part):
         return Box((low / divided).astype(np.float32), (high / divided).astype(np.float32), dtype=np.float32)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
-        """Factors and limits of the values; slots and places of exits and gold; notes about each world.
+        """Factors and limits of the values; exits and gold; notes about each world.
 
         The notes: which exits are open, as bits, and the nearest gold. While nothing has changed, they save reading a
         world's objects, which are far away in memory.
         """
 
-        def exits(number: int) -> list[tuple[float, ...]]:
+        def exits(number: int) -> list[Exit]:
             switches = context.fresh[number].objects
             seen = context.objects(number, EXIT)
-            return [(o.slot, o.x, o.y, switches[o.partner].x, switches[o.partner].y) for o in seen]
+            return [Exit(o.slot, o.x, o.y, switches[o.partner].x, switches[o.partner].y) for o in seen]
 
         box = self.box
-        factors = [1.0 / scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()]
+        divisors = np.array([scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()])
         return (
             observe_state,
-            *(context.table(values, np.float64) for values in (factors, box.low, box.high)),
-            *context.rows(exits, 5),
-            *context.rows(lambda number: [(o.slot, o.x, o.y) for o in context.objects(number, GOLD)], 3),
+            context.ranges(box.low, box.high, divisors),
+            *context.rows(exits, Exit),
+            *context.rows(lambda number: context.objects(number, GOLD), InitialObject),
             context.changed,
             *(context.table([0] * context.count, np.int64) for _ in range(2)),
         )
@@ -105,9 +115,7 @@ class StateVector(Part):
 @kernel
 def observe_state(
     maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    factors: Any, lows: Any, highs: Any,
-    exit_bounds: Any, exits: Any, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any,
-    gold_bounds: Any, gold: Any, gold_x: Any, gold_y: Any,
+    ranges: Any, exit_bounds: Any, exits: Any, gold_bounds: Any, gold: Any,
     changed: Any, opened: Any, nearest: Any,
 ) -> None:  # fmt: skip
     for k in range(first, last):
@@ -115,61 +123,55 @@ def observe_state(
         level = level_of[index]
         w = worlds[index]
         n = w.ninja
-        observe_ninja(w, out, index, offset, factors, lows, highs)
+        observe_ninja(w, out, index, offset, ranges)
         for j in range(offset + FIRST_EXIT, offset + FIRST_STATE):
             out[index, j] = 0.0
         start = exit_bounds[2 * level]
         end = exit_bounds[2 * level + 1]
         if changed[index]:
             opened[index] = open_exits(w, exits, start, end)
-        chosen = choose_exit(n.x, n.y, opened[index], exit_x, exit_y, switch_x, switch_y, start, end)
+        chosen = choose_exit(n.x, n.y, opened[index], exits, start, end)
         is_open = chosen >= 0 and (opened[index] >> (chosen - start)) & 1
         if chosen >= 0:
             out[index, offset + FIRST_EXIT] = 1.0
             out[index, offset + FIRST_EXIT + 1] = 1.0 if is_open else 0.0
-            put(out, index, offset, FIRST_EXIT + 2, factors, lows, highs, exit_x[chosen] - n.x)
-            put(out, index, offset, FIRST_EXIT + 3, factors, lows, highs, exit_y[chosen] - n.y)
+            put(out, index, offset, FIRST_EXIT + 2, ranges, exits[chosen].x - n.x)
+            put(out, index, offset, FIRST_EXIT + 3, ranges, exits[chosen].y - n.y)
             if not is_open:
-                put(out, index, offset, FIRST_EXIT + 4, factors, lows, highs, switch_x[chosen] - n.x)
-                put(out, index, offset, FIRST_EXIT + 5, factors, lows, highs, switch_y[chosen] - n.y)
+                put(out, index, offset, FIRST_EXIT + 4, ranges, exits[chosen].switch_x - n.x)
+                put(out, index, offset, FIRST_EXIT + 5, ranges, exits[chosen].switch_y - n.y)
         start = gold_bounds[2 * level]
         end = gold_bounds[2 * level + 1]
         guess = nearest[index]
-        if changed[index] and not (start <= guess < end and not w.objects[int(gold[guess])].taken):
+        if changed[index] and not (start <= guess < end and not w.objects[gold[guess].slot].taken):
             guess = -1
         if changed[index] or guess >= 0:
-            nearest[index] = nearest_gold(w, gold, gold_x, gold_y, start, end, guess)
+            nearest[index] = nearest_gold(w, gold, start, end, guess)
         chosen = nearest[index]
         if chosen >= 0:
             out[index, offset + FIRST_GOLD] = 1.0
-            put(out, index, offset, FIRST_GOLD + 1, factors, lows, highs, gold_x[chosen] - n.x)
-            put(out, index, offset, FIRST_GOLD + 2, factors, lows, highs, gold_y[chosen] - n.y)
+            put(out, index, offset, FIRST_GOLD + 1, ranges, gold[chosen].x - n.x)
+            put(out, index, offset, FIRST_GOLD + 2, ranges, gold[chosen].y - n.y)
 
 
 @fast
-def put(out: Any, index: int, offset: int, j: int, factors: Any, lows: Any, highs: Any, value: float) -> None:
-    """Write value j, multiplied by its factor and limited to its range."""
-    out[index, offset + j] = clamp(value * factors[j], lows[j], highs[j])
-
-
-@fast
-def observe_ninja(w: World, out: Any, index: int, offset: int, factors: Any, lows: Any, highs: Any) -> None:
+def observe_ninja(w: World, out: Any, index: int, offset: int, ranges: Any) -> None:
     """Write the first 13 values and the state."""
     n = w.ninja
     cell = cell_at(n.x, n.y)
-    put(out, index, offset, 0, factors, lows, highs, n.x)
-    put(out, index, offset, 1, factors, lows, highs, n.y)
-    put(out, index, offset, 2, factors, lows, highs, n.x - (CENTRE_X[cell] - HALF))
-    put(out, index, offset, 3, factors, lows, highs, n.y - (CENTRE_Y[cell] - HALF))
-    put(out, index, offset, 4, factors, lows, highs, n.x - n.prev_x)
-    put(out, index, offset, 5, factors, lows, highs, n.y - n.prev_y)
+    put(out, index, offset, 0, ranges, n.x)
+    put(out, index, offset, 1, ranges, n.y)
+    put(out, index, offset, 2, ranges, n.x - (CENTRE_X[cell] - HALF))
+    put(out, index, offset, 3, ranges, n.y - (CENTRE_Y[cell] - HALF))
+    put(out, index, offset, 4, ranges, n.x - n.prev_x)
+    put(out, index, offset, 5, ranges, n.y - n.prev_y)
     out[index, offset + 6] = float(n.in_air)
     out[index, offset + 7] = float(n.near_wall)
-    put(out, index, offset, 8, factors, lows, highs, n.wall_x if n.near_wall else 0.0)
-    put(out, index, offset, 9, factors, lows, highs, 0.0 if n.in_air else n.floor_x)
-    put(out, index, offset, 10, factors, lows, highs, 0.0 if n.in_air else n.floor_y)
+    put(out, index, offset, 8, ranges, n.wall_x if n.near_wall else 0.0)
+    put(out, index, offset, 9, ranges, 0.0 if n.in_air else n.floor_x)
+    put(out, index, offset, 10, ranges, 0.0 if n.in_air else n.floor_y)
     out[index, offset + 11] = float(n.jump_held)
-    put(out, index, offset, 12, factors, lows, highs, float(n.jump_timer) if n.state == JUMPING else 0.0)
+    put(out, index, offset, 12, ranges, float(n.jump_timer) if n.state == JUMPING else 0.0)
     for state in range(8):
         out[index, offset + FIRST_STATE + state] = 1.0 if n.state == state else 0.0
 
@@ -179,23 +181,21 @@ def open_exits(w: World, exits: Any, start: int, end: int) -> int:
     """Give the open exits of a level, one bit each, as far as there are bits."""
     opened = 0
     for k in range(start, min(end, start + MAX_EXITS)):
-        if w.objects[int(exits[k])].is_open:
+        if w.objects[exits[k].slot].is_open:
             opened |= 1 << (k - start)
     return opened
 
 
 @fast
-def choose_exit(
-    x: float, y: float, opened: int, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any, start: int, end: int
-) -> int:
+def choose_exit(x: float, y: float, opened: int, exits: Any, start: int, end: int) -> int:
     """Choose the exit to show to a ninja at a place, -1: none."""
     best = FAR
     chosen = -1
     chosen_open = 0
     for k in range(start, min(end, start + MAX_EXITS)):
         is_open = (opened >> (k - start)) & 1
-        dx = (exit_x[k] if is_open else switch_x[k]) - x
-        dy = (exit_y[k] if is_open else switch_y[k]) - y
+        dx = (exits[k].x if is_open else exits[k].switch_x) - x
+        dy = (exits[k].y if is_open else exits[k].switch_y) - y
         distance = dx * dx + dy * dy
         better = distance < best if is_open == chosen_open else is_open == 1
         if better or chosen < 0:
@@ -206,7 +206,7 @@ def choose_exit(
 
 
 @fast
-def nearest_gold(w: World, gold: Any, gold_x: Any, gold_y: Any, start: int, end: int, guess: int) -> int:
+def nearest_gold(w: World, gold: Any, start: int, end: int, guess: int) -> int:
     """Give the nearest piece that is left, the first of equally near ones; -1: none.
 
     The level's table is near in memory, the world's objects are not, so they are read last. With a good ``guess``, a
@@ -217,14 +217,14 @@ def nearest_gold(w: World, gold: Any, gold_x: Any, gold_y: Any, start: int, end:
     best = FAR
     chosen = guess
     if guess >= 0:
-        dx = gold_x[guess] - x
-        dy = gold_y[guess] - y
+        dx = gold[guess].x - x
+        dy = gold[guess].y - y
         best = dx * dx + dy * dy
     for k in range(start, end):
-        dx = gold_x[k] - x
-        dy = gold_y[k] - y
+        dx = gold[k].x - x
+        dy = gold[k].y - y
         distance = dx * dx + dy * dy
-        if (distance < best or (distance == best and k < chosen)) and not w.objects[int(gold[k])].taken:
+        if (distance < best or (distance == best and k < chosen)) and not w.objects[gold[k].slot].taken:
             best = distance
             chosen = k
     return chosen

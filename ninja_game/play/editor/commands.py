@@ -33,7 +33,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, ask_text, nothing
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
-from ninja_game.play.menus.help import HelpPage
+from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun

@@ -30,11 +30,9 @@ from ninja_game.levels.findings import Finding
 from ninja_game.levels.lint import Ground, unseen_messages
 from ninja_game.play.app import App
 from ninja_game.play.editor.sheet import said_at
-from ninja_game.play.level.hud import Hud, HudView, PlacedMessage
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
 from ninja_game.play.level.messages import shown_ticks, waits
-from ninja_game.play.level.places import Things
 from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow, MenuScreen, ask_to_keep
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
 from ninja_game.sim.level import COLUMNS, ROWS, Level
@@ -46,6 +44,8 @@ from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Area, Palette, Theme, inside, mixed
 from ninja_game.ui.widgets import Button, Widget
+from ninja_game.view.hud import Hud, HudView, PlacedMessage
+from ninja_game.view.places import Things
 from ninja_game.view.sprites.thumbnail import open_exit, thumbnail
 
 ROW, TOP, WIDE = 112, 60, 294

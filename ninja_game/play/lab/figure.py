@@ -17,7 +17,7 @@ import pygame
 from ninja_game import sim
 from ninja_game.backend.plain import load_plain
 from ninja_game.files.bundled import data_folder
-from ninja_game.play.rooms import room_level
+from ninja_game.formats.ascii.reader import room_level
 from ninja_game.player.settings import Settings
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, UNIT_X, UNIT_Y
 from ninja_game.sim.grid import Point

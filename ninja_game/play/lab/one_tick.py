@@ -13,18 +13,18 @@ from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.objects.dispatch import NINE_CELLS
 from ninja_game.view.overlays import touched_cells
 
-PHASES = {
-    "update_objects": "1. the update set, newest first",
-    "think": "2. one object thinks",
-    "tick_ninja": "3. the ninja moves",
-    "touch_objects": "4. asks nine cells",
-    "collide_circle": "5. asks touched cells",
-    "evaluate_floor": "6. judges its floor",
-    "probe_walls": "6. feels for a wall",
-    "think_in_air": "7. reads the keys, in the air",
-    "think_on_ground": "7. reads the keys, on the ground",
+PHASES: dict[str, tuple[int, str]] = {
+    "update_objects": (1, "the update set, newest first"),
+    "think": (2, "one object thinks"),
+    "tick_ninja": (3, "the ninja moves"),
+    "touch_objects": (4, "asks nine cells"),
+    "collide_circle": (5, "asks touched cells"),
+    "evaluate_floor": (6, "judges its floor"),
+    "probe_walls": (6, "feels for a wall"),
+    "think_in_air": (7, "reads the keys, in the air"),
+    "think_on_ground": (7, "reads the keys, on the ground"),
 }
-"""The rules that begin a phase of a tick, and what they do."""
+"""The rules that begin a phase of a tick; the phase's number and what it does."""
 
 SHOWN = 7
 KEYS: Sequence[tuple[str, object]] = (
@@ -85,9 +85,10 @@ class OneTick(Figure):
         return [call for call in self.stage.calls if call.depth and call.name not in ("cell_at", "pressed", "solid_at")]
 
     @property
-    def phase(self) -> str:
+    def phase(self) -> tuple[int, str]:
+        """The number of the present phase, 0 before the first one, and what it does."""
         names = [call.name for call in self.calls[: int(self.at) + 1]]
-        return next((PHASES[name] for name in reversed(names) if name in PHASES), "a tick begins")
+        return next((PHASES[name] for name in reversed(names) if name in PHASES), (0, "a tick begins"))
 
     def numbers(self) -> list[tuple[str, str]]:
         first = max(0, int(self.at) - SHOWN + 4)
@@ -99,22 +100,24 @@ class OneTick(Figure):
             rows.append((f"{mark} {number + 1} of {len(self.calls)}", f"{'. ' * (call.depth - 1)}{call.name}{about}"))
         world = self.stage.world
         events = ", ".join(EVENT_NAMES[event.kind] for event in world.events[: world.event_count])
-        return [(f"tick {world.tick}", self.phase), *rows, ("events", events or "none")]
+        phase, doing = self.phase
+        return [(f"tick {world.tick}", f"{phase}. {doing}" if phase else doing), *rows, ("events", events or "none")]
 
     def draw(self, sheet: Sheet) -> None:
         p, w = sheet.palette, self.stage.world
         self.stage.draw(sheet)
         call = self.calls[min(int(self.at), len(self.calls) - 1)]
         n = w.ninja
-        if self.phase.startswith("4") and EXISTS[n.cell]:
+        number, _ = self.phase
+        if number == 4 and EXISTS[n.cell]:
             for offset in NINE_CELLS:
                 sheet.shade(n.cell + offset, p.switch, 60)
-        elif self.phase.startswith("5"):
+        elif number == 5:
             for cell in touched_cells(n.x, n.y, n.cell):
                 sheet.shade(cell, p.good, 90)
         sheet.grid()
         if "o" in call.arguments:
             o = w.objects[int(call.arguments["o"])]
             sheet.circle(p.accent, o.x, o.y, 15, 2.5)
-        elif self.phase[0] in "34567":
+        elif number >= 3:
             sheet.circle(p.accent, n.x, n.y, 15, 2.5)

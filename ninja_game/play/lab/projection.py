@@ -10,9 +10,9 @@ from typing import NamedTuple
 from ninja_game.backend.plain import restore_plain, save_plain
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
+from ninja_game.formats.ascii.reader import room_level
 from ninja_game.play.lab.cells import BODIES
 from ninja_game.play.lab.figure import ELSEWHERE, Call, Control, Figure, FigureSetting, Sheet, View, room_world, watch
-from ninja_game.play.rooms import room_level
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y

@@ -8,10 +8,8 @@ from math import hypot
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.messages import named_keys
 from ninja_game.formats.run_time import rounded_text, seconds_text
-from ninja_game.play.level.hud import EndPanel, HudView, PlacedMessage
 from ninja_game.play.level.level_play import STAMP_TICKS, LevelPlay, Phase
 from ninja_game.play.level.messages import FALL_HELP, WHY
-from ninja_game.play.level.places import MUST, Things
 from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
 from ninja_game.player.playthrough import Navigation
 from ninja_game.player.progress import NO_MEDAL, Mark, next_par
@@ -20,6 +18,8 @@ from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.schema.world_fields import World
+from ninja_game.view.hud import EndPanel, HudView, PlacedMessage
+from ninja_game.view.places import MUST, Things
 
 FADE_TICKS = 8  # until the panel of an ended run is solid
 SHINE_TICKS = 20  # for which light moves over its medal

@@ -10,7 +10,6 @@ from random import Random
 from ninja_game.formats.messages import arrow_targets
 from ninja_game.play.app import App
 from ninja_game.play.level.messages import MessageQueue
-from ninja_game.play.level.places import MAY, Things, things_in
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, AttemptState
 from ninja_game.player.playthrough import LevelContext
@@ -22,6 +21,7 @@ from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import CRUSHED
 from ninja_game.simulation import Simulation
 from ninja_game.view.level_view import LevelView
+from ninja_game.view.places import MAY, Things, things_in
 
 _FILL_SHARE = 0.05
 """Least part of the missing length by which the bar grows per picture."""

@@ -14,14 +14,13 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.episodes import Entry, Mood
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_level_link, copy_link
-from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, LATE_JUMP, STUCK_AFTER, LevelPlay, Phase
+from ninja_game.play.level.passed import EpisodePassed
 from ninja_game.play.menu_screen import Menu, MenuRow, Panel, nothing
-from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.passed import EpisodePassed
-from ninja_game.play.menus.replays import watch
-from ninja_game.play.menus.settings import SettingsScreen
+from ninja_game.play.panels.help import HelpScreen
+from ninja_game.play.panels.replays import watch
+from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import PlayerData, keep_replay
@@ -30,6 +29,7 @@ from ninja_game.player.progress import opens_author
 from ninja_game.sim.inputs import JUMP_HELD
 from ninja_game.ui.audio.music import BY_COLUMN, SILENCE
 from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.view.hud import Hud
 from ninja_game.view.overlays import Overlays
 
 SLOWER = 70

@@ -1,1 +1,1 @@
-"""The menus: every screen that is not a level being played or watched."""
+"""Menus that lead to a level: episodes, packs, the browser, the level of the day."""

@@ -23,9 +23,9 @@ from ninja_game.play.level.screen import play_level
 from ninja_game.play.menu_screen import Action, ask_received
 from ninja_game.play.menus.episodes import draw_look
 from ninja_game.play.menus.problems import Problem, of_files, problems_button
-from ninja_game.play.menus.replays import watch
-from ninja_game.play.menus.settings import PRACTICE_HINT
-from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
+from ninja_game.play.panels.replays import watch
+from ninja_game.play.panels.settings import PRACTICE_HINT
+from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.player.progress import Mark, opens_author
 from ninja_game.player.records import SavedReplay
 from ninja_game.ui.input.bindings import InputEvent

@@ -18,8 +18,8 @@ from ninja_game.generator import daily
 from ninja_game.levels.episodes import Entry
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import play_level
-from ninja_game.play.menus.settings import PRACTICE_HINT
-from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
+from ninja_game.play.panels.settings import PRACTICE_HINT
+from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
 from ninja_game.player.progress import next_par
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.sim.level import COLUMNS, ROWS

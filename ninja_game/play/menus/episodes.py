@@ -15,8 +15,8 @@ from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow
 from ninja_game.play.menus.problems import of_files, problems_button
-from ninja_game.play.menus.settings import PRACTICE_HINT, setting_choice
-from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
+from ninja_game.play.panels.settings import PRACTICE_HINT, setting_choice
+from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import EpisodeSession, unfinished_run
 from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, tally, worst_medal

@@ -12,7 +12,7 @@ from ninja_game.files.bundled import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.levels.episodes import GAME, Entry
 from ninja_game.play.app import App
-from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.play.thumbnails import ThumbnailScreen
 from ninja_game.sim.grid import middle_of
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme

@@ -20,7 +20,7 @@ from ninja_game.play.app import App
 from ninja_game.play.menu_screen import ask_received, ask_text
 from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Marks, PackCell, Rack, called
 from ninja_game.play.menus.packer import PackStatus, packer_of
-from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.play.thumbnails import ThumbnailScreen
 from ninja_game.ui.list_view import BAR
 from ninja_game.ui.widgets import Widget
 

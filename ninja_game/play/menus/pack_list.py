@@ -9,7 +9,7 @@ import pygame
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.levels.episodes import EpisodeSet
 from ninja_game.play.app import App
-from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.play.thumbnails import ThumbnailScreen
 from ninja_game.player.records import has_words
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry

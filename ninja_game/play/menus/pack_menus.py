@@ -16,7 +16,7 @@ from ninja_game.play.menu_screen import CANCEL, FormPanel, Menu, MenuRow, Questi
 from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
 from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_shelves import PackCell, called
-from ninja_game.play.menus.replays import watch
+from ninja_game.play.panels.replays import watch
 
 DELETED = "deleted"
 """The folder of deleted packs among the player's files."""

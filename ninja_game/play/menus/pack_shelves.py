@@ -12,7 +12,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, EpisodeIndex
 from ninja_game.levels.episodes import Entry
 from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND, PackStatus
-from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.play.thumbnails import Thumbnails
 from ninja_game.ui.list_view import BAR, ListView
 from ninja_game.ui.medals import draw_all_gold
 from ninja_game.ui.theme import Area, Theme, wrapped

@@ -19,7 +19,6 @@ from ninja_game.files.user_folder import export_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.playback import Ghost, Playback, draw_names, ghosts_of, names_of
 from ninja_game.player.settings import Settings
 from ninja_game.runtime import install_hint, require_desktop, run_in_background
@@ -27,6 +26,7 @@ from ninja_game.sim.rules import GOLD_BONUS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import png_of
 from ninja_game.ui.theme import GROUND_ROLES, ROLES, RUN_COLOURS, Palette, mixed, palette_named
+from ninja_game.view.hud import Hud
 from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.sprites.light import EXIT_OPEN, STYLES
 

@@ -16,13 +16,13 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.playback import Playback, RunClock, draw_names, ghosts_of
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme, mixed
+from ninja_game.view.hud import Hud
 from ninja_game.view.level_view import LevelView
 from ninja_game.view.overlays import Overlays
 

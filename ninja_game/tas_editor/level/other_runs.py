@@ -20,7 +20,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import WARNING_MS, App
 from ninja_game.play.menu_screen import Action, MenuScreen
-from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen, result_of
+from ninja_game.play.panels.replays import FILES_SHOWN, ReplayRow, ReplaysScreen, result_of
 from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay
 from ninja_game.runs.compare import nearest_state

@@ -32,9 +32,9 @@ from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, Stat
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import sign_mark
 from ninja_game.play.editor.view import LAYOUT
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import DropDown, FormPanel, Menu
-from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.panels.help import HelpPage
 from ninja_game.runs.packs import lint
 from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import verified_run

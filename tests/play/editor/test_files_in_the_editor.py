@@ -22,10 +22,10 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.play.app import App
 from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import FormPanel, Menu
 from ninja_game.play.menus.browser import Browser, LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
-from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from ninja_game.sim.grid import is_inside

@@ -20,7 +20,6 @@ from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor.messages import _WHEN, PICTURE, TEXT, TIME, Message, MessagesScreen, messages_of
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
-from ninja_game.play.level.hud import Box, Hud
 from ninja_game.play.level.messages import MessageQueue, read_ticks
 from ninja_game.play.menu_screen import Menu
 from ninja_game.player.playthrough import LevelContext
@@ -31,6 +30,7 @@ from ninja_game.sim.kinds import EXIT, GOLD, MINE
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Palette
+from ninja_game.view.hud import Box, Hud
 from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker

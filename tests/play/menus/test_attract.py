@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.main_menu import MainMenu
 from tests.support.menu_driver import MenuDriver
 
 

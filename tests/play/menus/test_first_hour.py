@@ -9,10 +9,10 @@ from unittest.mock import patch
 import pygame
 import pytest
 
+from ninja_game.formats.ascii.reader import room_level
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
-from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, PlacedMessage
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER, Phase
 from ninja_game.play.level.messages import (
@@ -26,13 +26,11 @@ from ninja_game.play.level.messages import (
     MessageQueue,
     read_ticks,
 )
-from ninja_game.play.level.places import MUST, away_from, solid_place, tag_top
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import Menu
 from ninja_game.play.menus.browser import Browser
-from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.rooms import room_level
 from ninja_game.player.playthrough import EpisodeSession, LevelSession
 from ninja_game.runs.deaths import SELF
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
@@ -44,6 +42,8 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import CLASSIC, Theme
 from ninja_game.ui.widgets import Button
+from ninja_game.view.hud import CLEAR, IN_BORDER, Hud, PlacedMessage
+from ninja_game.view.places import MUST, away_from, solid_place, tag_top
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
 from tests.support.players import deadly_level, entry, short_level

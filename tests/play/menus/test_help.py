@@ -8,8 +8,8 @@ import pygame
 import pytest
 
 from ninja_game.errors import LevelError
-from ninja_game.play.menus.help import HelpScreen, Page, read_pages
-from ninja_game.play.rooms import room_level
+from ninja_game.formats.ascii.reader import room_level
+from ninja_game.play.panels.help import HelpScreen, Page, read_pages
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.simulation import Simulation
 from ninja_game.ui.input.bindings import ACTIONS

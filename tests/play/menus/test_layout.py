@@ -6,11 +6,11 @@ from itertools import combinations
 
 import pytest
 
+from ninja_game.play.main_menu import PANEL, MainMenu
 from ninja_game.play.menu_screen import MenuScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import Cells, EpisodeGrid
-from ninja_game.play.menus.main_menu import PANEL, MainMenu
-from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
+from ninja_game.play.panels.replays import RecordsScreen, ReplaysScreen
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.list_view import ListView

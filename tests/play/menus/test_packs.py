@@ -17,9 +17,9 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import daily_file
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menus.browser import Browser, LevelChoice
 from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
-from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.player.progress import Mark, next_par, reached

@@ -8,11 +8,11 @@ from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import lifetimes
 from ninja_game.play.level.level_play import Phase
+from ninja_game.play.level.passed import EpisodePassed
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
-from ninja_game.play.menus.passed import EpisodePassed
-from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
+from ninja_game.play.panels.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.player.progress import UNLOCKED

@@ -9,12 +9,12 @@ from time import process_time
 import pytest
 
 from ninja_game.files.bundled import bundled_replays
+from ninja_game.formats.ascii.reader import room_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.replays import FIRST_SECONDS, ReplaysScreen, _row_of_recording
-from ninja_game.play.rooms import room_level
+from ninja_game.play.panels.replays import FIRST_SECONDS, ReplaysScreen, _row_of_recording
 from ninja_game.player.player_data import PlayerData
 from tests.support.layout import Layout, noted
 from tests.support.menu_driver import MenuDriver

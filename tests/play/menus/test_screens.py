@@ -16,14 +16,14 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import MenuScreen, Question
 from ninja_game.play.menus.browser import SIDE_WIDTH, TEXT_HIGH, Browser
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
-from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
-from ninja_game.play.menus.settings import SettingsScreen
+from ninja_game.play.panels.help import HelpScreen
+from ninja_game.play.panels.replays import RecordsScreen, ReplaysScreen
+from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.settings import BY_COLUMN
 from ninja_game.ui.theme import wrapped

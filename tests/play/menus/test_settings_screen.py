@@ -5,10 +5,10 @@ from __future__ import annotations
 import pygame
 import pytest
 
+from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import Menu
-from ninja_game.play.menus.bindings import LIST, ROW, SLOTS, Capture, clash
-from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.settings import LEFT, STEP, TOP, SettingsScreen
+from ninja_game.play.panels.bindings import LIST, ROW, SLOTS, Capture, clash
+from ninja_game.play.panels.settings import LEFT, STEP, TOP, SettingsScreen
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, bindable
 from ninja_game.ui.theme import PALETTES
 from ninja_game.ui.widgets import Choice, Slider

@@ -7,20 +7,20 @@ from unittest.mock import patch
 import pygame
 import pytest
 
+from ninja_game.formats.ascii.reader import room_level
 from ninja_game.formats.run_time import rounded_text, seconds_text
-from ninja_game.play.level.hud import PRIZE, EndPanel, Hud, HudView, PlacedMessage
 from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
-from ninja_game.play.level.places import MUST
+from ninja_game.play.level.passed import FEAST_TICKS, EpisodePassed
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.passed import FEAST_TICKS, EpisodePassed
-from ninja_game.play.rooms import room_level
 from ninja_game.play.window import WIPE_MS
 from ninja_game.player.playthrough import EpisodeSession, LevelSession
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from ninja_game.sim.kinds import EXIT
 from ninja_game.simulation import Simulation
+from ninja_game.view.hud import PRIZE, EndPanel, Hud, HudView, PlacedMessage
 from ninja_game.view.level_view import DANCE_TICKS, DOOR_STEP, ENTER_TICKS, LevelView
+from ninja_game.view.places import MUST
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import FRAME_MS, MenuDriver
 from tests.support.players import deadly_level, entry

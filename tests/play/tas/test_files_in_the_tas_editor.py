@@ -13,7 +13,7 @@ from ninja_game.files.bundled import data_folder
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.play.menu_screen import FormPanel, Menu
-from ninja_game.play.menus.help import HelpPage
+from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.inputs import KEY_LEFT

@@ -22,9 +22,9 @@ from ninja_game.play.menu_screen import Action, MenuScreen, Question
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
-from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
-from ninja_game.play.menus.settings import SettingsScreen
+from ninja_game.play.panels.help import HelpScreen
+from ninja_game.play.panels.replays import RecordsScreen, ReplaysScreen
+from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.window import LOGO
 from ninja_game.player.playthrough import EpisodeSession, next_run

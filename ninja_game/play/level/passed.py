@@ -14,8 +14,8 @@ from ninja_game.play.app import App
 from ninja_game.play.level.hud_view import SHINE_TICKS
 from ninja_game.play.level.level_play import STAMP_TICKS
 from ninja_game.play.menu_screen import MenuScreen
-from ninja_game.play.menus.replays import watch
-from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
+from ninja_game.play.panels.replays import watch
+from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.player.playthrough import EpisodeSession
 from ninja_game.player.progress import Mark, worst_medal

@@ -11,8 +11,8 @@ import pygame
 from ninja_game.files.user_folder import LEVELS, short_path
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App
-from ninja_game.play.menus.bindings import BindingTable
-from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.play.panels.bindings import BindingTable
+from ninja_game.play.thumbnails import ThumbnailScreen
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 from ninja_game.player.settings import BY_COLUMN, GHOSTS, SPECS
 from ninja_game.ui.canvas import WIDTH

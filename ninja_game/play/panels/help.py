@@ -12,11 +12,11 @@ import pygame
 from ninja_game import __version__
 from ninja_game.errors import LevelError
 from ninja_game.files.bundled import data_folder
+from ninja_game.formats.ascii.reader import room_level
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.app import App
 from ninja_game.play.menu_screen import MenuScreen
 from ninja_game.play.replay.playback import Playback, RunClock
-from ninja_game.play.rooms import room_level
 from ninja_game.play.workspace import Command, key_text
 from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.level import Level

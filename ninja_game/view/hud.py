@@ -10,7 +10,6 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.formats.run_time import rounded_text
-from ninja_game.play.level.places import MUST, TAG_ROOM, Things, away_from, hidden_by, solid_place, tag_top
 from ninja_game.sim.grid import Point
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.level import COLUMNS, ROWS
@@ -18,6 +17,7 @@ from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.medals import draw_medal, draw_stamp
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
+from ninja_game.view.places import MUST, TAG_ROOM, Things, away_from, hidden_by, solid_place, tag_top
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0  # left end and middle, px
 _BAR_LENGTH = 630.0  # px, for the lifetime at a level's start or more

@@ -1,0 +1,1 @@
+"""Screens that open over a level as well as over a menu: help, settings, replays."""
