@@ -18,7 +18,7 @@ from ninja_game.files.locking import try_lock
 VARIABLE = "NINJA_GAME_BACKGROUND_COMPILER"
 """Environment variable: 0 turns the process off; commands then wait for their kernels."""
 
-BEHIND = 15  # how much its priority is lowered (os.nice)
+_BEHIND = 15  # how much its priority is lowered (os.nice)
 
 _STARTED: list[subprocess.Popen[bytes]] = []  # the process that this one has started
 
@@ -77,4 +77,4 @@ def lock_compilation() -> int | None:
 def lower_priority() -> None:
     """Lower the priority of this process, if the system has priorities."""
     if sys.platform != "win32":
-        os.nice(BEHIND)
+        os.nice(_BEHIND)

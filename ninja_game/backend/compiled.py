@@ -29,7 +29,7 @@ from ninja_game.sim.schema.world_fields import MAX_EVENTS, Event, Ninja, World
 Compile = Callable[[Callable[..., Any]], Callable[..., Any]]
 """Gives the compiled twin of a kernel (``memories.compiled``)."""
 
-SLICE = 400_000
+WORK_SLICE = 400_000
 """Ticks times objects per call of a kernel, some tens of milliseconds: Python sees Ctrl-C only between calls."""
 
 _NinjaRow: Any = namedtuple("_NinjaRow", [field.name for field in fields_of(Ninja)])  # type: ignore[misc]  # noqa: PYI024
@@ -81,7 +81,7 @@ class CompiledWorlds(Worlds):
         self._numbers = {field: self.records[field] for field in ("tick", "outcome", "gold", "id_count")}
         self._ninja, self._events, self._event_count = (self.records[f] for f in ("ninja", "events", "event_count"))
         self._jump_held = self._ninja["jump_held"]
-        self._ticks_at_once = max(1, SLICE // self.slots)
+        self._ticks_at_once = max(1, WORK_SLICE // self.slots)
         self.level_of = np.zeros(count, np.intp)
         self._levels_played: list[int] = []
         self.load(range(count), np.arange(count) % len(tables))

@@ -14,20 +14,20 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from ninja_game.formats.ascii.legend import TILE_OF_CHAR
 from ninja_game.formats.ascii.object_lines import ListedObject, read_object_line
-from ninja_game.generator.shaping import FINE, Ink
+from ninja_game.generator.shaping import SAMPLES, Ink
 from ninja_game.sim import kinds
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside, middle_of
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.rules import CELL
 
-MIDDLE = (COLUMNS + 1) // 2
+MIDDLE_COLUMN = (COLUMNS + 1) // 2
 
 
 def mirrored(cell: Cell) -> Cell:
     return COLUMNS + 1 - cell[0], cell[1]
 
 
-Y, X = (1 + (np.indices((ROWS * FINE, COLUMNS * FINE)) + 0.5) / FINE).astype(float)
+Y, X = (1 + (np.indices((ROWS * SAMPLES, COLUMNS * SAMPLES)) + 0.5) / SAMPLES).astype(float)
 """Row and column of the samples, in cells."""
 
 
@@ -113,7 +113,7 @@ class RockBoard:
 
     def holds(self, cell: Cell) -> bool:
         """Tell whether the middle of a cell is rock, or the cell belongs to the border."""
-        return not is_inside(cell) or bool(self.ink[cell[1] * FINE - FINE // 2, cell[0] * FINE - FINE // 2])
+        return not is_inside(cell) or bool(self.ink[cell[1] * SAMPLES - SAMPLES // 2, cell[0] * SAMPLES - SAMPLES // 2])
 
     def unroof(self, rng: Random) -> None:
         """Close the way into the vault and open its roof instead, if there is open space not far above."""
@@ -132,11 +132,11 @@ class RockBoard:
     def fill(self, rng: Random) -> None:
         """Put stones of one or two kinds into spaces that are too wide and open, some of them on one side only."""
         for row in self.ink:  # Rock close to the border is extended to it.
-            row[:FINE], row[-FINE:] = row[FINE], row[-FINE - 1]
-        self.ink[:FINE] = self.ink[FINE]
+            row[:SAMPLES], row[-SAMPLES:] = row[SAMPLES], row[-SAMPLES - 1]
+        self.ink[:SAMPLES] = self.ink[SAMPLES]
         sorts, even = rng.sample(STONES, 2), self.even
         for number in range(11):
-            air = np.pad(~self.ink.reshape(ROWS, FINE, COLUMNS, FINE).any((1, 3)), 1)
+            air = np.pad(~self.ink.reshape(ROWS, SAMPLES, COLUMNS, SAMPLES).any((1, 3)), 1)
             wide, high = ((9, 6), (7, 5), (6, 4))[number // 4]
             free = np.argwhere(sliding_window_view(air, (high, wide)).all((2, 3)))
             if not len(free):
@@ -317,7 +317,7 @@ class Scene:
 
     def twin(self, points: list[Point]) -> list[Point]:
         """Mirror the points at the middle column."""
-        return [(2 * middle_of((MIDDLE, 0))[0] - x, y) for x, y in points]
+        return [(2 * middle_of((MIDDLE_COLUMN, 0))[0] - x, y) for x, y in points]
 
     def clear_of(self, point: Point, *, key: float, other: float) -> bool:
         """Tell whether a point is in a cell in reach, ``key`` px from key objects and ``other`` px from others."""

@@ -170,7 +170,7 @@ def fitting_size(wished: tuple[int, int] = (0, 0), *, wide: bool = False) -> tup
 
 
 WIPE_MS = 300
-EDGE = 5
+_EDGE = 5
 """Width of the curtain's edge, logical px."""
 
 
@@ -198,4 +198,4 @@ class Wipe:
         share = self._left / WIPE_MS
         left = width - round(width * share * share)
         surface.blit(self._before, (left, 0), (left, 0, width - left, height))
-        surface.fill(theme.palette.accent, (left, 0, theme.canvas.px(EDGE), height))
+        surface.fill(theme.palette.accent, (left, 0, theme.canvas.px(_EDGE), height))

@@ -23,7 +23,7 @@ TICKS_PER_FRAME_PLAIN = 2000
 OPENED = "as it was opened"
 
 
-class Session:
+class TasSession:
     """A run under edit. ``folder``: the player's, for the journal; ``player``: the editor of the run.
 
     ``origin``: level, body, name and author of the run; ``moved``: it was recorded on another level. ``before_track``:

@@ -13,7 +13,7 @@ from ninja_game.play.level.messages import MessageQueue
 from ninja_game.play.level.places import MAY, Things, things_in
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, AttemptState
-from ninja_game.player.playthrough import LevelContext
+from ninja_game.player.playthrough import Playthrough
 from ninja_game.player.progress import HELPED
 from ninja_game.runs.deaths import cause_of
 from ninja_game.sim.level import Level
@@ -94,7 +94,7 @@ _PHASE_OF_OUTCOME = {"running": Phase.PLAY, "dead": Phase.DEAD, "exit": Phase.PA
 class LevelPlay:
     """One level of a context, played again and again; its view shows every tick."""
 
-    def __init__(self, app: App, context: LevelContext) -> None:
+    def __init__(self, app: App, context: Playthrough) -> None:
         self.app = app
         self.context = context
         self.rng = Random()  # noqa: S311 - presentation and the suicide key

@@ -41,7 +41,7 @@ MAX_PICTURES = 20_000
 
 
 SHOWN_SPLITS = 3  # the last ones of a run, at most
-LETTERS = 12.0  # least size of the letters above and below the level, px: films are small
+_LETTERS = 12.0  # least size of the letters above and below the level, px: films are small
 MAX_LETTER_SIZE = 18.0  # the greatest, for which the border has room, px of the level
 
 
@@ -130,7 +130,7 @@ class _Panel:
         self.playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
         self.view = LevelView(context, self.playback.simulation)
         self.hud = Hud(context.theme)
-        self.letters = min(MAX_LETTER_SIZE, LETTERS / context.canvas.scale)
+        self.letters = min(MAX_LETTER_SIZE, _LETTERS / context.canvas.scale)
         self.ghosts: list[Ghost] = []
 
     def step(self) -> None:
