@@ -29,7 +29,7 @@ from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.levels.origins import Origin, level_source
 from ninja_game.learn.levels.source import LevelChoice, LevelSequences
 from ninja_game.learn.observations.observation import Observation, PartLike
-from ninja_game.learn.observations.part import PartContext, initial_levels, put_levels
+from ninja_game.learn.observations.part import PartContext
 from ninja_game.learn.protocol import CHANCES, draw_starts, next_random
 from ninja_game.learn.rewards import DistanceShaping, RewardLike, Shaping, reward_terms, weights_of
 from ninja_game.sim.digest import world_digest
@@ -221,7 +221,7 @@ class EnvWorlds:
         self._worlds = open_worlds(memory, loaded, count, box=is_box(body))
         self.memory, self.threads = self._worlds.name, thread_count(threads)
         self._changed = np.ones(count, np.bool_)
-        fresh = initial_levels(self._worlds, range(len(loaded)))
+        fresh = self._worlds.initial_levels(range(len(loaded)))
         max_objects = self._worlds.slots * self._unbounded
         context = PartContext(
             self._worlds, fresh, self._changed, time_limit, self.memory == "compiled", max_objects=max_objects
@@ -348,8 +348,8 @@ class EnvWorlds:
     def _enter(self, numbers: Indices, chosen: Indices) -> None:
         """Start worlds in levels of a source without limit; each world has a place for its present level."""
         levels = [self.levels[number] for number in chosen.tolist()]
-        put_levels(self._worlds, numbers, levels)
-        for index, fresh in zip(numbers.tolist(), initial_levels(self._worlds, numbers.tolist()), strict=True):
+        self._worlds.put_levels(numbers, levels)
+        for index, fresh in zip(numbers.tolist(), self._worlds.initial_levels(numbers.tolist()), strict=True):
             self._context.fresh[index] = fresh
             for write in self._context.writers:
                 write(index)
