@@ -53,7 +53,7 @@ def start() -> None:
 
 
 def is_compiling() -> bool:
-    """Tell whether it, or the one of another process, compiles now."""
+    """Whether it, or the one of another process, compiles now."""
     if _STARTED and _STARTED[0].poll() is None:
         return True
     with suppress(OSError, FileError):
@@ -65,7 +65,7 @@ def is_compiling() -> bool:
 
 
 def lock_compilation() -> int | None:
-    """Give a handle that keeps others from compiling everything while it is open; None if another process has one.
+    """A handle that keeps others from compiling everything while it is open; None if another process has one.
 
     Raises OSError if no file can be written, and what ``code_folder`` raises.
     """

@@ -21,14 +21,13 @@ _SIZES = {"f8": 8, "f4": 4, "i8": 8, "i4": 4, "i2": 2, "u1": 1}
 _REFUSED = set(dir(np.recarray)) | set(dir(np.record))
 """Attributes of NumPy's record types: a field with such a name would silently give something else."""
 
-HUGE_PAGE = 1 << 21
-"""Bytes of a huge page."""
+HUGE_PAGE = 1 << 21  # bytes of a huge page
 
 Records = NDArray[np.void]
 
 
 def dtype_of(cls: type) -> np.dtype[np.void]:
-    """Give the record layout of a schema class. Raises TypeError for a field name that NumPy would hide."""
+    """The record layout of a schema class. Raises TypeError for a field name that NumPy would hide."""
     fields = fields_of(cls)
     for field in fields:
         if field.name in _REFUSED:

@@ -217,11 +217,11 @@ class Batch:
         return self._worlds.world(index)
 
     def digest(self, index: int) -> str:
-        """Give the sha256 (hex) of one world in canonical form, as ``Simulation.digest``."""
+        """The sha256 (hex) of one world in canonical form, as ``Simulation.digest``."""
         return world_digest(self.world(index))
 
     def state_digests(self, worlds: WorldChoice = None) -> list[str]:
-        """Give the sha256 (hex) of the worlds' states (``state_digest``), computed once for equal worlds."""
+        """The sha256 (hex) of the worlds' states (``state_digest``), computed once for equal worlds."""
         known: dict[bytes, str] = {}
         digests = []
         for index in numbers_of(worlds, self.count, "worlds").tolist():
@@ -236,7 +236,7 @@ class Batch:
 
 
 def numbers_of(choice: WorldChoice, count: int, what: str) -> Indices:
-    """Give the chosen indices below ``count``, intp. Raises ArgumentError for an invalid choice."""
+    """The chosen indices below ``count``, intp. Raises ArgumentError for an invalid choice."""
     everyone = np.arange(count, dtype=np.intp)
     if choice is None:
         return everyone

@@ -49,7 +49,7 @@ def difficulty(level: Level, inputs: bytes, *, seed: int = 0, tries: int = TRIES
 
 
 def _failing(batch: Batch, noisy: slice) -> float:
-    """Give the share of tries that fail, always below 1."""
+    """The share of tries that fail, always below 1."""
     dead = batch.outcomes[noisy] == OUTCOME_DEAD
     away = np.abs(batch.positions[noisy] - batch.positions[0]).max(axis=1) >= LOST
     lost = (batch.outcomes[noisy] == OUTCOME_RUNNING) & away
@@ -58,7 +58,7 @@ def _failing(batch: Batch, noisy: slice) -> float:
 
 
 def _shifted(inputs: bytes, start: int, tries: int, rng: np.random.Generator) -> NDArray[np.uint8]:
-    """Give the keys of ``tries`` tries from a tick on, (LENGTH, tries), with every change of a key shifted."""
+    """The keys of ``tries`` tries from a tick on, (LENGTH, tries), with every change of a key shifted."""
     ticks = np.arange(LENGTH)[:, np.newaxis]
     keys = np.zeros((LENGTH, tries), np.uint8)
     for key in (KEY_LEFT, KEY_RIGHT, JUMP_HELD):

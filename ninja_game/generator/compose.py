@@ -89,10 +89,8 @@ def _route_score(stops: Sequence[Cell], steps: Callable[[Cell], Mapping[Cell, in
 
 _SOLID = 0.13, 0.64
 _SHAPES = 20, 190
-OBJECTS = 50, MAX_OBJECTS
-"""Limits of a level: shares of the cells, tiles with a shape, objects."""
-_ENEMIES, _MINES = (6, 7, 8), (20, 24, 28)
-"""Numbers to choose from; a hard level has up to two enemies more."""
+OBJECTS = 50, MAX_OBJECTS  # limits of a level: shares of the cells, tiles with a shape, objects
+_ENEMIES, _MINES = (6, 7, 8), (20, 24, 28)  # numbers to choose from; a hard level has up to two enemies more
 
 
 def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
@@ -125,6 +123,6 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
 
 
 def _fair(level: Level) -> bool:
-    """Tell whether a ninja lives that stands still for ten seconds, or runs for a second to either side."""
+    """Whether a ninja lives that stands still for ten seconds, or runs for a second to either side."""
     openings = bytes(10 * TICKS_PER_SECOND), *(bytes([key] * TICKS_PER_SECOND) for key in (Input.LEFT, Input.RIGHT))
     return all(run_level(level, inputs, memory="plain").outcome != "dead" for inputs in openings)

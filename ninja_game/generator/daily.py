@@ -24,8 +24,7 @@ from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.generator.packed import AUTHOR, PACKED, generated_levels
 
-_FIRST = date(2026, 11, 23)
-"""The Monday of the first packed level; a week has seven levels of seven difficulties."""
+_FIRST = date(2026, 11, 23)  # the Monday of the first packed level; a week has seven levels of seven difficulties
 
 _INDEX = f'name = "Daily levels"\nauthor = "{AUTHOR}"\ncomment = "A level a day, from the date"\n'
 _MONDAY = 2

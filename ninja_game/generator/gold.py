@@ -110,13 +110,13 @@ def dangers(scene: Scene, rng: Random) -> Iterator[list[Point]]:
 
 
 def ring(x: float, y: float, size: float) -> list[Point]:
-    """Give points of a circle, more of them on a larger one."""
+    """Points of a circle, more of them on a larger one."""
     count = round(size / 4) + 2
     return [(x + size * cos(k * tau / count), y + size * sin(k * tau / count)) for k in range(count)]
 
 
 def bowl(x: float, y: float, size: float) -> list[Point]:
-    """Give points of the lower half of a circle."""
+    """Points of the lower half of a circle."""
     return [(x + size * cos(k * tau / 14), y + size * sin(k * tau / 14)) for k in range(8)]
 
 
@@ -131,7 +131,7 @@ def sides(x: float, y: float, size: float) -> list[Point]:
 
 
 def along(line: list[Point], step: float) -> list[Point]:
-    """Give points on a line, ``step`` px apart."""
+    """Points on a line, ``step`` px apart."""
     points, last = [line[0]], line[0]
     for point in line[1:]:
         while (far := dist(last, point)) >= step:

@@ -132,7 +132,7 @@ def place_enemies(scene: Scene, rng: Random, count: int, difficulty: int) -> boo
 
 
 def _guards_nothing(scene: Scene, enemy: ObjectSpec) -> bool:
-    """Tell whether an enemy is far from everything that the player wants or has to touch."""
+    """Whether an enemy is far from everything that the player wants or has to touch."""
     return all(dist(enemy.values[:2], point) > BESIDE_PX for point in scene.wanted())
 
 
@@ -141,7 +141,7 @@ def _from_hoard(scene: Scene, enemy: ObjectSpec) -> float:
 
 
 def _enemy(scene: Scene, spec: ObjectSpec, apart: float) -> ObjectSpec | None:
-    """Give an enemy if it has room, is ``apart`` px from others, and does not move towards the start."""
+    """An enemy if it has room, is ``apart`` px from others, and does not move towards the start."""
     start = middle_of(scene.start)
     point = (spec.values[0], spec.values[1])
     enemies = [other for other in scene.objects if other.kind in ENEMIES]
@@ -199,7 +199,7 @@ def place_mines(scene: Scene, rng: Random, count: int) -> None:
 
 
 def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[list[Point]]:
-    """Give lines along the rock, on hardly any floors except those of pits; ``floors``: short ones there, too."""
+    """Lines along the rock, on hardly any floors except those of pits; ``floors``: short ones there, too."""
     lines = list[list[Point]]()
     for chain in scene.surfaces:
         for first in range(0, len(chain) - 2, 3):
@@ -263,7 +263,7 @@ def _gate(scene: Scene, run: Sequence[Point], rng: Random) -> list[ObjectSpec]:
 
 
 def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
-    """Give the number of the group of hazards nearest to a run that can be removed; None if none can."""
+    """The number of the group of hazards nearest to a run that can be removed; None if none can."""
     enemies = scene.count(*ENEMIES)
     spare = [
         (min(dist(spec.values[:2], at) for spec in group for at in run), number)

@@ -37,14 +37,12 @@ class Screen(BaseScreen):
     app: App
 
 
-CALM_MOOD = Mood()
-"""The mood of all menus, whatever level was played before."""
+CALM_MOOD = Mood()  # the mood of all menus, whatever level was played before
 
 UNSEEN = {"dummy", "offscreen"}
 """SDL drivers without a visible window: no wipe, and no waiting for the next picture."""
 
-FALLBACK_RATE = 60
-"""Pictures per second where the display does not say its rate."""
+FALLBACK_RATE = 60  # pictures per second where the display does not say its rate
 
 NOTICE = 12.5  # size of the letters of a notice
 _IN_BORDER = 10.0  # the same in the border below a level

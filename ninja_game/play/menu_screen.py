@@ -28,8 +28,7 @@ MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygam
 REPEATING = frozenset({*DIRECTIONS, "page_up", "page_down"})
 
 TITLE_SIZE = 22
-BACK: Area = (WIDTH - 24 - 84, 15, 84, 26)
-"""The place beside the title where the mouse goes back."""
+BACK: Area = (WIDTH - 24 - 84, 15, 84, 26)  # the place beside the title where the mouse goes back
 
 
 class MenuScreen(Screen):

@@ -18,13 +18,11 @@ from ninja_game.ui.theme import Theme, palette_named
 from ninja_game.view.ninja.figure import icon
 
 TITLE = "ninja-game"
-LOGO = "NINJA"
-"""The name over the main menu, and on the first picture."""
+LOGO = "NINJA"  # the name over the main menu, and on the first picture
 
 _INVISIBLE = {"dummy", "offscreen", "evdev"}
 _ICON = 64
-WIDEST = 2200, 1300
-"""Largest size of a window that no player has resized, px."""
+WIDEST = 2200, 1300  # largest size of a window that no player has resized, px
 
 
 class Window:
@@ -170,8 +168,7 @@ def fitting_size(wished: tuple[int, int] = (0, 0), *, wide: bool = False) -> tup
 
 
 WIPE_MS = 300
-_EDGE = 5
-"""Width of the curtain's edge, logical px."""
+_EDGE = 5  # width of the curtain's edge, logical px
 
 
 class Wipe:

@@ -22,14 +22,13 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, inside
 from ninja_game.ui.widgets import Widget
 
-_FIRST_REPEAT_MS = 300
-"""ms before the command of a held key repeats."""
+_FIRST_REPEAT_MS = 300  # ms before the command of a held key repeats
 
 
 class KeyCommand(NamedTuple):
-    """``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them; ``pad``: an input of a standard gamepad.
+    """A command of an editor. ``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them.
 
-    ``repeats_ms``: interval of repeats while it is held; 0: none.
+    ``pad``: an input of a standard gamepad. ``repeats_ms``: interval of repeats while it is held; 0: none.
     """
 
     name: str
@@ -126,14 +125,14 @@ class HeldCommand(HeldKey[str]):
             self.end()
 
 
-Commands = Mapping[str, Callable[[], object]]
-"""Actions by the names of the table of commands."""
+Commands = Mapping[str, Callable[[], object]]  # actions by the names of the table of commands
 
 
 class Pane:
-    """``area``: logical px. ``widgets``: in it; what they show is part of ``render_key``.
+    """A part of a workspace, drawn again only when its ``render_key`` changes. ``area``: logical px.
 
-    ``wants``: the widget that gets the focus as soon as the part is shown.
+    ``widgets``: in it; what they show is part of ``render_key``. ``wants``: the widget that gets the focus as soon as
+    the part is shown.
     """
 
     area: Area = (0, 0, 0, 0)

@@ -163,7 +163,7 @@ WITH_HELP = "with help"  # instead of the body in marks of such passes: they unl
 
 
 class Mark(NamedTuple):
-    """``fastest``: tick of the earliest exit contact; ``most_gold``: most pieces in a passed run."""
+    """The best so far. ``fastest``: tick of the earliest exit contact; ``most_gold``: most pieces in a passed run."""
 
     fastest: int
     most_gold: int

@@ -15,8 +15,7 @@ OPENING_SECONDS = 1.0  # longest wait of a start for another program that has lo
 
 MAX_CELL_BYTES = 2**26  # the largest value, and row; SQLite itself makes values of a gigabyte if a file asks for it
 
-MAX_STEPS = 30
-"""Millions of instructions of SQLite to check a file: some four seconds; the records of years take one."""
+MAX_STEPS = 30  # millions of instructions of SQLite to check a file: some four seconds; the records of years take one
 
 _WRITE_VERSION = 18  # place of a byte in the file's header: 1 or 2 if SQLite may write it
 

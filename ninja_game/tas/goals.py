@@ -20,13 +20,11 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.session import TasSession
 from ninja_game.tas.timeline import Timeline
 
-EXIT_TICKS = 5 * TICKS_PER_SECOND
-"""Least ticks in which the exit is searched, for a run that does not reach it."""
+EXIT_TICKS = 5 * TICKS_PER_SECOND  # least ticks in which the exit is searched, for a run that does not reach it
 IMPROVES = IMPROVE, IMPROVE_GOLD = "improve", "improve with the gold"
 """Methods for a whole run: with any gold, or with as much as it has."""
 _NEAR = 6.0  # px within which the ninja is at a place
-SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
-"""Greatest distance between two equal ends, px and px/tick."""
+SAME_PLACE, SAME_VELOCITY = 0.5, 0.05  # greatest distance between two equal ends, px and px/tick
 
 
 class SpanGoal(NamedTuple):

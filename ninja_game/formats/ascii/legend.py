@@ -40,8 +40,7 @@ _RIGHT, _DOWN, _LEFT, _UP = 0.0, 1.0, 2.0, 3.0
 DIRECTION_WORDS = {"right": _RIGHT, "down": _DOWN, "left": _LEFT, "up": _UP}
 """Direction numbers of the N records (objects.md §1)."""
 
-WEAPONS = {"zap drone": 0.0, "laser drone": 1.0, "chaingun drone": 2.0}
-"""Weapon numbers of drones (objects.md §5)."""
+WEAPONS = {"zap drone": 0.0, "laser drone": 1.0, "chaingun drone": 2.0}  # weapon numbers of drones (objects.md §5)
 
 DIAGONAL = 0.7071067811865468  # what a diagonal pad's 0.707106781186547 loads as (game.md §5.2)
 

@@ -150,7 +150,7 @@ _LINE_WIDTH = 100
 
 
 def same_spec(a: ObjectSpec, b: ObjectSpec) -> bool:
-    """Tell whether two records are equal in kind, text and every bit of their values."""
+    """Whether two records are equal in kind, text and every bit of their values."""
     return (a.kind, a.text, len(a.values)) == (b.kind, b.text, len(b.values)) and all(
         map(same_bits, a.values, b.values)
     )

@@ -18,8 +18,7 @@ from ninja_game.sim.level import TILES
 MARKER = "&userdata="
 """Comes before the data of the game's own level file; the data is URL-encoded and ends at the next ``&``."""
 
-_SHAPE = "$name#author#comment#level string#"
-"""The form of a record, for error messages."""
+_SHAPE = "$name#author#comment#level string#"  # the form of a record, for error messages
 
 _SEPARATOR, _ENCODED_SEPARATOR = re.compile(r"\$"), re.compile(r"\$|%24")
 _ENCODING = str.maketrans({"%": "%25", "&": "%26", "+": "%2B"})
@@ -56,7 +55,7 @@ class LevelRecord:
 
 
 def is_demo(text: str) -> bool:
-    """Tell whether a text without white space is a demo, not free text."""
+    """Whether a text without white space is a demo, not free text."""
     return bool(_DEMO.fullmatch(text) or _LEGACY_DEMO.fullmatch(text))
 
 
@@ -132,7 +131,7 @@ def _one_line(text: str) -> str:
 
 
 def _find_demo(fields: list[str]) -> tuple[int, str]:
-    """Give the number of the field with the demo, and its text; (0, '') without one.
+    """The number of the field with the demo, and its text; (0, '') without one.
 
     It is field 4 in a complete record, 3 or 2 in a record without a level.
     """

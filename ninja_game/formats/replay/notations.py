@@ -90,7 +90,7 @@ _KEYS = re.compile(r"[0-9a-f]+(:[0-9a-f]+)*")
 
 
 def is_tas_text(text: str) -> bool:
-    """Tell whether a text may be in one of these notations."""
+    """Whether a text may be in one of these notations."""
     for _, raw in numbered_lines(text):
         line = raw.strip()
         if not _SKIPPED.fullmatch(line) and not line.startswith("#") and not _ABOUT.fullmatch(line):

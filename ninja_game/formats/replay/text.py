@@ -28,10 +28,8 @@ from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICKS_PER_SECOND
 
 REPLAY_MAGIC = "ninja-game replay"
 REPLAY_VERSION = 3
-LAST_LINE = "end"
-"""The end of a replay with claims, so that a truncated text is noticed."""
-RULES_VERSION = 1
-"""Version of the rules of replays; every change of the world that changes any replay raises it."""
+LAST_LINE = "end"  # the end of a replay with claims, so that a truncated text is noticed
+RULES_VERSION = 1  # version of the rules of replays; every change of the world that changes any replay raises it
 
 OUTCOMES = ("exit", "dead", "running")
 INPUTS_AFTER = "inputs after the final tick"
@@ -132,7 +130,7 @@ _FIRST_LINE = re.compile(rf"{REPLAY_MAGIC} +([0-9]{{1,9}})[ \t]*")
 
 
 def is_replay(text: str) -> bool:
-    """Tell whether a text begins like a replay of this program."""
+    """Whether a text begins like a replay of this program."""
     return text.lstrip("\ufeff \t\r\n").startswith(REPLAY_MAGIC)
 
 
@@ -309,7 +307,7 @@ _HEAD = re.compile(rf"^{REPLAY_MAGIC}\b", re.MULTILINE)
 
 
 def is_episode(text: str) -> bool:
-    """Tell whether a text begins like an episode of this program."""
+    """Whether a text begins like an episode of this program."""
     return text.lstrip("\ufeff \t\r\n").startswith(EPISODE_MAGIC)
 
 

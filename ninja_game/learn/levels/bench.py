@@ -47,12 +47,11 @@ BASES = 1000  # number of levels that are varied
 LARGEST = 306  # number of a level with the most objects
 _TRIES = 32
 """The last variation only removes gold, is not mirrored and has the run's own start, so that the run passes it."""
-_TABLE = "bench.bin"
-"""An asset of the game: the variation of each level, one byte each, `train` before `test`."""
+_TABLE = "bench.bin"  # an asset of the game: the variation of each level, one byte each, `train` before `test`
 
 
 class BenchLevel(NamedTuple):
-    """``inputs``: a run that passes the level, one byte per tick, up to the exit or some ticks more."""
+    """A level of the benchmark. ``inputs``: a run that passes it, one byte per tick, to the exit or some ticks more."""
 
     name: str
     grade: str

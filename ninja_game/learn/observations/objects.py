@@ -29,7 +29,7 @@ MAX_ROUTINE = 3.0  # the highest number of a drone's or a turret's routine
 
 @fast
 def is_there(w: World, o: Object) -> bool:
-    """Tell whether an object still exists."""
+    """Whether an object still exists."""
     if o.kind == kinds.GOLD:
         return o.taken == 0
     if o.kind == kinds.MINE:

@@ -29,8 +29,7 @@ DOOR_HALF = 4.0
 BEAM_RADIUS = 2.0
 CROSS_RADIUS = 4.0
 EVERYWHERE = (-_FAR, _FAR, -_FAR, _FAR)
-ROUNDING = 1.0e-6
-"""px by which rounding may move the border of an object."""
+ROUNDING = 1.0e-6  # px by which rounding may move the border of an object
 
 
 class Frame(NamedTuple):
@@ -174,8 +173,7 @@ def draw_object(o: Object, picture: Any, frame: Frame, size: float, box: bool, s
 
 MAX_SIDE = 512
 MIN_VIEW, MAX_VIEW = 48.0, WORLD_WIDTH
-_SAMPLES = 4
-"""Sampled points across a pixel of the tiles."""
+_SAMPLES = 4  # sampled points across a pixel of the tiles
 
 NINJA_SHADE, SOLID_SHADE = 255, 100
 SHADES = {
@@ -391,7 +389,7 @@ def area_of(o: Object, size: float, gap: float) -> tuple[float, float, float, fl
 
 @fast
 def is_covered(place: int, level: int, later: Any, area: Any) -> bool:
-    """Tell whether an object of the layer that is drawn later may lie in this object's area."""
+    """Whether an object of the layer that is drawn later may lie in this object's area."""
     left, right, top, bottom = cells_of(area)
     for row in range(top, bottom + 1):
         for column in range(left, right + 1):

@@ -39,8 +39,7 @@ from ninja_game.sim.rules import (
 from ninja_game.sim.schema.declare import fast, kernel
 from ninja_game.sim.schema.world_fields import EDGE_STATES
 
-SAMPLES = 8
-"""Points across a cell for measuring distances: the error is below 3 px, the distance of the points."""
+SAMPLES = 8  # points across a cell for measuring distances: the error is below 3 px, the distance of the points
 
 
 def solidity(
@@ -63,14 +62,13 @@ def mark_solid(maps: Any, number: int, wide: float, high: float, points: Any) ->
 
 
 _BY_TILES: dict[Any, NDArray[Any]] = {}
-MAX_CACHED = 4096
-"""Most results that are kept, by the tiles of their level: many levels have the same tiles."""
+MAX_CACHED = 4096  # most results that are kept, by the tiles of their level: many levels have the same tiles
 
 
 def cached_by_tiles(
     make: Callable[..., NDArray[Any]], context: PartContext, number: int, *lengths: float
 ) -> NDArray[Any]:
-    """Give the result of ``make`` for a level's tiles, kept for other levels with the same tiles."""
+    """The result of ``make`` for a level's tiles, kept for other levels with the same tiles."""
     key = make, tuple(context.fresh[number].tiles), lengths
     if key not in _BY_TILES:
         if len(_BY_TILES) >= MAX_CACHED:
@@ -105,8 +103,7 @@ _FORMS = ("distance", "one-hot")
 TILE_KINDS = len(SHAPE)
 FULL_TILE = SHAPE.index(FULL)
 MAX_SIZE = 31
-_REACH = 48.0
-"""px; greater distances are cut off."""
+_REACH = 48.0  # px; greater distances are cut off
 
 
 @dataclass(frozen=True)

@@ -57,8 +57,7 @@ of the floor below; ``…_dx``, ``…_dy``: offset from the ninja; the last eigh
 
 _NAMES = tuple(FIELDS)
 FIRST_EXIT, FIRST_GOLD, FIRST_STATE = (_NAMES.index(name) for name in ("exit_there", "gold_there", STATE_NAMES[0]))
-_FAR = 1.0e18
-"""px², farther than any distance."""
+_FAR = 1.0e18  # px², farther than any distance
 MAX_EXITS = 60  # exits per level that are looked at: the first ones
 
 
@@ -176,7 +175,7 @@ def observe_ninja(w: World, out: Any, index: int, offset: int, factors: Any, low
 
 @fast
 def open_exits(w: World, exits: Any, start: int, end: int) -> int:
-    """Give the open exits of a level, one bit each, as far as there are bits."""
+    """The open exits of a level, one bit each, as far as there are bits."""
     opened = 0
     for k in range(start, min(end, start + MAX_EXITS)):
         if w.objects[int(exits[k])].is_open:
@@ -207,7 +206,7 @@ def choose_exit(
 
 @fast
 def nearest_gold(w: World, gold: Any, gold_x: Any, gold_y: Any, start: int, end: int, guess: int) -> int:
-    """Give the nearest piece that is left, the first of equally near ones; -1: none.
+    """The nearest piece that is left, the first of equally near ones; -1: none.
 
     The level's table is near in memory, the world's objects are not, so they are read last. With a good ``guess``, a
     piece that is left (or -1), such as the last nearest one, hardly any object is read.
@@ -261,8 +260,7 @@ def observe_time(
 
 _RADII = (24.0, 60.0)  # px
 _SIDES = ((1.0, 0.0), (1.0 / ROOT2, 1.0 / ROOT2), (0.0, 1.0), (-1.0 / ROOT2, 1.0 / ROOT2))
-_DIRECTIONS = [*_SIDES, *((-x, -y) for x, y in _SIDES)]
-"""The sides, from the right by way of down."""
+_DIRECTIONS = [*_SIDES, *((-x, -y) for x, y in _SIDES)]  # the sides, from the right by way of down
 FAR_TICKS = 1000.0  # ticks to the exit that are normalised to 1
 
 

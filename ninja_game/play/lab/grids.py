@@ -104,11 +104,9 @@ class Crowd:
                 slot = o.next
 
 
-MEASURED = (25, 50, 100, 200, 400)
-"""The numbers of objects in the plot."""
+MEASURED = (25, 50, 100, 200, 400)  # the numbers of objects in the plot
 
-CHART = (_LEFT + 460, _TOP + 270, 240.0, 140.0)
-"""The plot's area, px of the world."""
+CHART = (_LEFT + 460, _TOP + 270, 240.0, 140.0)  # the plot's area, px of the world
 
 
 @cache

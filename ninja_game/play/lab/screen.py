@@ -27,8 +27,7 @@ from ninja_game.ui.widgets import Button, Choice, Slider, Widget
 from ninja_game.view.level_view import OffscreenContext
 
 _LEGEND_TOP, _TEXT_TOP, _NUMBERS_TOP, _LINE = 390.0, 406.0, 452.0, 15.0
-CONTROLS: Area = (552, 452, 200, 26)
-"""The first control; the others are below it."""
+CONTROLS: Area = (552, 452, 200, 26)  # the first control; the others are below it
 
 
 class LabScreen(MenuScreen):
@@ -166,8 +165,7 @@ class FigureArea(Widget):
 
 
 FILM_TICKS = 240
-PICTURE_TICK = 60
-"""The tick of the demonstration that pictures show."""
+PICTURE_TICK = 60  # the tick of the demonstration that pictures show
 
 
 class FigurePicture:

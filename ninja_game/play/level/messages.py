@@ -21,8 +21,7 @@ START_TICKS = 480  # the same in play for a single text of the start or the swit
 _FADE_TICKS = 20  # in which a text near a place fades at its end
 _FAR = 60.0  # px outside its frame at which it ends
 
-_STILL = 0.05
-"""Slower than this the ninja is still, px/tick."""
+_STILL = 0.05  # slower than this the ninja is still, px/tick
 
 AGAIN = "Stuck? {retry} starts the level over"
 # AGAIN is for players who are stuck, not for those who wait because a text says so.

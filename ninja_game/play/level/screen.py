@@ -32,12 +32,10 @@ from ninja_game.ui.audio.music import COLUMN_MUSIC, SILENCE
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.view.overlays import Overlays
 
-_SLOWER = 70
-"""Game speed that is offered to a player who is stuck, %."""
+_SLOWER = 70  # game speed that is offered to a player who is stuck, %
 
 _HELP, _SKIP = "Get help with this level", "Skip this level"
-HELP_ROW = 2
-"""The row of help in the pause panel."""
+HELP_ROW = 2  # the row of help in the pause panel
 
 
 class LevelScreen(Screen):

@@ -29,8 +29,7 @@ from ninja_game.ui.widgets import Button, Widget
 _LEFT, _TOP, _WIDE = 44, 74, 480
 _SIDE, _SIDE_WIDTH, _WEEK = 548, 200, 272
 
-DIG_MS = 60
-"""ms per cell of the cave that is drawn while a level is made."""
+DIG_MS = 60  # ms per cell of the cave that is drawn while a level is made
 
 
 class _Maker:

@@ -30,8 +30,7 @@ _LEFT, _TOP, _WIDE, _MAX_HEIGHT = 44, 116, 318, 286
 """Place and greatest height of the grid, px; cells are up to MAX_CELL px large."""
 
 MAX_CELL = 62
-_NAMED = 48
-"""Least width of a cell under its column's name, px."""
+_NAMED = 48  # least width of a cell under its column's name, px
 
 LOOKS = (("beaten", "passed"), ("open", "open"), ("cheated", "seen in practice"), ("locked", "locked"))
 

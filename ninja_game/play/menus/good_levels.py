@@ -20,14 +20,12 @@ from ninja_game.ui.widgets import Button, Widget
 
 FILE = "good-levels.toml"
 
-_PICTURE: Area = (212, 66, 540, 540 * 25 / 33)
-"""Where the level is shown."""
-_AWAY = 24
-"""Distance of a number from its place, across and down, px."""
+_PICTURE: Area = (212, 66, 540, 540 * 25 / 33)  # where the level is shown
+_AWAY = 24  # distance of a number from its place, across and down, px
 
 
 class GoodLevel(NamedTuple):
-    """``about``: what makes the level good. ``notes``: column and row of a cell, and a text about it."""
+    """A good level. ``about``: what makes it good. ``notes``: column and row of a cell, and a text about it."""
 
     entry: Entry
     about: str
@@ -46,7 +44,7 @@ def read_good_levels() -> list[GoodLevel]:
 
 
 class GoodLevelsScreen(ThumbnailScreen):
-    """``edit``: opens a copy of the selected level in the editor."""
+    """Good levels, with notes on their pictures. ``edit``: opens a copy of the selected one in the editor."""
 
     title = "Ten good levels, and why"
 

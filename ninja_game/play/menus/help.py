@@ -92,19 +92,15 @@ class HelpPage(MenuScreen):
             theme.text(surface, command.label, x + keys + pads + 4, y, size=10, width=356 - keys - pads)
 
 
-WINDOW: Area = (240, 66, 504, 288)
-"""The area of the demonstration: that part of the stage, at its own scale."""
+WINDOW: Area = (240, 66, 504, 288)  # the area of the demonstration: that part of the stage, at its own scale
 
-_MARGIN = 12.0
-"""px of the stage left out at the left of a room, so that half of its wall is visible."""
+_MARGIN = 12.0  # px of the stage left out at the left of a room, so that half of its wall is visible
 
-_REST_TICKS = 60
-"""Ticks for which a demonstration stands still after its last input (game.md §4.4)."""
+_REST_TICKS = 60  # ticks for which a demonstration stands still after its last input (game.md §4.4)
 
 KEYS_TITLE = "Keys"
 KEY_ROW = 22.0
-KEY_COLUMNS = (0, 152, 340)
-"""x of an action's name, its keys and its buttons in their table."""
+KEY_COLUMNS = (0, 152, 340)  # x of an action's name, its keys and its buttons in their table
 
 
 class HelpScreen(MenuScreen):

@@ -37,8 +37,7 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.level_view import LevelView
 
-PANEL: Area = 14, 96, 232, 390
-"""The panel's area: at the edge, so that the run behind it is visible."""
+PANEL: Area = 14, 96, 232, 390  # the panel's area: at the edge, so that the run behind it is visible
 
 _HEAD, _FIRST, _ROW, _EDGE = 98, 62, 43, 16
 """Heights of the title, of the first button and of a row of two, and the width of the panel's edge, px."""
@@ -174,8 +173,7 @@ BAND: tuple[tuple[Point, ...], ...] = (
 )
 """The headband under the name and its two ends: corners, px from the panel's."""
 
-_REST_TICKS = 130
-"""Ticks for which a replay goes on after its end or a death."""
+_REST_TICKS = 130  # ticks for which a replay goes on after its end or a death
 
 
 class Attract:

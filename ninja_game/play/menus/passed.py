@@ -37,8 +37,7 @@ LEVEL_TICKS, FEAST_TICKS = 8, 130
 _PAPERS, _PRIZE, _MIDDLE = 70, 64.0, 318.0
 """Number of papers; size of the medal of all levels; height of the medal and the score, px."""
 
-GLOW = LightStyle("gold_light", 230, 110)
-"""The light behind the score."""
+GLOW = LightStyle("gold_light", 230, 110)  # the light behind the score
 
 CLOCK = "What was left on the clock after the last level"
 

@@ -16,8 +16,7 @@ from ninja_game.ui.widgets import Button, Widget
 
 _ROW = 33
 _SEARCH = "Search for 5 minutes"
-_MAX_TEXT = 900
-"""Most characters of a problem that are shown; no message of the program has more."""
+_MAX_TEXT = 900  # most characters of a problem that are shown; no message of the program has more
 
 
 class Problem(NamedTuple):
@@ -33,7 +32,7 @@ class Problem(NamedTuple):
 
 
 class ProblemsScreen(MenuScreen):
-    """``find``: gives the present problems whenever the screen is entered, None while they are looked for.
+    """A list of problems. ``find``: gives those of now whenever the screen is entered, None while they are looked for.
 
     ``news``: whether they have been found since; asked before each picture.
     """

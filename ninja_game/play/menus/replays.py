@@ -39,8 +39,7 @@ from ninja_game.ui.widgets import Choice, Widget
 _ROW = 34
 FIRST_SECONDS, MORE_SECONDS = 0.05, 0.008
 """Seconds for reading files when the screen opens, and in each picture after that."""
-FILES_SHOWN = 300
-"""Most recordings read from the player's folder."""
+FILES_SHOWN = 300  # most recordings read from the player's folder
 
 
 _OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}

@@ -221,8 +221,7 @@ def draw_names(
     return covered
 
 
-MAX_MS = 2000
-"""A longer picture is a stall: it counts as one tick and is not caught up."""
+MAX_MS = 2000  # a longer picture is a stall: it counts as one tick and is not caught up
 
 
 class RunClock:

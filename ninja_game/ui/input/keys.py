@@ -100,8 +100,7 @@ def key_label_of(name: str) -> str:
 
 T = TypeVar("T")
 
-MAX_STEP_MS = 50
-"""A longer picture is a stall and no long press: the release may wait in the queue."""
+MAX_STEP_MS = 50  # a longer picture is a stall and no long press: the release may wait in the queue
 
 
 class HeldKey(Generic[T]):

@@ -73,7 +73,10 @@ def page_of(name: str) -> str:
 
 
 class Documents:
-    """``files``: content by name in the site, once ``build`` was called. ``address``: the site's, if it is known."""
+    """The documents as pages. ``files``: content by name in the site, once ``build`` was called.
+
+    ``address``: the site's, if it is known.
+    """
 
     def __init__(self, address: str = "") -> None:
         self._address_of_site = address

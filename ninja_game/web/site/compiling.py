@@ -9,8 +9,7 @@ from importlib.util import MAGIC_NUMBER
 from pathlib import Path
 from types import CodeType
 
-_PLACES = {"library": "/lib/python314.zip", "game": "/game"}
-"""The place of each folder in the page, for tracebacks."""
+_PLACES = {"library": "/lib/python314.zip", "game": "/game"}  # the place of each folder in the page, for tracebacks
 
 DOCUMENTED = ("pyodide", "_pyodide")  # packages that need their docstrings when they run
 
