@@ -10,7 +10,7 @@ from ninja_game.levels.episodes import Entry
 from ninja_game.play.app import App
 from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.player.playthrough import LevelSession, PacedRun
+from ninja_game.player.playthrough import LevelPlaythrough, PacedRun
 from ninja_game.sim import kinds
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.input.bindings import Bindings
@@ -64,7 +64,7 @@ class Restless(Bindings):
         return next(self._keys)
 
 
-class BusyRun(LevelSession):
+class BusyRun(LevelPlaythrough):
     """A level with a ghost."""
 
     def ghosts(self) -> list[PacedRun]:

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from ninja_game.web.pages.frame import GAME
+from ninja_game.web.pages.frame import GAME_PAGE
 from ninja_game.web.site.build import build_site
 from tests.support.visitor import LOADING
 from tests.support.web_page import BUSY, CACHE, SIZE, browser, missing, run_in, served
@@ -30,7 +30,7 @@ RUNS = "#trouble[open], body[data-state]"
 
 def visit(page: Any, address: str) -> tuple[float, float]:
     """Seconds until the bar is seen and until the menu is there."""
-    page.goto(address + GAME, wait_until="commit")
+    page.goto(address + GAME_PAGE, wait_until="commit")
     page.locator(RUNS).first.wait_for(state="attached", timeout=120_000)
     assert not page.locator("#trouble[open]").count(), page.locator("#trouble").inner_text()
     menu = page.evaluate("() => performance.getEntriesByName('ninja-game: menu')[0].startTime")
@@ -78,7 +78,7 @@ def summary(name: str, found: list[float]) -> str:
 def tell_turns(chromium: Any, address: str, seconds: int) -> None:
     page = chromium.new_page(viewport={"width": SIZE[0], "height": SIZE[1]})
     page.set_default_timeout(LOADING)
-    page.goto(address + GAME)
+    page.goto(address + GAME_PAGE)
     page.locator("body[data-state=menu]").wait_for(state="attached")
     page.wait_for_timeout(5000)  # what the next visit needs is put aside
 

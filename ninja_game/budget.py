@@ -14,8 +14,7 @@ from ninja_game.sim.level import Level, check_level, makes_object
 RUN_BUDGET = 320_000_000
 """Work of one run: the longest that N records on the largest level, a million ticks of 310 objects; 5 s compiled."""
 
-PAGE_BUDGET = 3_000_000
-"""Work of a run that a page judges, on its one thread: 10,000 ticks of 290 objects."""
+PAGE_BUDGET = 3_000_000  # work of a run that a page judges, on its one thread: 10,000 ticks of 290 objects
 
 PAGE_TICK_COST = 2_000
 """Most that a level may cost that a page opens: more objects would hold its thread; those of N cost up to 280."""
@@ -30,8 +29,7 @@ DATASET_MIB = 100
 """Size of the observations of demonstrations; arrays of them take four times as much memory. Here, so that the
 command's help needs no Gymnasium."""
 
-NO_LIMIT = 2**63
-"""The budget of what the player played here."""
+NO_LIMIT = 2**63  # the budget of what the player played here
 
 TICK_COST = 10
 """Work of a tick without objects: the ninja's own. One is what most objects cost, some 10 ns compiled."""

@@ -13,8 +13,7 @@ from ninja_game.errors import DAMAGED, FileError, NinjaGameError, reason
 from ninja_game.files.locking import LOCK_SUFFIX, read_abandoned, remove_abandoned, try_lock
 from ninja_game.files.reading import digest_of, read_bytes
 
-Draft = TypeVar("Draft")
-"""A level or a run under edit: never changed, equal to another one that says the same."""
+Draft = TypeVar("Draft")  # a level or a run under edit: never changed, equal to another one that says the same
 Found = TypeVar("Found")
 
 

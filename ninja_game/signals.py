@@ -13,21 +13,20 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
 
-GRACE = 1.2
-"""Seconds that a command has to end by itself after a signal."""
+GRACE = 1.2  # seconds that a command has to end by itself after a signal
+
+last_acts: list[Callable[[], object]] = []
+"""What is done right before the process is ended by force; modules add their own when they are loaded."""
 
 _ENDING = (signal.SIGINT, signal.SIGTERM)
 
-announced = threading.Event()
-"""The command has said itself that it was stopped; what remains may take its time."""
+announced = threading.Event()  # the command has said itself that it was stopped; what remains may take its time
 
 received: list[BaseException] = []
 """What the first signal has raised; Python may have lost it, or made another error of it."""
 
-raising = threading.Event()
-"""A command is at work: a signal raises an exception in it."""
+raising = threading.Event()  # a command is at work: a signal raises an exception in it
 
 
 class Terminated(BaseException):
@@ -113,17 +112,13 @@ def _end_by_force(arrivals: int) -> None:
 def _end(number: int) -> None:
     """End this process and its workers at once; unfinished files go."""
     try:
-        # A module that is not loaded has nothing to end; importing it now might wait for the main thread.
-        for child in _known("multiprocessing", "active_children")() or ():
-            child.kill()
-        _known("ninja_game.files.writing", "discard_unfinished")()
+        # A module that is not loaded has started nothing; importing it now might wait for the main thread.
+        if processes := sys.modules.get("multiprocessing"):
+            for child in processes.active_children():
+                child.kill()
+        for act in last_acts:
+            act()
         if not announced.is_set():
             os.write(2, b"ninja-game: interrupted\n" if number == signal.SIGINT else b"ninja-game: terminated\n")
     finally:
         os._exit(128 + number)
-
-
-def _known(module: str, name: str) -> Callable[[], Any]:
-    """A function of a module if that is loaded, else one that does nothing."""
-    method: Callable[[], Any] = getattr(sys.modules.get(module), name, lambda: None)
-    return method

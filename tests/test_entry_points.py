@@ -1,9 +1,10 @@
-"""Whatever reads from outside has a section in SECURITY.md, and each section a test."""
+"""Whatever reads from outside has a row in SECURITY.md, and each row a test."""
 
 from __future__ import annotations
 
 import ast
 import re
+import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -46,27 +47,26 @@ def readers(source: str) -> set[str]:
     return {name for name in map(ast.unparse, named) if READS.fullmatch(name)}
 
 
-SECTION = re.compile(r"### .+\n\nFrom [^.]+\. [^#]+\n\n- Read by ([^#]+)\n- Tested by ([^#]+)\n")
-"""Who may send it and what is promised, the modules that read it, the tests."""
+def rows() -> list[list[str]]:
+    """The rows of the tables in SECURITY.md: what comes in, from whom, what is promised, the limit."""
+    page = (ROOT / "SECURITY.md").read_text("utf-8").partition("\n## Entry points\n")[2].partition("\n## ")[0]
+    lines = [line for line in page.splitlines() if line.startswith("|")]
+    return [line[2:-2].split(" | ") for line in lines if not line.startswith(("|---", "| what comes in |"))]
 
 
-def sections() -> list[str]:
-    page = (ROOT / "SECURITY.md").read_text("utf-8").partition("## Entry points")[2].partition("\n## ")[0]
-    return [f"### {text.strip()}\n" for text in page.split("\n### ")[1:]]
+def register() -> dict[str, dict[str, list[str]]]:
+    """What reads an entry point, and its tests, by what comes in."""
+    return tomllib.loads((ROOT / "tests" / "entry_points.toml").read_text("utf-8"))
 
 
-def modules() -> set[str]:
-    return {name for text in sections() for name in re.findall(r"`([\w/]+)`", text.partition("\n- Read by ")[2])}
-
-
-def test_whatever_reads_has_a_section_in_security_md() -> None:
+def test_whatever_reads_has_a_row_in_security_md() -> None:
     reading = {}
     for path in sorted(PACKAGE.rglob("*.py")):
         if found := readers(path.read_text("utf-8")):
             reading[path.relative_to(PACKAGE).with_suffix("").as_posix().removesuffix("/__init__")] = found
-    named = modules()
+    named = {module for entry in register().values() for module in entry["read_by"]}
     unknown = {module: found for module, found in reading.items() if module not in named | OURS.keys()}
-    assert not unknown, "name them in a section of SECURITY.md"
+    assert not unknown, "name them in tests/entry_points.toml, beside what SECURITY.md promises about it"
     gone = [
         module
         for module in named | OURS.keys()
@@ -76,15 +76,14 @@ def test_whatever_reads_has_a_section_in_security_md() -> None:
     assert not OURS.keys() - reading.keys(), "they read nothing any more"
 
 
-def test_each_section_is_whole_and_its_tests_are_there() -> None:
-    assert len(sections()) > 20
-    for text in sections():
-        found = SECTION.fullmatch(text)
-        assert found, text
-        assert re.search(r"`[\w/]+`", found[1]), text
-        tests = re.findall(r"`([\w/]+\.py)::(\w+)`", found[2])
-        assert tests, text
-        for file, name in tests:
+def test_each_row_is_whole_and_its_tests_are_there() -> None:
+    assert len(rows()) > 20
+    assert [row for row in rows() if len(row) != 4 or not all(row)] == []
+    assert [what for what, *_ in rows()] == [*register()]
+    for what, entry in register().items():
+        assert entry["read_by"], what
+        assert entry["tests"], what
+        for file, name in (test.split("::") for test in entry["tests"]):
             assert f"\ndef {name}(" in (ROOT / "tests" / file).read_text("utf-8"), (file, name)
 
 

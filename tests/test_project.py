@@ -7,6 +7,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -81,6 +82,16 @@ def test_no_files_import_one_another_in_a_circle() -> None:
         graph = grimp.build_graph(package, cache_dir=None)
         # Raises CycleError, which names the files; imports within functions and for types count too.
         TopologicalSorter({name: graph.find_modules_directly_imported_by(name) for name in graph.modules}).prepare()
+
+
+def test_the_drawing_of_the_architecture_has_the_floors_of_the_import_contract() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+    drawing, text = page.partition("```text\n")[2].split("```\n", 1)
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]["contracts"]
+    layers = next(contract["layers"] for contract in contracts if contract["id"] == "layers")
+    floors = [line[20:] for line in drawing.splitlines()]
+    assert floors == layers
+    assert not [name for floor in floors for name in floor.split(" | ") if f"`{name}`" not in text]
 
 
 ELSEWHERE = 8  # lines that a skip saves outside of a table of data, at least

@@ -18,7 +18,7 @@ from ninja_game.files.locking import try_lock
 VARIABLE = "NINJA_GAME_BACKGROUND_COMPILER"
 """Environment variable: 0 turns the process off; commands then wait for their kernels."""
 
-BEHIND = 15  # how much its priority is lowered (os.nice)
+_BEHIND = 15  # how much its priority is lowered (os.nice)
 
 _STARTED: list[subprocess.Popen[bytes]] = []  # the process that this one has started
 
@@ -53,7 +53,7 @@ def start() -> None:
 
 
 def is_compiling() -> bool:
-    """Tell whether it, or the one of another process, compiles now."""
+    """Whether it, or the one of another process, compiles now."""
     if _STARTED and _STARTED[0].poll() is None:
         return True
     with suppress(OSError, FileError):
@@ -65,7 +65,7 @@ def is_compiling() -> bool:
 
 
 def lock_compilation() -> int | None:
-    """Give a handle that keeps others from compiling everything while it is open; None if another process has one.
+    """A handle that keeps others from compiling everything while it is open; None if another process has one.
 
     Raises OSError if no file can be written, and what ``code_folder`` raises.
     """
@@ -77,4 +77,4 @@ def lock_compilation() -> int | None:
 def lower_priority() -> None:
     """Lower the priority of this process, if the system has priorities."""
     if sys.platform != "win32":
-        os.nice(BEHIND)
+        os.nice(_BEHIND)

@@ -48,12 +48,12 @@ def code_digest(entry: Callable[..., Any], compiler: str) -> str:
 
 
 def _is_plain(value: Any) -> bool:
-    """Tell whether a global is a constant that a rule may name."""
+    """Whether a global is a constant that a rule may name."""
     return isinstance(value, (bool, int, float, str, tuple, list))
 
 
 def _codes(code: CodeType) -> Iterator[CodeType]:
-    """Give a function's code and the code of the functions inside it."""
+    """A function's code and the code of the functions inside it."""
     yield code
     for value in code.co_consts:
         if isinstance(value, CodeType):

@@ -20,7 +20,18 @@ from ninja_game.backend.kernels import (
     trace_world,
 )
 from ninja_game.backend.layout import TILE_MAP, Records, bytes_of, new_worlds, plain_copy, write_plain
-from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS, Kernel, MemoryName, R, RunPath, TraceArrays, Worlds
+from ninja_game.backend.worlds import (
+    TRACED_FLOATS,
+    TRACED_INTS,
+    InitialLevel,
+    InitialObject,
+    Kernel,
+    MemoryName,
+    R,
+    RunPath,
+    TraceArrays,
+    Worlds,
+)
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import ObjectTable, grid_tiles, object_table
 from ninja_game.sim.schema.declare import fields_of
@@ -29,7 +40,7 @@ from ninja_game.sim.schema.world_fields import MAX_EVENTS, Event, Ninja, World
 Compile = Callable[[Callable[..., Any]], Callable[..., Any]]
 """Gives the compiled twin of a kernel (``memories.compiled``)."""
 
-SLICE = 400_000
+WORK_SLICE = 400_000
 """Ticks times objects per call of a kernel, some tens of milliseconds: Python sees Ctrl-C only between calls."""
 
 _NinjaRow: Any = namedtuple("_NinjaRow", [field.name for field in fields_of(Ninja)])  # type: ignore[misc]  # noqa: PYI024
@@ -81,7 +92,7 @@ class CompiledWorlds(Worlds):
         self._numbers = {field: self.records[field] for field in ("tick", "outcome", "gold", "id_count")}
         self._ninja, self._events, self._event_count = (self.records[f] for f in ("ninja", "events", "event_count"))
         self._jump_held = self._ninja["jump_held"]
-        self._ticks_at_once = max(1, SLICE // self.slots)
+        self._ticks_at_once = max(1, WORK_SLICE // self.slots)
         self.level_of = np.zeros(count, np.intp)
         self._levels_played: list[int] = []
         self.load(range(count), np.arange(count) % len(tables))
@@ -140,7 +151,7 @@ class CompiledWorlds(Worlds):
         return record
 
     def _slices(self, ticks: int) -> Iterator[tuple[int, int]]:
-        """Give the first and last tick of each call of a kernel."""
+        """The first and last tick of each call of a kernel."""
         for first in range(0, ticks, self._ticks_at_once):
             yield first, min(first + self._ticks_at_once, ticks)
 
@@ -173,6 +184,25 @@ class CompiledWorlds(Worlds):
             self.restore(self._all_states[self.count + number], index)
             self.level_of[index] = number
         self._levels_played = []
+
+    def initial_levels(self, numbers: Iterable[int]) -> list[InitialLevel]:
+        objects, tiles, ninja = self.fresh["objects"], self.maps["tiles"], self.fresh["ninja"]
+        levels = []
+        for number in numbers:
+            used = self.fresh["slots_used"][number]
+            columns = [objects[name][number, :used].tolist() for name in ("kind", "x", "y", "partner")]
+            start = float(ninja["x"][number]), float(ninja["y"][number])
+            rows = list(map(InitialObject, range(used), *columns))
+            levels.append(InitialLevel(tiles[number].tolist(), rows, start))
+        return levels
+
+    def put_levels(self, numbers: NDArray[np.intp], levels: Sequence[Level]) -> None:
+        self.maps[numbers], fresh = load_worlds(self._compiled, levels, box=self.box)
+        states = bytes_of(fresh)
+        for rows in (numbers, self.count + numbers):
+            self._all_states[rows] = 0
+            self._all_states[rows, : states.shape[1]] = states
+        self._event_count[numbers] = 0
 
     def save_many(self, indices: Any) -> NDArray[np.uint8]:
         states: NDArray[np.uint8] = self.states[indices]

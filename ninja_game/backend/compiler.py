@@ -54,7 +54,7 @@ class Compiler:
         self._namespaces: dict[str, dict[str, Any]] = {}
 
     def __call__(self, entry: Callable[..., R]) -> Callable[..., R]:
-        """Give the compiled twin of a kernel. Raises TypeError for any other function."""
+        """The compiled twin of a kernel. Raises TypeError for any other function."""
         if entry not in KERNELS:
             raise TypeError(f"{entry.__module__}.{entry.__qualname__} is not a kernel")
         twin: Callable[..., R] = self._twin(entry)

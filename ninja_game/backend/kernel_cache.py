@@ -34,8 +34,7 @@ from ninja_game.runtime import PACKAGE
 
 SHIPPED = PACKAGE / "data" / "kernels"  # machine code of the installation; a checkout has none
 
-GENERIC = ("generic", "")
-"""The processor of that code, in Numba's words: any of the family, without extra features."""
+GENERIC = ("generic", "")  # the processor of that code, in Numba's words: any of the family, without extra features
 
 MAX_KERNELS = 200  # most kernels in the cache folder, the newest ones: some ten versions of all
 
@@ -51,7 +50,7 @@ before_compiling: list[Callable[[], None]] = []
 
 @cache
 def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
-    """Give the beginning of the names of a kernel's files, without importing Numba."""
+    """The beginning of the names of a kernel's files, without importing Numba."""
     from importlib.metadata import version
 
     # Kernels contain no code of NumPy, only the layout of its arrays, which patch releases keep.
@@ -61,7 +60,7 @@ def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
 
 
 def are_cached(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
-    """Tell whether all these kernels have machine code in the cache."""
+    """Whether all these kernels have machine code in the cache."""
     kept = {
         path.stem.rpartition("-")[0]
         for folder in (SHIPPED, code_folder())
@@ -90,7 +89,7 @@ def attach_cache(dispatcher: Any, entry: Callable[..., Any], checked: bool) -> N
 
 @cache
 def code_folder() -> Path:
-    """Give the folder of machine code: NUMBA_CACHE_DIR, or a folder in the user's cache folder.
+    """The folder of machine code: NUMBA_CACHE_DIR, or a folder in the user's cache folder.
 
     Raises FileError if there is none, and for a relative path: code in the current folder must never be loaded.
     """

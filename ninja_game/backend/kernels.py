@@ -19,8 +19,7 @@ from ninja_game.sim.schema.world_fields import MAX_EVENTS, TileMap, World
 from ninja_game.sim.traces import is_switched, place_of, status_of
 from ninja_game.sim.world import step
 
-PLACES, NUMBERS = len(TRACED_FLOATS), len(TRACED_INTS)
-"""Numbers of floats and of ints that a trace records per tick."""
+_PLACES, _NUMBERS = len(TRACED_FLOATS), len(TRACED_INTS)  # numbers of floats and of ints that a trace records per tick
 
 
 @kernel
@@ -54,7 +53,7 @@ def kill_ninja(worlds: Sequence[World], index: int, cause: int, dx: float, dy: f
 
 @kernel
 def observe_object(worlds: Sequence[World], index: int, slot: int) -> tuple[int, float, float, int]:
-    """Give kind, place (px) and status of an object, as traces show them."""
+    """Kind, place (px) and status of an object, as traces show them."""
     x, y = place_of(worlds[index], slot)
     return worlds[index].objects[slot].kind, x, y, status_of(worlds[index], slot)
 
@@ -115,7 +114,7 @@ def trace_world(
     count = len(slots)
     for tick in range(len(inputs)):
         step(level, w, int(inputs[tick]))
-        place, fact = PLACES * tick, NUMBERS * tick
+        place, fact = _PLACES * tick, _NUMBERS * tick
         # The order of TRACED_FLOATS and of TRACED_INTS.
         ninja[place] = canonical(n.x)
         ninja[place + 1] = canonical(n.y)

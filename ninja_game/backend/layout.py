@@ -21,14 +21,13 @@ _SIZES = {"f8": 8, "f4": 4, "i8": 8, "i4": 4, "i2": 2, "u1": 1}
 _REFUSED = set(dir(np.recarray)) | set(dir(np.record))
 """Attributes of NumPy's record types: a field with such a name would silently give something else."""
 
-HUGE_PAGE = 1 << 21
-"""Bytes of a huge page."""
+HUGE_PAGE = 1 << 21  # bytes of a huge page
 
 Records = NDArray[np.void]
 
 
 def dtype_of(cls: type) -> np.dtype[np.void]:
-    """Give the record layout of a schema class. Raises TypeError for a field name that NumPy would hide."""
+    """The record layout of a schema class. Raises TypeError for a field name that NumPy would hide."""
     fields = fields_of(cls)
     for field in fields:
         if field.name in _REFUSED:
@@ -82,7 +81,7 @@ def _align(offset: int, size: int) -> int:
 
 WORLD = dtype_of(World)
 TILE_MAP = dtype_of(TileMap)
-OBJECT = dtype_of(Object)
+_OBJECT = dtype_of(Object)
 STATE_START = WORLD.fields["event_count"][1]  # type: ignore[index]
 """A save-state leaves out the events, which are first."""
 OBJECTS_START = WORLD.fields["objects"][1]  # type: ignore[index]
@@ -96,7 +95,7 @@ _GET_KIND = {kind.number: getter_of(fields_of(kind.fields)) for kind in KINDS}
 
 def used_bytes(objects: int) -> int:
     """Bytes of a world in use if ``objects`` slots are taken, slot 0 included."""
-    return OBJECTS_START + objects * OBJECT.itemsize
+    return OBJECTS_START + objects * _OBJECT.itemsize
 
 
 def new_worlds(count: int, objects: int) -> Records:
@@ -154,8 +153,8 @@ def write_plain(w: World, worlds: Records, index: int) -> None:
     for number in range(w.event_count):
         record["events"][number] = _get_event(w.events[number])
     objects = record["objects"]
-    capacity = (worlds.strides[0] - OBJECTS_START) // OBJECT.itemsize
-    objects[1:capacity] = np.zeros((), OBJECT)
+    capacity = (worlds.strides[0] - OBJECTS_START) // _OBJECT.itemsize
+    objects[1:capacity] = np.zeros((), _OBJECT)
     for slot in range(1, w.slots_used):
         o = w.objects[slot]
         objects[_KIND_FIELDS[o.kind]][slot] = _GET_KIND[o.kind](o)

@@ -77,7 +77,7 @@ class MemoryUnavailableError(NinjaGameError):
 
 
 def compiled_available() -> bool:
-    """Tell whether Numba is installed, with its compiler on. Without it everything works on the plain memory."""
+    """Whether Numba is installed, with its compiler on. Without it everything works on the plain memory."""
     return (
         not _PROCESS.failures
         and find_spec("numba") is not None
@@ -136,7 +136,7 @@ def open_worlds(
 
 
 def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False) -> bool:
-    """Tell whether a run begins on the plain memory: it is little ``work``, or kernels are not compiled yet."""
+    """Whether a run begins on the plain memory: it is little ``work``, or kernels are not compiled yet."""
     little = _PROCESS.short_work + work <= PLAIN_WORK
     return _has_choice(memory, checked=checked) and (little or not _kernels_ready(checked=checked))
 
@@ -151,7 +151,7 @@ def register_run(memory: str, work: int, *, checked: bool = False) -> bool:
 
 
 def _has_choice(memory: str, *, checked: bool) -> bool:
-    """Tell whether a run may begin on either memory: by "auto", with kernels that this process has not loaded yet."""
+    """Whether a run may begin on either memory: by "auto", with kernels that this process has not loaded yet."""
     if memory != "auto" or not compiled_available():
         return False
     from ninja_game.backend import background_compiler
@@ -169,7 +169,7 @@ def warm_up(*, checked: bool = False) -> bool:
 
 
 def _kernels_ready(*, checked: bool) -> bool:
-    """Tell whether the kernels of a run have been made, or are in the cache."""
+    """Whether the kernels of a run have been made, or are in the cache."""
     from ninja_game.backend.kernel_cache import are_cached
 
     checked = _ALL_CHECKED or checked
@@ -178,7 +178,7 @@ def _kernels_ready(*, checked: bool) -> bool:
 
 
 def switch_to_compiled(worlds: Worlds, memory: str | Plan, ticks: int) -> Worlds:
-    """Give worlds that were opened ``at_once``, or, if ``ticks`` are worth it, copies of them in the compiled memory.
+    """Worlds that were opened ``at_once``, or, if ``ticks`` are worth it, copies of them in the compiled memory.
 
     Call it between two ticks. While kernels are being compiled it gives the same worlds; if no process compiles them
     any more, it compiles them itself. Raises SelfTestError as ``compiled`` does.
@@ -214,7 +214,7 @@ def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
 
 
 def proven_memory(memory: str, work: int = NO_LIMIT) -> Plan:
-    """Give the plan for a judged run of this much work, after the known run has passed on its first memory.
+    """The plan for a judged run of this much work, after the known run has passed on its first memory.
 
     Raises SelfTestError if it does not pass, and what ``choose_memory`` raises.
     """
@@ -231,7 +231,7 @@ def _prove_plain() -> None:
 
 
 def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[..., R]:
-    """Give the compiled twin of a kernel, which takes the same arguments. Any thread may call this.
+    """The compiled twin of a kernel, which takes the same arguments. Any thread may call this.
 
     Raises MemoryUnavailableError without Numba, TypeError for a function that is not a kernel, SelfTestError if
     compiled worlds compute something else.
@@ -255,18 +255,18 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
 
 
 def is_compiled(entry: Callable[..., Any]) -> bool:
-    """Tell whether this process has made the compiled twin of a kernel."""
+    """Whether this process has made the compiled twin of a kernel."""
     return (entry, _ALL_CHECKED) in _PROCESS.kernels
 
 
 def compiled_if_possible(entry: Callable[..., R]) -> Callable[..., R]:
-    """Give the compiled twin of a kernel that only takes arrays of numbers; without Numba the function itself."""
+    """The compiled twin of a kernel that only takes arrays of numbers; without Numba the function itself."""
     return compiled(entry) if _usable_memory("auto") == "compiled" else entry
 
 
 @cache
 def _compiler(checked: bool) -> Compiler:
-    """Give one of the two compilers of this process. NINJA_GAME_CHECKED=1 leaves only the one that checks indices."""
+    """One of the two compilers of this process. NINJA_GAME_CHECKED=1 leaves only the one that checks indices."""
     choose_memory("compiled")
     from ninja_game.backend.kernel_cache import attach_cache
     from ninja_game.backend.numba_import import import_numba, make_pipeline

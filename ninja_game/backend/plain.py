@@ -8,7 +8,19 @@ from functools import cached_property, partial
 from typing import Any
 
 from ninja_game.backend.kernels import kill_ninja, load_world, observe_object, run_world, run_worlds, trace_world
-from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS, Kernel, MemoryName, R, RunPath, TraceArrays, Worlds
+from ninja_game.backend.worlds import (
+    TRACED_FLOATS,
+    TRACED_INTS,
+    InitialLevel,
+    InitialObject,
+    Kernel,
+    MemoryName,
+    R,
+    RunPath,
+    TraceArrays,
+    Worlds,
+)
+from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles, object_table
 from ninja_game.sim.schema.declare import fields_of, getter_of, scalars_of, setter_of
@@ -21,7 +33,7 @@ PlainState = tuple[tuple[Any, ...], tuple[Any, ...], list[int], list[int], list[
 
 
 def tile_map(data: Level) -> TileMap:
-    """Give a level as the rules read it."""
+    """A level as the rules read it."""
     level = TileMap()
     level.tiles = grid_tiles(data)
     return level
@@ -172,6 +184,20 @@ class PlainWorlds(Worlds):
 
     def load(self, indices: Iterable[int], levels: Sequence[int]) -> None:
         self.restore_many([self._fresh_states[number] for number in levels], indices, levels)
+
+    def initial_levels(self, numbers: Iterable[int]) -> list[InitialLevel]:
+        levels = []
+        for number in numbers:
+            w = self.fresh[number]
+            slots = enumerate(w.objects[: w.slots_used])
+            objects = [InitialObject(k, o.kind, o.x, o.y, o.partner if o.kind == EXIT else 0) for k, o in slots]
+            levels.append(InitialLevel(self.maps[number].tiles, objects, (w.ninja.x, w.ninja.y)))
+        return levels
+
+    def put_levels(self, numbers: Any, levels: Sequence[Level]) -> None:
+        for number, level in zip(numbers.tolist(), levels, strict=True):
+            self.maps[number], self.fresh[number] = load_plain(level, self.box)
+            self.worlds[number] = load_plain(level, self.box)[1]
 
     def save_many(self, indices: Iterable[int]) -> list[PlainState]:
         return [save_plain(self.worlds[index]) for index in indices]

@@ -22,7 +22,7 @@ DIGEST = "a9b523980fd14511af830676f2ff771f63e63377f06c53930c18638b709954e3"
 """The digest of all runs, on every machine. After a wanted change of a rule `python3 tools/dev.py golden` writes it."""
 
 RUNS = 8  # number of runs; the last one uses the box
-TICKS = 400  # most ticks of a run
+_TICKS = 400  # most ticks of a run
 
 _OBJECTS = (
     (5, 132, 156), (0, 468, 516), (0, 588, 180), (0, 228, 156), (1, 540, 396), (1, 636, 372), (1, 204, 204),
@@ -73,7 +73,7 @@ def self_test_digest(open_world: Callable[[Level, bool], Worlds]) -> str:
 def known_keys(number: int) -> bytes:
     """Make the keys of a run: all combinations, each held for 1 to 20 ticks."""
     keys = bytearray()
-    while len(keys) < TICKS:
+    while len(keys) < _TICKS:
         number = (number * 1103515245 + 12345) % 2**31
         keys += bytes([b"\0\1\2\1\2\3\5\6\4\6\5\6"[(number >> 16) % 12]] * (1 + (number >> 20) % 20))
-    return with_press_bits(bytes(keys[:TICKS]))
+    return with_press_bits(bytes(keys[:_TICKS]))

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
 from ninja_game.sim.level import Level
 from ninja_game.sim.schema.world_fields import World
 
 R = TypeVar("R")
-Kernel: TypeAlias = Callable[..., R]
-"""A kernel, or its compiled twin."""
+Kernel: TypeAlias = Callable[..., R]  # a kernel, or its compiled twin
 
 MemoryName = Literal["plain", "compiled"]
 
@@ -45,6 +44,24 @@ class TraceArrays(NamedTuple):
     events: Any
 
 
+class InitialObject(NamedTuple):
+    """An object of a new world; ``partner``: the slot of an exit's switch."""
+
+    slot: int
+    kind: int
+    x: float
+    y: float
+    partner: int
+
+
+class InitialLevel(NamedTuple):
+    """The first state of a level: its grid of tiles; its objects by slot (slot 0 is unused); the ninja's place, px."""
+
+    tiles: Sequence[int]
+    objects: Sequence[InitialObject]
+    start: tuple[float, float]
+
+
 class Worlds(ABC):
     """``count`` worlds in some levels; at first world i is in level i modulo the number of levels.
 
@@ -75,13 +92,13 @@ class Worlds(ABC):
 
     @abstractmethod
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:
-        """Give the form of a kernel that takes maps and worlds: its compiled twin, or itself."""
+        """The form of a kernel that takes maps and worlds: its compiled twin, or itself."""
 
     # --- one world ---
 
     @abstractmethod
     def number(self, field: str, index: int = 0) -> int:
-        """Give a number of a world by its name in the schema: tick, outcome, gold or id_count."""
+        """A number of a world by its name in the schema: tick, outcome, gold or id_count."""
 
     def tick(self, index: int = 0) -> int:
         """Ticks run."""
@@ -137,7 +154,7 @@ class Worlds(ABC):
 
     @abstractmethod
     def observe(self, slot: int, index: int = 0) -> tuple[int, float, float, int]:
-        """Give kind, x, y (px) and status of the object in a slot, as traces show them."""
+        """Kind, x, y (px) and status of the object in a slot, as traces show them."""
 
     @abstractmethod
     def world(self, index: int = 0) -> World:
@@ -148,6 +165,17 @@ class Worlds(ABC):
     @abstractmethod
     def load(self, indices: Any, levels: Any) -> None:
         """Start worlds afresh, in the levels of these numbers."""
+
+    @abstractmethod
+    def initial_levels(self, numbers: Iterable[int]) -> list[InitialLevel]:
+        """Levels by their numbers."""
+
+    @abstractmethod
+    def put_levels(self, numbers: Any, levels: Sequence[Level]) -> None:
+        """Replace the levels with these numbers (an array), and start the worlds of the same numbers in the new levels.
+
+        A level must not have more objects than the levels with which the worlds were opened.
+        """
 
     @abstractmethod
     def save_many(self, indices: Any) -> Any:

@@ -26,7 +26,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ninja_game.backend.compiled import SLICE
+from ninja_game.backend.compiled import WORK_SLICE
 from ninja_game.backend.layout import Records
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
@@ -172,7 +172,7 @@ class Batch:
         worlds, ticks = self._worlds, 0
         # Python threads share one lock, so the plain memory uses one; Ctrl-C is only handled between kernel calls.
         pool = thread_pool(self.threads if self.memory == "compiled" else 1)
-        at_once = max(1, 8 * SLICE // (worlds.slots * self.count))
+        at_once = max(1, 8 * WORK_SLICE // (worlds.slots * self.count))
         for begin in range(0, len(keys), at_once):
             part = keys[begin : begin + at_once]
             work = partial(worlds.run_batch, part, stop=stop)
@@ -217,11 +217,11 @@ class Batch:
         return self._worlds.world(index)
 
     def digest(self, index: int) -> str:
-        """Give the sha256 (hex) of one world in canonical form, as ``Simulation.digest``."""
+        """The sha256 (hex) of one world in canonical form, as ``Simulation.digest``."""
         return world_digest(self.world(index))
 
     def state_digests(self, worlds: WorldChoice = None) -> list[str]:
-        """Give the sha256 (hex) of the worlds' states (``state_digest``), computed once for equal worlds."""
+        """The sha256 (hex) of the worlds' states (``state_digest``), computed once for equal worlds."""
         known: dict[bytes, str] = {}
         digests = []
         for index in numbers_of(worlds, self.count, "worlds").tolist():
@@ -236,7 +236,7 @@ class Batch:
 
 
 def numbers_of(choice: WorldChoice, count: int, what: str) -> Indices:
-    """Give the chosen indices below ``count``, intp. Raises ArgumentError for an invalid choice."""
+    """The chosen indices below ``count``, intp. Raises ArgumentError for an invalid choice."""
     everyone = np.arange(count, dtype=np.intp)
     if choice is None:
         return everyone

@@ -13,7 +13,7 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_RUNNING
 
-SPACING = TICKS_PER_SECOND  # ticks between the save-states from which tries begin
+_SPACING = TICKS_PER_SECOND  # ticks between the save-states from which tries begin
 LENGTH = 3 * TICKS_PER_SECOND // 2  # ticks of a try
 SHIFT = 3  # most ticks by which a key comes early or late
 TRIES = 256  # tries from each save-state
@@ -35,21 +35,21 @@ def difficulty(level: Level, inputs: bytes, *, seed: int = 0, tries: int = TRIES
     batch = Batch(level, 1 + tries, memory=memory)
     noisy = slice(1, None)
     total = 0.0
-    for start in range(0, len(inputs), SPACING):
+    for start in range(0, len(inputs), _SPACING):
         rows = _shifted(inputs, start, tries, rng)
         true = np.frombuffer(inputs[start : start + LENGTH].ljust(len(rows), b"\0"), np.uint8)[:, np.newaxis]
         batch.copy([0] * tries, noisy)
         keys = np.hstack([true, rows])
-        batch.run(keys[:SPACING], stop=True, press=True)
+        batch.run(keys[:_SPACING], stop=True, press=True)
         following = batch.save([0])
-        batch.run(keys[SPACING:], stop=True, press=True)
+        batch.run(keys[_SPACING:], stop=True, press=True)
         total -= log2(1 - _failing(batch, noisy))
         batch.restore(following, [0])
     return total
 
 
 def _failing(batch: Batch, noisy: slice) -> float:
-    """Give the share of tries that fail, always below 1."""
+    """The share of tries that fail, always below 1."""
     dead = batch.outcomes[noisy] == OUTCOME_DEAD
     away = np.abs(batch.positions[noisy] - batch.positions[0]).max(axis=1) >= LOST
     lost = (batch.outcomes[noisy] == OUTCOME_RUNNING) & away
@@ -58,7 +58,7 @@ def _failing(batch: Batch, noisy: slice) -> float:
 
 
 def _shifted(inputs: bytes, start: int, tries: int, rng: np.random.Generator) -> NDArray[np.uint8]:
-    """Give the keys of ``tries`` tries from a tick on, (LENGTH, tries), with every change of a key shifted."""
+    """The keys of ``tries`` tries from a tick on, (LENGTH, tries), with every change of a key shifted."""
     ticks = np.arange(LENGTH)[:, np.newaxis]
     keys = np.zeros((LENGTH, tries), np.uint8)
     for key in (KEY_LEFT, KEY_RIGHT, JUMP_HELD):

@@ -19,8 +19,7 @@ from ninja_game.runtime import cores
 Work: TypeAlias = Callable[[int, int], int]  # processes items first … last - 1 and returns the work done
 
 CHUNKS_PER_THREAD = 8
-SMALL_CHUNK = 2048
-"""Least ticks of a chunk, unless a thread gets only one: a thread waits when it takes a chunk."""
+SMALL_CHUNK = 2048  # least ticks of a chunk, unless a thread gets only one: a thread waits when it takes a chunk
 
 HEAD_START = 128  # ticks that the caller runs while the others wake up
 
@@ -43,7 +42,7 @@ def chunks(count: int, ticks: int, threads: int) -> list[tuple[int, int]]:
 
 
 def whole_number(name: str, number: object, least: int = 1, most: int = 2**63 - 1) -> int:
-    """Give a number as a Python int. Raises ArgumentError for anything but a whole number of that range."""
+    """A number as a Python int. Raises ArgumentError for anything but a whole number of that range."""
     if isinstance(number, bool) or not isinstance(number, SupportsIndex) or not least <= index(number) <= most:
         expected = f"at least {least}" if most == 2**63 - 1 else f"{least} to {most}"
         raise ArgumentError(f"{name} is {number!r:.60}; expected a whole number, {expected}")
@@ -51,7 +50,7 @@ def whole_number(name: str, number: object, least: int = 1, most: int = 2**63 - 
 
 
 def thread_count(threads: int | None) -> int:
-    """Give the number of threads; None: one per core."""
+    """The number of threads; None: one per core."""
     return cores() if threads is None else whole_number("threads", threads)
 
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 QUESTIONS = ("rank", "best", "inputs", "splits", "trace", "film")
 MAX_RUNS = 5  # side by side, where no players are named
-MAX_LINE = 400  # characters of a line
+_MAX_LINE = 400  # characters of a line
 
 RANKED = "{place}. {player}: {result} ({ticks} ticks, {gold} gold, {made}) {date}"
 TYPED = (
@@ -90,7 +90,7 @@ def ask(
     _answer(what, rows[:1] if what == "best" else rows, chosen, output, as_data=as_data, keep=[folder])
     if other and not (assisted or players or as_data) and other[0].place and other[0].values < table[0].values:
         result, player = chosen.text(other[0].values[0]), other[0].run.player
-        click.echo(shown_text(f"assisted: {result} by {player} (--assisted)", MAX_LINE))
+        click.echo(shown_text(f"assisted: {result} by {player} (--assisted)", _MAX_LINE))
 
 
 def _answer(
@@ -126,7 +126,7 @@ def _answer(
         click.echo(json.dumps(rows))
     else:
         entry, ladder = ranks[0].run.entry, " and ".join(ladders)
-        click.echo(shown_text(f"{entry.number} {entry.title}, {category.name.lower()}, {ladder}:".strip(), MAX_LINE))
+        click.echo(shown_text(f"{entry.number} {entry.title}, {category.name.lower()}, {ladder}:".strip(), _MAX_LINE))
         click.echo("\n".join(_line(form, row | {"player": name}) for row, name in zip(rows, names, strict=True)))
 
 
@@ -134,7 +134,7 @@ def _line(form: str, row: Mapping[str, Any]) -> str:
     waits = "" if row["counts"] else "waits for confirmation, "
     note = f"; note: {waits}{row['remark']}" if row["remark"] else ""
     text, *keys = form.format(**{**row, "place": row["place"] or "-"}).rstrip().split("\n")
-    return "\n".join([shown_text(text + note, MAX_LINE), *keys])
+    return "\n".join([shown_text(text + note, _MAX_LINE), *keys])
 
 
 def _film(runs: Sequence[Recording], output: Path) -> None:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 class GoldGoals(options.GoldCount):
-    """``both``: a run to the exit and one with all gold; otherwise one run with that much gold."""
+    """The runs to find. ``both``: one to the exit and one with all gold; otherwise one with that much gold."""
 
     name = "both|all|N"
 

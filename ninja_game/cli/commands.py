@@ -6,8 +6,9 @@ from typing import NamedTuple
 
 
 class Command(NamedTuple):
-    """``module``: its own, here; ``help``: the first line of its help; ``extras``: of the package that it may use.
+    """A command without its code, which is imported only when it runs.
 
+    ``module``: its own, here; ``help``: the first line of its help; ``extras``: of the package that it may use;
     ``compiles``: it may have to compile the rules; ``in_place``: it may replace a file that it has read.
     """
 

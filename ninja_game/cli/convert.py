@@ -29,7 +29,7 @@ from ninja_game.formats.run_time import seconds_text
 RUN_FORMS = {"replay": REPLAY_SUFFIX, "inputs": ".inputs.txt", "celeste": ".tas", "libtas": ".libtas.txt"}
 """The forms of recordings of which a file holds one, and how it is called."""
 
-FORMS = ("ascii", "string", "file", *RUN_FORMS, "episode")
+_FORMS = ("ascii", "string", "file", *RUN_FORMS, "episode")
 STANDARD_STREAM = "-"
 
 FORM_OF_NAME = {
@@ -42,7 +42,7 @@ FORM_OF_NAME = {
 @click.command()
 @click.argument("sources", metavar="IN...", nargs=-1, required=True, type=options.LevelPath())
 @click.argument("target", metavar="OUT", type=click.Path(allow_dash=True))
-@click.option("--to", "form", type=click.Choice(FORMS), help="The form to write, whatever OUT is called.")
+@click.option("--to", "form", type=click.Choice(_FORMS), help="The form to write, whatever OUT is called.")
 @click.option("--legend", is_flag=True, help="End readable levels with the meaning of all characters, as comments.")
 @options.level_option
 @click.option("--author", metavar="NAME", help="Who made the recordings that do not say it, such as demos of N.")

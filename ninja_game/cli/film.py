@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.options import InputPath, Pixels, choose, level_option, load_level_option, record_option
+from ninja_game.cli.options import InputPath, PixelSize, choose, level_option, load_level_option, record_option
 from ninja_game.cli.progress import heartbeat
 from ninja_game.cli.terminal import size_note, use_dummy_video
 from ninja_game.errors import NinjaGameError
@@ -28,7 +28,7 @@ MAX_BESIDE = 3
     "the replay's name and .gif]",
 )
 @record_option
-@click.option("--size", type=Pixels(), default="528x400", show_default=True, help="Size of the pictures in px.")
+@click.option("--size", type=PixelSize(), default="528x400", show_default=True, help="Size of the pictures in px.")
 @click.option("--speed", type=click.FloatRange(0.05, 16), default=1.0, show_default=True, help="1 is the game's speed.")
 @click.option("--from", "first", type=click.IntRange(min=0), default=0, help="First picture: after this many ticks.")
 @click.option(

@@ -47,7 +47,7 @@ ENTRIES = {
 }
 """Files of the menu: name, words after the program, type of file, whether the menu leaves it out."""
 
-TYPES = f"""<?xml version="1.0" encoding="UTF-8"?>
+_TYPES = f"""<?xml version="1.0" encoding="UTF-8"?>
 <mime-info xmlns="http://www.freedesktop.org/standards/shared-mime-info">
   <mime-type type="{LEVEL_TYPE}">
     <comment>level of ninja-game</comment>
@@ -68,7 +68,7 @@ TYPES = f"""<?xml version="1.0" encoding="UTF-8"?>
 </mime-info>
 """
 
-ICON = 256  # width and height of the icon, px
+_ICON = 256  # width and height of the icon, px
 
 UPDATES = (("update-mime-database", "mime"), ("update-desktop-database", "applications"))
 """Programs that announce new files to desktops, if installed, and the folder for each."""
@@ -124,8 +124,8 @@ def desktop_files(folder: Path, program: list[str]) -> dict[Path, str | bytes]:
         folder / "applications" / file: ENTRY.format(name=name, command=command, words=words, kinds=kind, hidden=hidden)
         for file, (name, words, kind, hidden) in ENTRIES.items()
     }
-    files[folder / "mime" / "packages" / "ninja-game.xml"] = TYPES
-    files[folder / "icons" / "hicolor" / f"{ICON}x{ICON}" / "apps" / "ninja-game.png"] = png_of(icon(ICON))
+    files[folder / "mime" / "packages" / "ninja-game.xml"] = _TYPES
+    files[folder / "icons" / "hicolor" / f"{_ICON}x{_ICON}" / "apps" / "ninja-game.png"] = png_of(icon(_ICON))
     return files
 
 
@@ -139,7 +139,7 @@ def _quoted(word: str) -> str:
 
 MAX_PROCESSES = 2  # each process compiles the rules again; more processes would only wait for each other
 
-EVERY = 0.5  # seconds between two looks whether another process is done
+_EVERY = 0.5  # seconds between two looks whether another process is done
 
 
 @click.command(name="compile")
@@ -168,7 +168,7 @@ def compile(background: bool) -> None:  # noqa: A001 - the name of the command
     elif handle is None:
         click.echo("Another process compiles; waiting for it", err=True)
         while (handle := lock_compilation()) is None:
-            time.sleep(EVERY)
+            time.sleep(_EVERY)
     try:
         compile_everything(min(MAX_PROCESSES, cores()), quiet=background)
     finally:
@@ -273,10 +273,10 @@ def export(file: Path) -> None:
 def take_in(file: Path) -> None:
     """Import FILE. Better runs replace worse ones; nothing of yours is overwritten."""
     from ninja_game.files.reading import read_bytes
-    from ninja_game.player.backup import MAX_BYTES, read_backup
+    from ninja_game.player.backup import MAX_BACKUP_BYTES, read_backup
 
     with _player() as player, heartbeat(lambda: "runs the replays of the backup again"):
-        for line in read_backup(player, read_bytes(file, MAX_BYTES)):
+        for line in read_backup(player, read_bytes(file, MAX_BACKUP_BYTES)):
             click.echo(shown_text(line))
 
 

@@ -99,7 +99,7 @@ def _png_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     return value
 
 
-class Pixels(click.ParamType):  # type: ignore[type-arg, unused-ignore]
+class PixelSize(click.ParamType):  # type: ignore[type-arg, unused-ignore]
     """``WIDTHxHEIGHT`` as two numbers."""
 
     name = "WIDTHxHEIGHT"
@@ -119,7 +119,7 @@ def together(*options: Callable[[F], F]) -> Callable[[F], F]:
 
 
 window_options = together(
-    click.option("--size", type=Pixels(), help="Size of the window in px, e.g. 1584x1200."),
+    click.option("--size", type=PixelSize(), help="Size of the window in px, e.g. 1584x1200."),
     click.option("--frames", type=click.IntRange(1, 10**9), help="Exit after this many pictures."),
     click.option(
         "--screenshot",

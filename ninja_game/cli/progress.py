@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-PATIENCE = 1.0  # seconds until a terminal shows it
+_PATIENCE = 1.0  # seconds until a terminal shows it
 REFRESHES = 8  # times a second there
 LONG = 5.0  # seconds until its first line in a file
-EVERY = 15.0  # seconds between two lines
+_EVERY = 15.0  # seconds between two lines
 
 
 class Readable(Generic[T]):
@@ -63,10 +63,10 @@ def heartbeat(text: Callable[[], str]) -> Iterator[None]:
         pause = LONG
         while not over.wait(pause):
             click.echo(f"ninja-game: {time.monotonic() - start:,.0f} s: {text()}", err=True)
-            pause = EVERY
+            pause = _EVERY
 
     def report_to_terminal() -> None:
-        if over.wait(PATIENCE):
+        if over.wait(_PATIENCE):
             return
         from rich.console import Console
         from rich.live import Live

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
     from ninja_game.runs.compare import Comparison, Lead, RunSplits
 
-COLUMNS = (
+SPLIT_COLUMNS = (
     "level_digest", "file", "record", "name", "event", "object", "number", "x", "y", "tick", "behind", "best_segment",
 )  # fmt: skip
 
@@ -105,7 +105,7 @@ def splits(
 def _write_csv(tables: Sequence[Table]) -> None:
     """All tables as one, a line for each split of each run."""
     writer = csv.writer(data_output(), lineterminator="\n")
-    writer.writerow(COLUMNS)
+    writer.writerow(SPLIT_COLUMNS)
     for runs, rows in tables:
         for row in rows:
             for run, tick in zip(runs, row.ticks, strict=True):

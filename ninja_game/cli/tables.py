@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ninja_game.runs.compare import RunSplits, SplitRow
     from ninja_game.sim.level import Level
 
-WIDTH = 160  # width of a table in a pipe, characters
+_WIDTH = 160  # width of a table in a pipe, characters
 
 Table = tuple["list[RunSplits]", "list[SplitRow]"]  # the runs of a level, the best first, and the rows of their splits
 
@@ -51,7 +51,7 @@ def show(tables: Sequence[Table]) -> None:
     from ninja_game.runs.compare import sum_of_best
     from ninja_game.runs.deaths import ending_text
 
-    console = Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else WIDTH)
+    console = Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else _WIDTH)
     for runs, rows in tables:
         best, (name, *others) = runs[0], titles([run.recording for run in runs])
         end = best.ticks - (best.outcome != "running")

@@ -25,7 +25,7 @@ _OURS = {
 _DATA = re.compile(r"(\n|\t)")
 
 _MAX_MESSAGE = 2000  # characters of a line about what is wrong
-LARGE = 5_000_000  # bytes of a GIF
+_LARGE = 5_000_000  # bytes of a GIF
 
 
 class Terminal(io.TextIOWrapper):
@@ -78,4 +78,4 @@ def say(text: str) -> None:
 def size_note(path: Path) -> str:
     """A note on a large GIF."""
     size = path.stat().st_size
-    return f", {size / 1e6:.0f} MB; as .mp4 it would be smaller" if path.suffix == ".gif" and size > LARGE else ""
+    return f", {size / 1e6:.0f} MB; as .mp4 it would be smaller" if path.suffix == ".gif" and size > _LARGE else ""

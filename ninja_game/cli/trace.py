@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ninja_game.runs.trace import RunTrace
     from ninja_game.runs.trace_files import FiledTrace
 
-MAX_TICKS = 1_000_000  # longest trace that can be asked for: almost seven hours
+MAX_TRACE_TICKS = 1_000_000  # longest trace that can be asked for: almost seven hours
 
 SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 """A comment like this names the section of the specification that a recording is about."""
@@ -32,8 +32,8 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 @click.command()
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=options.InputPath())
 @options.record_option
-@click.option("--ticks", type=click.IntRange(1, MAX_TICKS), help="Run exactly this many ticks, whatever happens.")
-@click.option("--after", type=click.IntRange(0, MAX_TICKS), help="Run this many ticks more than `verify` does.")
+@click.option("--ticks", type=click.IntRange(1, MAX_TRACE_TICKS), help="Run exactly this many ticks, whatever happens.")
+@click.option("--after", type=click.IntRange(0, MAX_TRACE_TICKS), help="Run this many ticks more than `verify` does.")
 @click.option("--objects", is_flag=True, help="Rows for the objects too, not only for the ninja.")
 @click.option("--digests", is_flag=True, help="One JSON object per recording with digests of everything, instead.")
 @click.option("--against", type=options.OLD_FILE, help="Compare with this trace, or with this file of recordings.")

@@ -174,7 +174,7 @@ def board(
     from ninja_game.board.report import board_text, changes, check_confirmed, gone, moderate, plain, summary, unnamed
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
-    from ninja_game.web.pages.frame import GAME
+    from ninja_game.web.pages.frame import GAME_PAGE
 
     keeps = bool(confirm or reject or disown or ladder or dates)
     if keeps and not data:
@@ -195,7 +195,7 @@ def board(
     check_confirmed(judged, confirm)
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
-        if not (site / GAME).exists():
+        if not (site / GAME_PAGE).exists():
             click.echo(f"{site} has no page with the game yet: ninja-game site {site}", err=True)
     if data:
         write_atomically(data, board_text(judged, before), keep=[folder])

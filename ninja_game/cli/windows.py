@@ -151,14 +151,14 @@ def tas(
     return run_app(opening, tas_editor=open_tas_editor, window=opened_window, **window)
 
 
-FIGURES = (
+FIGURE_NAMES = (
     "grid", "bodies", "cells", "projection", "edges", "doors", "response", "grids", "nine-cells", "pairs", "bullets",
     "rays", "drones", "tick",
 )  # fmt: skip
 
 
-@click.command(epilog=f"\b\nFigures: {', '.join(FIGURES)}.")
-@click.argument("figure", metavar="[FIGURE]", required=False, type=click.Choice(FIGURES))
+@click.command(epilog=f"\b\nFigures: {', '.join(FIGURE_NAMES)}.")
+@click.argument("figure", metavar="[FIGURE]", required=False, type=click.Choice(FIGURE_NAMES))
 @options.window_options
 @options.output_option("Open no window: write a .png of it, or a .gif of its demonstration.")
 def lab(figure: str | None, output: Path | None, **window: Any) -> int:

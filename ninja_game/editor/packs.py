@@ -31,7 +31,7 @@ from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MAX_FILES, PARS, R
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.episodes import episode_set
 from ninja_game.levels.findings import Finding, PackFinding
-from ninja_game.runs.packs import KINDS, findings, has_gold_out_of_reach, is_certified, level_of, make_pars
+from ninja_game.runs.packs import RUN_KINDS, findings, has_gold_out_of_reach, is_certified, level_of, make_pars
 from ninja_game.runtime import install_hint
 from ninja_game.sim.level import Level
 
@@ -351,7 +351,7 @@ def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:
     if not (level.ascii and old.is_file()):
         return _write_level(path, draft_of(level))
     new = free_path(path, old.stem, old.suffix).name
-    names = {old.name: new} | {certificate_name(old.name, kind): certificate_name(new, kind) for kind in KINDS}
+    names = {old.name: new} | {certificate_name(old.name, kind): certificate_name(new, kind) for kind in RUN_KINDS}
     files = [name for name in names if (old.parent / name).is_file()]
     if not keep and (old.parent / INDEX).is_file():
         place(old.parent, [old.name], None)
@@ -467,7 +467,7 @@ def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:
 def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
     """The level file and the kind of the run that a finding about a file misses; no kind for other findings."""
     level = level_of(pack, file)
-    broken = [kind for kind in KINDS if code == "certificate" and certificate_name(level, kind) == file]
+    broken = [kind for kind in RUN_KINDS if code == "certificate" and certificate_name(level, kind) == file]
     return level, next(iter(broken), _MISSING.get(code, ""))
 
 
@@ -486,11 +486,11 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
         return not (settled or vain or is_certified(pack, file, kind))
 
     in_order = [Path(level.named.file).name for level in episode_set(pack, "").levels]
-    levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in KINDS)}
+    levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in RUN_KINDS)}
     options = CertifyOptions({"exit": 0, "gold": -1}, {"seconds": seconds})
-    files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
+    files = [{kind: path / certificate_name(file, kind) for kind in RUN_KINDS} for file in levels]
     goals = {
-        file: [_GOALS[kind] for kind in KINDS[: 1 + (named.level.gold > 0)] if not is_certified(pack, file, kind)]
+        file: [_GOALS[kind] for kind in RUN_KINDS[: 1 + (named.level.gold > 0)] if not is_certified(pack, file, kind)]
         for file, named in levels.items()
     }
     planned = {Path(file).stem: seconds * len(sought) for file, sought in goals.items()}

@@ -24,8 +24,7 @@ SUFFIXES = (".txt", ".nlevel", ".level", ".replay", ".demo", ".tas")  # suffixes
 
 MAX_BYTES = 64 * 2**20  # far more than any file of levels or replays has
 
-_inputs: set[tuple[int, int]] | None = None
-"""Device and number of each file that was read, while inputs are kept."""
+_inputs: set[tuple[int, int]] | None = None  # device and number of each file that was read, while inputs are kept
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,7 @@ from unicodedata import category, normalize
 
 MAX_SHOWN = 200  # most characters shown; no name of a level or player comes near
 
-MAX_NAME_BYTES = 200
-"""Bytes of a file's name in UTF-8: systems take 255, and a number, a suffix or ``.lock`` may follow."""
+MAX_NAME_BYTES = 200  # bytes of a file's name in UTF-8: systems take 255, and a number, a suffix or `.lock` may follow
 
 _MAX_STEM = 50
 _NOT_IN_NAMES = re.compile(r"[^\w.]+")

@@ -17,6 +17,7 @@ from typing import IO
 
 from ninja_game.errors import FileError
 from ninja_game.files.reading import SUFFIXES, file_type, is_input
+from ninja_game.signals import last_acts
 
 PART_PREFIX, PART_SUFFIX = ".ninja-game-", ".part"
 """Name of a temporary file; it lies in the folder of the file that it will become."""
@@ -109,6 +110,9 @@ def discard_unfinished() -> None:
     for part in list(_unfinished):
         with suppress(OSError):
             part.unlink(missing_ok=True)
+
+
+last_acts.append(discard_unfinished)
 
 
 def check_output(path: Path, keep: Iterable[Path] = ()) -> None:

@@ -37,24 +37,23 @@ from ninja_game.sim.level import Level
 LinkKind = Literal["level", "pack", "replay"]
 LINK_KINDS: tuple[LinkKind, ...] = ("level", "pack", "replay")
 
-VERSION = 1
+LINK_VERSION = 1
 """The format: four bytes of CRC-32, then the raw deflate (RFC 1951) of the UTF-8 text, in base64url without padding."""
 
 MAX_CHARACTERS = 2 * 2**20  # length of a link: what browsers take
 
-MAX_BYTES = 4 * 2**20  # size of its text when unpacked
+MAX_LINK_BYTES = 4 * 2**20  # size of its text when unpacked
 
 MAX_TEXTS = 9  # most texts in a link of replays: the watched one, and as many ghosts as the viewer shows
 
 _PART = re.compile(r"(level|pack|replay)=([0-9]{1,4})\.([A-Za-z0-9_-]*)")
 _STEM = re.compile(r"([0-9a-f]{16})(?:-([0-9]))?")
 _ADDRESS = re.compile(r"[a-z]{2}:/", re.IGNORECASE)
-_AROUND = "\0 \t\r\n.,;:!?)>]}\"'"
-"""Characters that people and programs write after a link."""
+_AROUND = "\0 \t\r\n.,;:!?)>]}\"'"  # characters that people and programs write after a link
 
 
 @dataclass(frozen=True)
-class Link:
+class ParsedLink:
     """The content of a link: one text, or several of replays. Trust it as little as any file."""
 
     kind: LinkKind
@@ -62,7 +61,7 @@ class Link:
 
 
 def link_kind(text: str | Path) -> LinkKind | None:
-    """Tell which kind of link a text, or a path made of it, looks like, valid or not; None for any other text.
+    """Which kind of link a text, or a path made of it, looks like, valid or not; None for any other text.
 
     A link begins with its #, or with an address before it; a file may have any other name.
 
@@ -77,19 +76,19 @@ def link_kind(text: str | Path) -> LinkKind | None:
 
 
 def is_link(text: str | Path) -> bool:
-    """Tell whether a text, or a path made of it, looks like a link of this project."""
+    """Whether a text, or a path made of it, looks like a link of this project."""
     return link_kind(text) is not None
 
 
 def write_link(kind: LinkKind, texts: Sequence[str]) -> str:
-    """Give the fragment, from the # on. Raises LinkError for more than a link can hold.
+    """The fragment, from the # on. Raises LinkError for more than a link can hold.
 
     >>> write_link("level", ["a text"])
     '#level=1.qWQqg0tUKEmtKAEA'
     """
     if not 1 <= len(texts) <= (MAX_TEXTS if kind == "replay" else 1):
         raise LinkError(f"no link carries {len(texts)} of {kind}", expected=f"at most {MAX_TEXTS} replays")
-    link = "#" + "&".join(f"{kind}={VERSION}.{_packed(text)}" for text in texts)
+    link = "#" + "&".join(f"{kind}={LINK_VERSION}.{_packed(text)}" for text in texts)
     if len(link) > MAX_CHARACTERS:
         raise LinkError("too much for a link", found=f"{len(link):,} characters", hint="share the file itself")
     return link
@@ -97,21 +96,21 @@ def write_link(kind: LinkKind, texts: Sequence[str]) -> str:
 
 def _packed(text: str) -> str:
     data = text.encode("utf-8", "replace")
-    if len(data) > MAX_BYTES:
+    if len(data) > MAX_LINK_BYTES:
         raise LinkError("too much for a link", found=f"{len(data):,} bytes", hint="share the file itself")
     deflate = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS, 9)
     packed = zlib.crc32(data).to_bytes(4, "big") + deflate.compress(data) + deflate.flush()
     return urlsafe_b64encode(packed).rstrip(b"=").decode("ascii")
 
 
-def read_link(text: str | Path) -> Link:
+def read_link(text: str | Path) -> ParsedLink:
     """Read a link; text before its # is ignored, and so are blanks and line breaks in it.
 
     Raises LinkError for anything but a complete and valid link, FileError for content that is not text. The length of
     the link limits time and memory.
 
     >>> read_link("https://example.org/#level=1.qWQqg0tUKEmtKAEA")
-    Link(kind='level', texts=('a text',))
+    ParsedLink(kind='level', texts=('a text',))
     """
     whole = str(text)
     if len(whole) > MAX_CHARACTERS:
@@ -126,15 +125,15 @@ def read_link(text: str | Path) -> Link:
     kind = next(kind for kind in LINK_KINDS if kind == matches[0][1])
     if len(matches) > (MAX_TEXTS if kind == "replay" else 1) or any(match[1] != kind for match in matches):
         raise LinkError("a link of too many things", LINK, expected=f"a level, a pack, or up to {MAX_TEXTS} replays")
-    left = MAX_BYTES
+    left = MAX_LINK_BYTES
     texts = []
     for match in matches:
-        if int(match[2]) != VERSION:
+        if int(match[2]) != LINK_VERSION:
             hint = "a link from a newer ninja-game needs a newer ninja-game"
-            raise LinkError("a link of an unknown version", LINK, found=match[2], expected=str(VERSION), hint=hint)
+            raise LinkError("a link of an unknown version", LINK, found=match[2], expected=str(LINK_VERSION), hint=hint)
         texts.append(_unpacked(match[3], left))
         left -= len(texts[-1])
-    return Link(kind, tuple(texts))
+    return ParsedLink(kind, tuple(texts))
 
 
 def _unpacked(packed: str, most: int) -> str:
@@ -145,7 +144,7 @@ def _unpacked(packed: str, most: int) -> str:
         inflate = zlib.decompressobj(-zlib.MAX_WBITS)
         unpacked = inflate.decompress(data[4:], most + 1)
         if len(unpacked) > most:
-            raise LinkError("the link unpacks to too much", LINK, expected=f"at most {MAX_BYTES:,} bytes in all")
+            raise LinkError("the link unpacks to too much", LINK, expected=f"at most {MAX_LINK_BYTES:,} bytes in all")
         if not inflate.eof or inflate.unused_data or zlib.crc32(unpacked).to_bytes(4, "big") != data[:4]:
             raise LinkError("the link is not whole", LINK, hint=hint)
     except (ValueError, zlib.error):
@@ -260,7 +259,7 @@ def pack_texts(link: str | Path) -> dict[str, str]:
 
 
 def _is_plain(name: str) -> bool:
-    """Tell whether a name is that of a file in a pack, or of a certificate: no other path, no hidden file."""
+    """Whether a name is that of a file in a pack, or of a certificate: no other path, no hidden file."""
     name = name.removeprefix("certificates/")
     plain = name.isprintable() and not set(name) & set("/\\:") and not name.startswith(".")
     return plain and 0 < len(name) <= _NAME_LIMIT
@@ -268,7 +267,7 @@ def _is_plain(name: str) -> bool:
 
 def linked_texts(link: str | Path, *kinds: LinkKind) -> tuple[str, ...]:
     """The texts in a link of one of these kinds, as files would contain them. Raises LinkError."""
-    content: Link = read_link(link)
+    content: ParsedLink = read_link(link)
     if content.kind not in kinds:
         raise LinkError(f"a link of a {content.kind}", LINK, expected=f"one of a {' or '.join(kinds)}")
     return tuple(map(_whole, content.texts))

@@ -12,16 +12,13 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
 MAX_MESSAGES, MAX_LETTERS = 8, 120
-SIZE = 5, 5
-"""Columns and rows of the frame around the cell of a text with a place, unless it has a size of its own."""
-BAR = "|"
-"""Separates two texts."""
+SIZE = 5, 5  # columns and rows of the frame around the cell of a text with a place, unless it has a size of its own
+BAR = "|"  # separates two texts
 
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 """Actions whose key a text may name: {jump} becomes the player's key or button."""
 
-TARGETS = ("switch", "exit")
-"""Objects that a text may name in the same way: an arrow points to each of them."""
+TARGETS = ("switch", "exit")  # objects that a text may name in the same way: an arrow points to each of them
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _COUNTED = re.compile(r"death ([1-9][0-9]?)|after ([1-9][0-9]?) s")

@@ -124,7 +124,7 @@ def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
 
 
 def _is_level_string(text: str) -> bool:
-    """Tell whether a line may be an in-game string: tiles make up most of its first half, objects its second half."""
+    """Whether a line may be an in-game string: tiles make up most of its first half, objects its second half."""
     tiles, bar, objects = text.partition("|")
     if not bar or 2 * len(_TILE.findall(tiles[:TILES])) < min(len(tiles), TILES):
         return False
@@ -132,7 +132,7 @@ def _is_level_string(text: str) -> bool:
 
 
 def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, changed: bool = False) -> Level:
-    """Give the level on which a replay was recorded: its own, the one at its path, the given one, or one of the game's.
+    """The level on which a replay was recorded: its own, the one at its path, the given one, or one of the game's.
 
     Raises ReplayError if there is none, or if it differs from the recorded one, unless ``changed``.
     """

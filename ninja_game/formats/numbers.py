@@ -12,7 +12,7 @@ import sys
 from decimal import Decimal
 from functools import cache, lru_cache
 
-NAN = math.nan  # the only NaN that reading gives; as one object it makes equal texts equal tuples
+from ninja_game.sim.rules import NAN  # the only NaN that reading gives: as one object it makes equal texts equal tuples
 
 _PLAIN = re.compile(r"0|[1-9][0-9]{0,14}")
 _DECIMAL = re.compile(r"[ \t\r\n]*([+-]?)([0-9]*)(?:\.([0-9]*))?(?:[eE]([+-]?[0-9]+))?")
@@ -63,7 +63,7 @@ def _signed(value: float, sign: str) -> float:
 
 
 def _wrapped(value: int) -> float:
-    """Give the 32-bit signed integer with these low bits, as float64."""
+    """The 32-bit signed integer with these low bits, as float64."""
     return float(((value & 0xFFFFFFFF) ^ 0x80000000) - 0x80000000)
 
 
@@ -131,7 +131,7 @@ def _odd_text(value: float) -> str:
 
 
 def _shortest_text(value: float, digits: int) -> str:
-    """Give the shortest decimal of at most ``digits`` significant digits that reads as ``value``, '' if there is none.
+    """The shortest decimal of at most ``digits`` significant digits that reads as ``value``, '' if there is none.
 
     The search covers all texts: digit by digit, it keeps every sum that further digits can complete to the value.
     """
@@ -148,7 +148,7 @@ def _shortest_text(value: float, digits: int) -> str:
 
 
 def _first_sums(size: float, first: int) -> tuple[int, dict[float, str]]:
-    """Give the power of ten of the last digits, and sums with their digits, of all texts that may read as ``size``.
+    """The power of ten of the last digits, and sums with their digits, of all texts that may read as ``size``.
 
     If a unit of the sum is far below the 13th digit, they can only be the nearest 13 digits and those one less.
     """
@@ -162,7 +162,7 @@ def _first_sums(size: float, first: int) -> tuple[int, dict[float, str]]:
 
 
 def _longer_sums(sums: dict[float, str], size: float, power: int, roundings: float) -> dict[float, str]:
-    """Give sums and their digits with one more digit, if further digits can complete them to ``size``.
+    """Sums and their digits with one more digit, if further digits can complete them to ``size``.
 
     ``roundings``: the most that rounding can change these sums and the following ones.
     """

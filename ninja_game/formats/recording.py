@@ -143,7 +143,7 @@ def record_of(recording: Recording) -> LevelRecord:
 
 
 def holds_recordings(text: str) -> bool:
-    """Tell whether a text contains recordings, valid or not. Raises LevelError for a broken level file."""
+    """Whether a text contains recordings, valid or not. Raises LevelError for a broken level file."""
     form = format_of(text)
     return any(record.demo for record in read_level_file(text)) if form == "file" else form not in {"ascii", "string"}
 

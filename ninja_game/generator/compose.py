@@ -20,7 +20,7 @@ from ninja_game.sim.inputs import Input
 from ninja_game.sim.level import TILES, Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
-CHOICES = 96  # number of routes from which the best is taken
+_CHOICES = 96  # number of routes from which the best is taken
 CLOSE_CELLS = 4.0  # least distance between any two of ninja, switches and exit
 BESIDE_CELLS = 5.0, 11.0  # best distance between start and exit: near, but not beside each other
 
@@ -42,7 +42,7 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
         return None
     steps = cache(lambda first: steps_from(first, bare.empty))
     best: tuple[float, list[Cell]] | None = None
-    for _ in range(CHOICES):
+    for _ in range(_CHOICES):
         key = rng.choice(floor)
         # The second place is the mirror image of the first, if the ninja can stand there.
         errands = [key, *([mirrored(key)] if mirrored(key) in floor else []), *rng.sample(floor, 3)]
@@ -87,12 +87,10 @@ def _route_score(stops: Sequence[Cell], steps: Callable[[Cell], Mapping[Cell, in
     return even * 2 + min(spread, 10.0) + min(height, 14) / 2 + width / 2 - apart - abs(way - far) / 3
 
 
-SOLID = 0.13, 0.64
-SHAPES = 20, 190
-OBJECTS = 50, MAX_OBJECTS
-"""Limits of a level: shares of the cells, tiles with a shape, objects."""
-ENEMIES, MINES = (6, 7, 8), (20, 24, 28)
-"""Numbers to choose from; a hard level has up to two enemies more."""
+_SOLID = 0.13, 0.64
+_SHAPES = 20, 190
+OBJECTS = 50, MAX_OBJECTS  # limits of a level: shares of the cells, tiles with a shape, objects
+_ENEMIES, _MINES = (6, 7, 8), (20, 24, 28)  # numbers to choose from; a hard level has up to two enemies more
 
 
 def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
@@ -105,9 +103,9 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     if rng.random() < 0.5:
         board.flip()
     tiles = shaped(board.ink, even=board.even)
-    if not SOLID[0] <= len(tiles) / TILES <= SOLID[1]:
+    if not _SOLID[0] <= len(tiles) / TILES <= _SOLID[1]:
         return None
-    if not SHAPES[0] <= sum(tile != "#" for tile in tiles.values()) <= SHAPES[1]:
+    if not _SHAPES[0] <= sum(tile != "#" for tile in tiles.values()) <= _SHAPES[1]:
         return None
     scene = place_route(board, tiles, rng, far=40 + 4 * difficulty)
     if scene is None:
@@ -115,9 +113,9 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     place_fixtures(scene, rng)
     if not lay_gold(scene, rng):
         return None
-    if not place_enemies(scene, rng, rng.choice(ENEMIES) + difficulty // 4, difficulty):
+    if not place_enemies(scene, rng, rng.choice(_ENEMIES) + difficulty // 4, difficulty):
         return None
-    place_mines(scene, rng, rng.choice(MINES))
+    place_mines(scene, rng, rng.choice(_MINES))
     fill_voids(scene, rng, difficulty)
     if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level) or not _fair(scene.level):
         return None
@@ -125,6 +123,6 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
 
 
 def _fair(level: Level) -> bool:
-    """Tell whether a ninja lives that stands still for ten seconds, or runs for a second to either side."""
+    """Whether a ninja lives that stands still for ten seconds, or runs for a second to either side."""
     openings = bytes(10 * TICKS_PER_SECOND), *(bytes([key] * TICKS_PER_SECOND) for key in (Input.LEFT, Input.RIGHT))
     return all(run_level(level, inputs, memory="plain").outcome != "dead" for inputs in openings)

@@ -31,8 +31,7 @@ from ninja_game.sim.level import Level
 EASIEST = 1
 HARDEST = 10
 
-MORE_ATTEMPTS = 4
-"""Factor of the attempts while none is about as hard as wanted; its square while none is passed."""
+MORE_ATTEMPTS = 4  # factor of the attempts while none is about as hard as wanted; its square while none is passed
 TRIES_TO_COMPOSE = 400
 
 
@@ -56,8 +55,7 @@ class Effort:
     tries: int = TRIES
 
 
-DEFAULT = Effort()
-"""The amounts of work by default."""
+DEFAULT = Effort()  # the amounts of work by default
 
 
 def generate(
@@ -110,7 +108,7 @@ def plan_of(seed: int | str, rng: Random) -> str:
 
 
 def _near(measured: float, difficulty: int, times: int = 1) -> bool:
-    """Tell whether a measured difficulty is close enough to the wanted one; ``times`` widens the tolerance."""
+    """Whether a measured difficulty is close enough to the wanted one; ``times`` widens the tolerance."""
     return abs(measured - difficulty) <= times * max(0.5, 0.15 * difficulty)
 
 
@@ -158,5 +156,5 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
 
 
 def path_of(level: Level, run: Replay) -> Sequence[Point]:
-    """Give the place of the ninja in each tick of a run, px."""
+    """The place of the ninja in each tick of a run, px."""
     return [(x, y) for x, y in run_level(level, run.inputs).positions.tolist()]

@@ -16,7 +16,7 @@ MAX_PIECES = 38  # most pieces; a last group may exceed this
 APART = 12.0  # px between two pieces
 FROM_KEY = 26.0  # px from ninja, exit and switches
 BETWEEN = 3.5 * CELL  # px between the middles of two groups
-OFF = 14.0  # px from the rock
+_OFF = 14.0  # px from the rock
 
 Pattern = Callable[[Scene, Random], Iterator[list[Point]]]
 
@@ -27,7 +27,7 @@ def round_stones(scene: Scene, _: Random) -> Iterator[list[Point]]:
     for chain in scene.surfaces:
         inside = {cell_of(*face.off(-4.0)) for face in chain}
         if len(chain) <= 20 and any(inside <= piece for piece in small):
-            yield along([face.off(OFF) for face in chain], 30.0)
+            yield along([face.off(_OFF) for face in chain], 30.0)
 
 
 def along_walls(scene: Scene, rng: Random) -> Iterator[list[Point]]:
@@ -37,7 +37,7 @@ def along_walls(scene: Scene, rng: Random) -> Iterator[list[Point]]:
             first, count = rng.randrange(len(chain) - 4), rng.randint(4, 7)
             part = chain[first : first + count]
             if len({face[2:] for face in part}) > 1:
-                yield along([face.off(OFF) for face in part], 20.0)
+                yield along([face.off(_OFF) for face in part], 20.0)
 
 
 def bows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
@@ -110,13 +110,13 @@ def dangers(scene: Scene, rng: Random) -> Iterator[list[Point]]:
 
 
 def ring(x: float, y: float, size: float) -> list[Point]:
-    """Give points of a circle, more of them on a larger one."""
+    """Points of a circle, more of them on a larger one."""
     count = round(size / 4) + 2
     return [(x + size * cos(k * tau / count), y + size * sin(k * tau / count)) for k in range(count)]
 
 
 def bowl(x: float, y: float, size: float) -> list[Point]:
-    """Give points of the lower half of a circle."""
+    """Points of the lower half of a circle."""
     return [(x + size * cos(k * tau / 14), y + size * sin(k * tau / 14)) for k in range(8)]
 
 
@@ -131,7 +131,7 @@ def sides(x: float, y: float, size: float) -> list[Point]:
 
 
 def along(line: list[Point], step: float) -> list[Point]:
-    """Give points on a line, ``step`` px apart."""
+    """Points on a line, ``step`` px apart."""
     points, last = [line[0]], line[0]
     for point in line[1:]:
         while (far := dist(last, point)) >= step:

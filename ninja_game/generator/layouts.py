@@ -240,12 +240,12 @@ LAYOUTS: dict[str, Layout] = {
 }  # fmt: skip
 """The ground plans by name."""
 
-MOODS = (
+_MOODS = (
     "Quiet", "Copper", "Hollow", "Crooked", "Sleepless", "Paper", "Salt", "Borrowed", "Northern", "Patient", "Velvet",
     "Rusty", "Second", "Hidden", "Restless", "Lunar", "Brittle", "Tidal", "Sunken", "Amber", "Narrow", "Distant",
     "Folded", "Idle", "Wired", "Granite", "Silent", "Spare", "Winter", "Lost", "Painted", "Minor",
 )  # fmt: skip
-PLACES = {
+_PLACES = {
     "heart": ("Heart", "Locket", "Shield", "Core"),
     "cascade": ("Cascade", "Basins", "Ladles", "Cradle"),
     "web": ("Web", "Rings", "Moat", "Onion"),
@@ -266,4 +266,4 @@ PLACES = {
 
 
 def name_for(layout: str, rng: Random) -> str:
-    return f"{rng.choice(MOODS)} {rng.choice(PLACES[layout])}"
+    return f"{rng.choice(_MOODS)} {rng.choice(_PLACES[layout])}"

@@ -11,7 +11,7 @@ import numpy as np
 
 from ninja_game.formats.ascii.legend import WEAPONS
 from ninja_game.generator.gold import along, lay_about
-from ninja_game.generator.scene import MIDDLE, Scene, mirrored, object_of, places
+from ninja_game.generator.scene import MIDDLE_COLUMN, Scene, mirrored, object_of, places
 from ninja_game.sim import kinds
 from ninja_game.sim.grid import Cell, Point, middle_of
 from ninja_game.sim.kinds import ENEMIES
@@ -32,11 +32,11 @@ MAX_ADDED = 15  # most enemies and lines of mines that are added when a level tu
 ENEMY_TRIES = 14  # how often the program looks for a place for one more enemy
 FEW_SOURCES = 6  # number of these tries after which all sources are used
 # The same columns on both sides, so that a level looks designed.
-TURRET_COLUMNS = (5, 8, 11, MIDDLE, 21, 24, 27)
-LAUNCHER_COLUMNS = (2, 3, MIDDLE, 29, 30)
+TURRET_COLUMNS = (5, 8, 11, MIDDLE_COLUMN, 21, 24, 27)
+LAUNCHER_COLUMNS = (2, 3, MIDDLE_COLUMN, 29, 30)
 MAX_VOIDS = 4  # most empty places that get something
 VOID = 4.2 * CELL  # px around such a place without any object
-STEP = 28.0  # px between the mines of a line
+_STEP = 28.0  # px between the mines of a line
 ON_ROCK = 6.0  # px from the rock to the middle of a mine
 GATE = 20.0  # px from the run to either mine of a gate
 
@@ -132,7 +132,7 @@ def place_enemies(scene: Scene, rng: Random, count: int, difficulty: int) -> boo
 
 
 def _guards_nothing(scene: Scene, enemy: ObjectSpec) -> bool:
-    """Tell whether an enemy is far from everything that the player wants or has to touch."""
+    """Whether an enemy is far from everything that the player wants or has to touch."""
     return all(dist(enemy.values[:2], point) > BESIDE_PX for point in scene.wanted())
 
 
@@ -141,7 +141,7 @@ def _from_hoard(scene: Scene, enemy: ObjectSpec) -> float:
 
 
 def _enemy(scene: Scene, spec: ObjectSpec, apart: float) -> ObjectSpec | None:
-    """Give an enemy if it has room, is ``apart`` px from others, and does not move towards the start."""
+    """An enemy if it has room, is ``apart`` px from others, and does not move towards the start."""
     start = middle_of(scene.start)
     point = (spec.values[0], spec.values[1])
     enemies = [other for other in scene.objects if other.kind in ENEMIES]
@@ -188,7 +188,7 @@ def place_mines(scene: Scene, rng: Random, count: int) -> None:
     ]
     for line in (line for far, line in sorted(near_first) if far < AT_BAIT):
         for points in [line, scene.twin(line)] if rng.random() < 0.8 else [line]:
-            group = [mine for mine in _mines(scene, points) if any(dist(mine.values[:2], at) < STEP for at in rock)]
+            group = [mine for mine in _mines(scene, points) if any(dist(mine.values[:2], at) < _STEP for at in rock)]
             near = any(
                 dist(points[len(points) // 2], spec.values[:2]) < 4 * CELL
                 for spec in scene.objects
@@ -199,7 +199,7 @@ def place_mines(scene: Scene, rng: Random, count: int) -> None:
 
 
 def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[list[Point]]:
-    """Give lines along the rock, on hardly any floors except those of pits; ``floors``: short ones there, too."""
+    """Lines along the rock, on hardly any floors except those of pits; ``floors``: short ones there, too."""
     lines = list[list[Point]]()
     for chain in scene.surfaces:
         for first in range(0, len(chain) - 2, 3):
@@ -208,7 +208,7 @@ def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[l
             if len(floor) > 2 and min(face.y for face in part) <= CELL * 20:
                 part = floor[:3] if floors else []
             if part:
-                lines.append(along([face.off(ON_ROCK) for face in part], STEP))
+                lines.append(along([face.off(ON_ROCK) for face in part], _STEP))
     return lines
 
 
@@ -263,7 +263,7 @@ def _gate(scene: Scene, run: Sequence[Point], rng: Random) -> list[ObjectSpec]:
 
 
 def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
-    """Give the number of the group of hazards nearest to a run that can be removed; None if none can."""
+    """The number of the group of hazards nearest to a run that can be removed; None if none can."""
     enemies = scene.count(*ENEMIES)
     spare = [
         (min(dist(spec.values[:2], at) for spec in group for at in run), number)

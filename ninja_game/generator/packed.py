@@ -24,7 +24,7 @@ AUTHOR = "ninja-game generate"  # who made the levels
 PACKED = "generated.tsv.xz"  # an asset of the game; a line per level, as PackedLevel.line writes it
 FROZEN = "bench.tsv.xz"
 """The levels of an earlier generator, from which those of the benchmark are made. They never change."""
-MAX_BYTES = 8 * 2**20  # the largest size of the file, and of its text when unpacked
+MAX_PACKED_BYTES = 8 * 2**20  # the largest size of the file, and of its text when unpacked
 MAX_MEMORY = 64 * 2**20  # bytes that unpacking may take
 
 
@@ -88,7 +88,7 @@ def _lines(path: Path) -> tuple[str, ...]:
 
     reader = lzma.LZMADecompressor(memlimit=MAX_MEMORY)
     try:
-        text = reader.decompress(read_bytes(path, MAX_BYTES), MAX_BYTES).decode("utf-8")
+        text = reader.decompress(read_bytes(path, MAX_PACKED_BYTES), MAX_PACKED_BYTES).decode("utf-8")
     except (OSError, lzma.LZMAError, UnicodeDecodeError) as error:
         raise FileError("the generated levels of the game cannot be read", str(path)) from error
     if not reader.eof:

@@ -14,20 +14,20 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from ninja_game.formats.ascii.legend import TILE_OF_CHAR
 from ninja_game.formats.ascii.object_lines import ListedObject, read_object_line
-from ninja_game.generator.shaping import FINE, Ink
+from ninja_game.generator.shaping import SAMPLES, Ink
 from ninja_game.sim import kinds
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside, middle_of
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.rules import CELL
 
-MIDDLE = (COLUMNS + 1) // 2
+MIDDLE_COLUMN = (COLUMNS + 1) // 2
 
 
 def mirrored(cell: Cell) -> Cell:
     return COLUMNS + 1 - cell[0], cell[1]
 
 
-Y, X = (1 + (np.indices((ROWS * FINE, COLUMNS * FINE)) + 0.5) / FINE).astype(float)
+Y, X = (1 + (np.indices((ROWS * SAMPLES, COLUMNS * SAMPLES)) + 0.5) / SAMPLES).astype(float)
 """Row and column of the samples, in cells."""
 
 
@@ -112,8 +112,8 @@ class RockBoard:
         self.gate = [(gate + lock, row - k) for lock in (0, 1) for k in range(self.doors)]
 
     def holds(self, cell: Cell) -> bool:
-        """Tell whether the middle of a cell is rock, or the cell belongs to the border."""
-        return not is_inside(cell) or bool(self.ink[cell[1] * FINE - FINE // 2, cell[0] * FINE - FINE // 2])
+        """Whether the middle of a cell is rock, or the cell belongs to the border."""
+        return not is_inside(cell) or bool(self.ink[cell[1] * SAMPLES - SAMPLES // 2, cell[0] * SAMPLES - SAMPLES // 2])
 
     def unroof(self, rng: Random) -> None:
         """Close the way into the vault and open its roof instead, if there is open space not far above."""
@@ -132,11 +132,11 @@ class RockBoard:
     def fill(self, rng: Random) -> None:
         """Put stones of one or two kinds into spaces that are too wide and open, some of them on one side only."""
         for row in self.ink:  # Rock close to the border is extended to it.
-            row[:FINE], row[-FINE:] = row[FINE], row[-FINE - 1]
-        self.ink[:FINE] = self.ink[FINE]
+            row[:SAMPLES], row[-SAMPLES:] = row[SAMPLES], row[-SAMPLES - 1]
+        self.ink[:SAMPLES] = self.ink[SAMPLES]
         sorts, even = rng.sample(STONES, 2), self.even
         for number in range(11):
-            air = np.pad(~self.ink.reshape(ROWS, FINE, COLUMNS, FINE).any((1, 3)), 1)
+            air = np.pad(~self.ink.reshape(ROWS, SAMPLES, COLUMNS, SAMPLES).any((1, 3)), 1)
             wide, high = ((9, 6), (7, 5), (6, 4))[number // 4]
             free = np.argwhere(sliding_window_view(air, (high, wide)).all((2, 3)))
             if not len(free):
@@ -155,12 +155,12 @@ class RockBoard:
 
 
 def flood(first: Cell, within: set[Cell]) -> set[Cell]:
-    """Give the cells of a set that are connected with ``first`` by their sides."""
+    """The cells of a set that are connected with ``first`` by their sides."""
     return set(steps_from(first, within))
 
 
 def steps_from(first: Cell, within: set[Cell]) -> dict[Cell, int]:
-    """Give the number of steps, from cell to cell of a set, from ``first`` to every cell in reach."""
+    """The number of steps, from cell to cell of a set, from ``first`` to every cell in reach."""
     steps, front = {first: 0}, [first]
     for cell in front:
         for there in neighbours(cell):
@@ -197,11 +197,11 @@ class Face(NamedTuple):
     away_y: float
 
     def off(self, far: float) -> Point:
-        """Give the point ``far`` px away from the rock."""
+        """The point ``far`` px away from the rock."""
         return self.x + far * self.away_x, self.y + far * self.away_y
 
     def joins(self, other: Face) -> bool:
-        """Tell whether two faces are neighbours on one piece of rock."""
+        """Whether two faces are neighbours on one piece of rock."""
         return (
             dist(self[:2], other[:2]) < 1.45 * CELL and self.away_x * other.away_x + self.away_y * other.away_y > -0.5
         )
@@ -256,7 +256,7 @@ class Scene:
         return sum(spec.kind in which for spec in self.objects)
 
     def stones(self) -> list[set[Cell]]:
-        """Give the connected groups of cells with a tile that do not touch the border."""
+        """The connected groups of cells with a tile that do not touch the border."""
         left, groups = set(self.tiles), []
         while left:
             groups.append(flood(min(left), left))
@@ -264,16 +264,16 @@ class Scene:
         return [stone for stone in groups if all(1 < c < COLUMNS and 1 < r < ROWS for c, r in stone)]
 
     def full(self, cell: Cell) -> bool:
-        """Tell whether a cell is a full tile or belongs to the border."""
+        """Whether a cell is a full tile or belongs to the border."""
         return self.tiles.get(cell) == "#" or not is_inside(cell)
 
     def stands(self, cell: Cell) -> bool:
-        """Tell whether the ninja can reach a cell and stand in it."""
+        """Whether the ninja can reach a cell and stand in it."""
         column, row = cell
         return cell in self.steps and (column, row - 1) in self.empty and self.full((column, row + 1))
 
     def runs(self) -> list[FloorRun]:
-        """Give the floors in reach, in reading order."""
+        """The floors in reach, in reading order."""
         floors: list[FloorRun] = []
         for row in range(1, ROWS + 1):
             for column in range(1, COLUMNS + 1):
@@ -287,7 +287,7 @@ class Scene:
 
     @cached_property
     def surfaces(self) -> list[list[Face]]:
-        """Give the rock's surface in reach: chains of neighbouring faces."""
+        """The rock's surface in reach: chains of neighbouring faces."""
         faces = list[Face]()
         for cell in sorted(self.steps):
             for there in neighbours(cell):
@@ -312,15 +312,15 @@ class Scene:
         return chains
 
     def wanted(self) -> list[Point]:
-        """Give the places that a player wants or has to touch, px: groups of gold (middle), exit, doors, switches."""
+        """The places that a player wants or has to touch, px: groups of gold (middle), exit, doors, switches."""
         return [*self.baits, *(point for spec in self.key[1:] for point in places(spec))]
 
     def twin(self, points: list[Point]) -> list[Point]:
         """Mirror the points at the middle column."""
-        return [(2 * middle_of((MIDDLE, 0))[0] - x, y) for x, y in points]
+        return [(2 * middle_of((MIDDLE_COLUMN, 0))[0] - x, y) for x, y in points]
 
     def clear_of(self, point: Point, *, key: float, other: float) -> bool:
-        """Tell whether a point is in a cell in reach, ``key`` px from key objects and ``other`` px from others."""
+        """Whether a point is in a cell in reach, ``key`` px from key objects and ``other`` px from others."""
         ok = cell_of(*point) in self.steps
         return ok and all(
             dist(point, place) >= (key if spec.kind in _KEY else max(other, _CLEARANCE.get(spec.kind, 0.0)))
@@ -329,7 +329,7 @@ class Scene:
         )
 
     def sees(self, a: Point, b: Point) -> bool:
-        """Tell whether no tile is between two points, as far as cells can tell."""
+        """Whether no tile is between two points, as far as cells can tell."""
         count = int(hypot(b[0] - a[0], b[1] - a[1]) // 8) + 1
         line = ((a[0] + (b[0] - a[0]) * k / count, a[1] + (b[1] - a[1]) * k / count) for k in range(count + 1))
         return all(cell_of(*point) not in self.tiles for point in line)
@@ -341,7 +341,7 @@ _CLEARANCE = {kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0, kinds.BOUNCE_BLOCK: 2
 
 
 def places(spec: ObjectSpec) -> Iterator[Point]:
-    """Give the place of an object, and that of its switch."""
+    """The place of an object, and that of its switch."""
     x, y, *more = spec.values
     yield x, y
     if spec.kind == kinds.EXIT:

@@ -13,20 +13,20 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL, STRIDE
 from ninja_game.sim.schema.world_fields import TileMap
 
-FINE = 8  # samples per cell, across and down
-FULL = TILE_CHARS.index("#")
+SAMPLES = 8  # samples per cell, across and down
+_FULL = TILE_CHARS.index("#")
 COSTS = np.array([2 * (tile in '_]"[') + 3 * (tile in "jkiuJKIU") + 1 * (tile not in ".#") for tile in TILE_CHARS])
 """Extra cost of each tile, in samples of a cell that it covers wrongly."""
 AGREE = 1  # cost of a sample of a side that differs from the tile beside it
-ROUNDS = 12  # passes over all cells
+_ROUNDS = 12  # passes over all cells
 
-Ink = NDArray[np.bool_]  # painted rock, one value per sample: (rows * FINE, columns * FINE)
+Ink = NDArray[np.bool_]  # painted rock, one value per sample: (rows * SAMPLES, columns * SAMPLES)
 
 
 @cache
 def masks() -> Ink:
-    """Give the samples of a cell that each tile covers: (tile, row, column)."""
-    at, tiles, grids = [(k + 0.5) * CELL / FINE for k in range(FINE)], TileMap(), []
+    """The samples of a cell that each tile covers: (tile, row, column)."""
+    at, tiles, grids = [(k + 0.5) * CELL / SAMPLES for k in range(SAMPLES)], TileMap(), []
     for tiles.tiles[STRIDE + 1] in range(len(TILE_CHARS)):
         grids.append([[solid_at(tiles, x, y) for x in at] for y in at])
     return np.array(grids)
@@ -42,15 +42,15 @@ def _costs() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 
 
 def fitted(ink: Ink, *, even: bool) -> NDArray[np.int64]:
-    """Give the number of the tile of each cell, (rows, columns); ``even``: mirrored at the middle column."""
-    cells = ink.reshape(ROWS, FINE, COLUMNS, FINE).swapaxes(1, 2)[:, :, None]
+    """The number of the tile of each cell, (rows, columns); ``even``: mirrored at the middle column."""
+    cells = ink.reshape(ROWS, SAMPLES, COLUMNS, SAMPLES).swapaxes(1, 2)[:, :, None]
     own = (cells != masks()).sum((3, 4)) + COSTS
-    own[:, COLUMNS // 2, even * (masks() != masks()[:, :, ::-1]).any((1, 2))] += FINE * FINE
+    own[:, COLUMNS // 2, even * (masks() != masks()[:, :, ::-1]).any((1, 2))] += SAMPLES * SAMPLES
     below, right = _costs()
-    best = np.full((ROWS + 2, COLUMNS + 2), FULL)
+    best = np.full((ROWS + 2, COLUMNS + 2), _FULL)
     best[1:-1, 1:-1] = own.argmin(2)
     odd = np.indices((ROWS, COLUMNS)).sum(0) % 2
-    for number in range(ROUNDS):  # alternating, like the squares of a chessboard
+    for number in range(_ROUNDS):  # alternating, like the squares of a chessboard
         sides = below[best[:-2, 1:-1]] + below.T[best[2:, 1:-1]]
         sides += right[best[1:-1, :-2]] + right.T[best[1:-1, 2:]]
         best[1:-1, 1:-1] = np.where(odd == number % 2, (own + sides).argmin(2), best[1:-1, 1:-1])
@@ -58,7 +58,7 @@ def fitted(ink: Ink, *, even: bool) -> NDArray[np.int64]:
 
 
 def shaped(ink: Ink, *, even: bool) -> dict[tuple[int, int], str]:
-    """Give the tile of every cell that is not empty; paint that is mirrored gives mirrored tiles."""
+    """The tile of every cell that is not empty; paint that is mirrored gives mirrored tiles."""
     tiles, other = fitted(ink, even=even), fitted(ink[:, ::-1], even=even)
     turned = [next(k for k, mask in enumerate(masks()) if (mask == grid[:, ::-1]).all()) for grid in masks()]
     half = COLUMNS // 2 + 1

@@ -25,7 +25,7 @@ ActionStream: TypeAlias = Iterator[NDArray[np.integer]]
 
 
 class Agent(Protocol):
-    """``settings``: the keywords of the agent's environment."""
+    """What plays in an evaluation. ``settings``: the keywords of the agent's environment."""
 
     @property
     def settings(self) -> dict[str, Any]:

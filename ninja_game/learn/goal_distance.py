@@ -79,7 +79,7 @@ class GoalDistance:
         return stale
 
     def _row(self, level: int, state: int) -> int:
-        """Give the row of a field; make the field if it is missing."""
+        """The row of a field; make the field if it is missing."""
         key = (level, state)
         if key not in self._row_of:
             if not self._free:

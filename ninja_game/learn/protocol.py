@@ -15,10 +15,8 @@ from numpy.typing import NDArray
 
 from ninja_game.sim.schema.declare import fast
 
-REPEAT = 0.25
-"""Chance that a step repeats the keys of the previous step instead of the chosen ones."""
-MAX_WAIT = 7
-"""Most steps without keys at the start of an episode; a new number is drawn for each episode, from 0 on."""
+REPEAT = 0.25  # chance that a step repeats the keys of the previous step instead of the chosen ones
+MAX_WAIT = 7  # most steps without keys at the start of an episode; a new number is drawn for each episode, from 0 on
 TIME_LIMIT = 2000  # ticks, 50 s: longer than any certificate to the exit of the set
 EVALUATION_SEED = 1_000_000  # the first seed of evaluations; agents are trained with seeds below it
 
@@ -36,7 +34,7 @@ def draw_starts(drawn: NDArray[np.uint64], longest_wait: int) -> NDArray[np.int6
 
 @fast
 def next_random(state: int) -> int:
-    """Give the random number that follows ``state``, 1 to 2^32 - 1 (Marsaglia, "Xorshift RNGs", 2003)."""
+    """The random number that follows ``state``, 1 to 2^32 - 1 (Marsaglia, "Xorshift RNGs", 2003)."""
     state ^= (state << 13) & 0xFFFFFFFF
     state ^= state >> 17
     return state ^ (state << 5) & 0xFFFFFFFF

@@ -29,7 +29,7 @@ from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.levels.origins import Origin, level_source
 from ninja_game.learn.levels.source import LevelChoice, LevelSequences
 from ninja_game.learn.observations.observation import Observation, PartLike
-from ninja_game.learn.observations.part import PartContext, initial_levels, put_levels
+from ninja_game.learn.observations.part import PartContext
 from ninja_game.learn.protocol import CHANCES, draw_starts, next_random
 from ninja_game.learn.rewards import DistanceShaping, RewardLike, Shaping, reward_terms, weights_of
 from ninja_game.sim.digest import world_digest
@@ -44,11 +44,11 @@ from ninja_game.sim.world import step
 from ninja_game.simulation import SaveState, Simulation
 
 EXIT_WEIGHT, DEATH_WEIGHT, GOLD_WEIGHT, TICK_WEIGHT = range(4)  # indices of ``weights``
-OUTCOME, TICKS, GOLD, EVENTS, ENDED, PLAYED, WAIT, RANDOM = range(8)
-"""Rows of ``facts``, a column per world. PLAYED: keys of its last tick. WAIT: remaining steps without keys; RANDOM:
-state of the generator that decides whether keys are repeated (`protocol.py`)."""
-TERMINATED, TRUNCATED = 1, 2  # how an episode has ended; 0: it has not
-CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
+OUTCOME_ROW, TICKS_ROW, GOLD_ROW, EVENTS_ROW, ENDED_ROW, PLAYED_ROW, WAIT_ROW, RANDOM_ROW = range(8)
+"""Rows of ``facts``, a column per world: keys of its last tick in PLAYED_ROW, remaining steps without keys in WAIT_ROW,
+state of the generator that decides whether keys are repeated (`protocol.py`) in RANDOM_ROW."""
+_TERMINATED, _TRUNCATED = 1, 2  # how an episode has ended; 0: it has not
+_CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 """Events that change the looks of objects that never move."""
 
 
@@ -63,9 +63,9 @@ def advance_worlds(
     A world stops at its first exit contact or death, and at ``time_limit`` ticks. As on a keyboard, jump is pressed in
     a tick in which it is held and was not held before. ``repeat`` of CHANCES: chance that a world repeats the keys of
     the previous step; a waiting world gets no keys. ``weights`` (EXIT_WEIGHT to TICK_WEIGHT): rewards; ``rewards``
-    (worlds) gets their sum. ``facts`` (OUTCOME to RANDOM x worlds): EVENTS has those of all ticks, as bits. ``changed``
-    (worlds): set if one of CHANGES happened, and if the list of events was full. ``terminated``, ``truncated``
-    (worlds): the parts of ENDED.
+    (worlds) gets their sum. ``facts`` (OUTCOME_ROW to RANDOM_ROW x worlds): EVENTS_ROW has those of all ticks, as bits.
+    ``changed`` (worlds): set if one of _CHANGES happened, and if the list of events was full. ``terminated``,
+    ``truncated`` (worlds): the parts of ENDED_ROW.
     """
     total = 0
     for k in range(first, last):
@@ -74,13 +74,13 @@ def advance_worlds(
         w = worlds[index]
         down = int(keys[index])
         if repeat:
-            facts[RANDOM, index] = next_random(int(facts[RANDOM, index]))
-            if facts[RANDOM, index] < repeat:
-                down = int(facts[PLAYED, index])
-        if facts[WAIT, index]:
-            facts[WAIT, index] -= 1
+            facts[RANDOM_ROW, index] = next_random(int(facts[RANDOM_ROW, index]))
+            if facts[RANDOM_ROW, index] < repeat:
+                down = int(facts[PLAYED_ROW, index])
+        if facts[WAIT_ROW, index]:
+            facts[WAIT_ROW, index] -= 1
             down = 0
-        facts[PLAYED, index] = down
+        facts[PLAYED_ROW, index] = down
         tick = w.tick
         gold = w.gold
         event_bits = 0
@@ -100,14 +100,14 @@ def advance_worlds(
         elif w.outcome == OUTCOME_DEAD:
             reward += weights[DEATH_WEIGHT]
         rewards[index] = reward
-        facts[OUTCOME, index] = w.outcome
-        facts[TICKS, index] = w.tick
-        facts[GOLD, index] = w.gold
-        facts[EVENTS, index] = event_bits
-        facts[ENDED, index] = TERMINATED if w.outcome else TRUNCATED if w.tick >= time_limit else 0
+        facts[OUTCOME_ROW, index] = w.outcome
+        facts[TICKS_ROW, index] = w.tick
+        facts[GOLD_ROW, index] = w.gold
+        facts[EVENTS_ROW, index] = event_bits
+        facts[ENDED_ROW, index] = _TERMINATED if w.outcome else _TRUNCATED if w.tick >= time_limit else 0
         terminated[index] = w.outcome != 0
         truncated[index] = w.outcome == 0 and w.tick >= time_limit
-        changed[index] = crowded or (event_bits & CHANGES) != 0
+        changed[index] = crowded or (event_bits & _CHANGES) != 0
         total += ticks
     return total
 
@@ -221,7 +221,7 @@ class EnvWorlds:
         self._worlds = open_worlds(memory, loaded, count, box=is_box(body))
         self.memory, self.threads = self._worlds.name, thread_count(threads)
         self._changed = np.ones(count, np.bool_)
-        fresh = initial_levels(self._worlds, range(len(loaded)))
+        fresh = self._worlds.initial_levels(range(len(loaded)))
         max_objects = self._worlds.slots * self._unbounded
         context = PartContext(
             self._worlds, fresh, self._changed, time_limit, self.memory == "compiled", max_objects=max_objects
@@ -245,7 +245,7 @@ class EnvWorlds:
         self.levels_now: Indices = np.full(count, NO_LEVEL) if self._unbounded else level_of
         self.rewards = np.zeros(count)
         self._facts = np.zeros((8, count), np.int64)
-        self.outcomes, self.ticks, self.gold, self.events, self._ended, self.played = self._facts[:WAIT]
+        self.outcomes, self.ticks, self.gold, self.events, self._ended, self.played = self._facts[:WAIT_ROW]
         self._longest_wait = longest_wait
         self.terminated, self.truncated = np.zeros((2, count), np.bool_)
         weights = context.table(weights_of(terms), np.float64)
@@ -342,14 +342,14 @@ class EnvWorlds:
             self._worlds.load(numbers.tolist(), chosen.tolist())
         self._facts[:, numbers] = 0
         self.terminated[numbers] = self.truncated[numbers] = False
-        self._facts[WAIT:, numbers] = draw_starts(drawn, self._longest_wait)
+        self._facts[WAIT_ROW:, numbers] = draw_starts(drawn, self._longest_wait)
         self._look(numbers, None)
 
     def _enter(self, numbers: Indices, chosen: Indices) -> None:
         """Start worlds in levels of a source without limit; each world has a place for its present level."""
         levels = [self.levels[number] for number in chosen.tolist()]
-        put_levels(self._worlds, numbers, levels)
-        for index, fresh in zip(numbers.tolist(), initial_levels(self._worlds, numbers.tolist()), strict=True):
+        self._worlds.put_levels(numbers, levels)
+        for index, fresh in zip(numbers.tolist(), self._worlds.initial_levels(numbers.tolist()), strict=True):
             self._context.fresh[index] = fresh
             for write in self._context.writers:
                 write(index)
@@ -383,9 +383,9 @@ class EnvWorlds:
         if self._unbounded:
             self._enter(numbers, state.levels)
         self._worlds.restore_many(state.states, numbers, numbers if self._unbounded else state.levels)
-        self._facts[:RANDOM, numbers] = state.facts[:RANDOM]
+        self._facts[:RANDOM_ROW, numbers] = state.facts[:RANDOM_ROW]
         self.events[numbers] = 0
-        self.terminated[:], self.truncated[:] = self._ended == TERMINATED, self._ended == TRUNCATED
+        self.terminated[:], self.truncated[:] = self._ended == _TERMINATED, self._ended == _TRUNCATED
         self._look(numbers, state.starts)
 
     def simulation(self, index: int) -> Simulation:

@@ -16,8 +16,7 @@ from ninja_game.formats.pack.pack import RECEIVED, Pack, PackFiles
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import episode_key
 
-GAME, YOURS = "game", "yours"
-"""Sources of levels other than packs: the game's own pack, files in the player's folder."""
+GAME, YOURS = "game", "yours"  # sources of levels other than packs: the game's own pack, files in the player's folder
 
 _NUMBER = re.compile("[0-9]{1,2}-[0-9]")
 

@@ -11,9 +11,10 @@ from ninja_game.sim.grid import Cell
 
 
 class Wording(NamedTuple):
-    """``text``: the oddity, with {values}; ``hint``: how to fix it; ``about_switch``: whether a switch is odd.
+    """The words of a finding. ``text``: the oddity, with {values}; ``hint``: how to fix it.
 
-    ``expected``: the right content of the file, for makers who edit it as text.
+    ``about_switch``: whether a switch is odd. ``expected``: the right content of the file, for makers who edit it as
+    text.
     """
 
     text: str
@@ -31,8 +32,7 @@ def _read_wordings() -> dict[str, dict[str, Wording]]:
 _WORDINGS = _read_wordings()
 LEVEL_WORDINGS, RUN_WORDINGS = _WORDINGS["level"], _WORDINGS["run"]
 
-PACK_WORDINGS = _WORDINGS["pack"]
-"""Oddities of a pack as a whole; those of its levels have the codes of levels."""
+PACK_WORDINGS = _WORDINGS["pack"]  # oddities of a pack as a whole; those of its levels have the codes of levels
 
 DESIGN_WORDINGS = _WORDINGS["design"]
 """Features of good levels that a level lacks (docs/good-levels.md): reported only on request."""

@@ -25,8 +25,7 @@ from ninja_game.sim.schema.object_fields import Object
 from ninja_game.sim.schema.world_fields import CAPACITY, TileMap, World
 from ninja_game.sim.states import LOCKED, TRAP
 
-Squares = dict[tuple[float, float], set[tuple[float, float]]]
-"""Places, px, by the square (column, row) that holds them."""
+Squares = dict[tuple[float, float], set[tuple[float, float]]]  # places, px, by the square (column, row) that holds them
 
 
 def _made_door(world: World, spec: ObjectSpec) -> Object:
@@ -39,7 +38,7 @@ def _made_door(world: World, spec: ObjectSpec) -> Object:
 
 
 def edges_of(door: Object) -> tuple[int, int]:
-    """Give the two edge indices that a door writes; 0 for one that does not exist (objects.md §8.6)."""
+    """The two edge indices that a door writes; 0 for one that does not exist (objects.md §8.6)."""
     return door.edge_1, door.edge_2
 
 
@@ -80,18 +79,18 @@ class Ground:
         return bool(tiles.SHAPE[self.level.tiles[cell]] == tiles.FULL)
 
     def touchable(self, x: float, y: float, radius: float) -> bool:
-        """Tell whether a ninja in a reached cell could touch a disc (radius up to 14 px); True if uncertain."""
+        """Whether a ninja in a reached cell could touch a disc (radius up to 14 px); True if uncertain."""
         near = (cell for cell in _around(cell_at(x, y)) if cell in self.cells)
         return not self.certain or any(_touches(cell, x, y, radius) for cell in near)
 
     def comes_near(self, x: float, y: float, reach: tuple[float, float]) -> bool:
-        """Tell whether a ninja in a reached cell could be within ``reach`` px of a point, across and down."""
+        """Whether a ninja in a reached cell could be within ``reach`` px of a point, across and down."""
         (wide, high), half = reach, rules.CELL / 2
         centres = ((tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell]) for cell in self.cells)
         return not self.certain or any(abs(x - a) < wide + half and abs(y - b) < high + half for a, b in centres)
 
     def is_in_wall(self, x: float, y: float, radius: float) -> bool:
-        """Tell whether only a fast ninja, which sinks into tiles, could touch a disc. Tests every 2 px, generously."""
+        """Whether only a fast ninja, which sinks into tiles, could touch a disc. Tests every 2 px, generously."""
         if not (cell_at(x, y) and solid_at(self.level, x, y)):
             return False
         reach = radius + rules.RADIUS + _BETWEEN
@@ -100,7 +99,7 @@ class Ground:
         return not any(self._fits_at(*place) for place in places)
 
     def _fits_at(self, x: float, y: float) -> bool:
-        """Tell whether the ninja's centre could be here with the ninja outside of all tiles."""
+        """Whether the ninja's centre could be here with the ninja outside of all tiles."""
         reached = cell_at(x, y) in self.cells or not self.certain
         return reached and not any(solid_at(self.level, x + a, y + b) for a, b in _RIM)
 
@@ -131,7 +130,7 @@ class Ground:
             frontier += new
 
     def _ways(self, cell: int, closed: set[int]) -> Iterator[int]:
-        """Give the neighbours of a cell that can be reached from it and are new."""
+        """The neighbours of a cell that can be reached from it and are new."""
         for side, step in enumerate(tiles.NEIGHBOUR_OFFSET):
             there, here = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
             if tiles.EXISTS[cell + step] and cell + step not in self.cells and not self.is_full(cell + step):
@@ -140,7 +139,7 @@ class Ground:
                     yield cell + step
 
     def _gap(self, here: int, there: int) -> bool:
-        """Tell whether the solid faces on both sides of a border leave a gap: two full faces are no edge."""
+        """Whether the solid faces on both sides of a border leave a gap: two full faces are no edge."""
         if tiles.EMPTY in (tiles.SHAPE[self.level.tiles[here]], tiles.SHAPE[self.level.tiles[there]]):
             return True
         x, y = ((at[here] + at[there]) / 2 for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
@@ -162,22 +161,18 @@ def _touches(cell: int, x: float, y: float, radius: float) -> bool:
     return dx * dx + dy * dy < (radius + rules.RADIUS) ** 2
 
 
-_BETWEEN = sqrt(2.0)
-"""Greatest distance, px, of the ninja from the nearest place that ``is_in_wall`` tests."""
+_BETWEEN = sqrt(2.0)  # greatest distance, px, of the ninja from the nearest place that `is_in_wall` tests
 _INNER_RADIUS = rules.RADIUS - _BETWEEN
-_BESIDE = 0.01
-"""Distance of the tested places from a border, on both sides, px."""
+_BESIDE = 0.01  # distance of the tested places from a border, on both sides, px
 _ALONG = [k - 11.5 for k in range(24)]
 _RIM = [(0.0, 0.0), *((_INNER_RADIUS * cos(pi * k / 8), _INNER_RADIUS * sin(pi * k / 8)) for k in range(16))]
 _FIXED = {kinds.LAUNCH_PAD, kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER}
 _BARRING, _DEADLY = _FIXED | {kinds.MINE}, _FIXED | {kinds.DRONE, kinds.FLOOR_GUARD}
 """Kinds that are a mistake over an exit, which drones leave free, or over the start, where mines kill."""
 MANY_OBJECTS = 2000
-MANY_THINKERS = 30
-"""With more enemies that think in turn, one waits more than three seconds for its turn."""
+MANY_THINKERS = 30  # with more enemies that think in turn, one waits more than three seconds for its turn
 _NAMES_SHOWN = 3
-_OVER = 8.0
-"""A mine nearer than this, px, covers a piece of gold."""
+_OVER = 8.0  # a mine nearer than this, px, covers a piece of gold
 _HIDES = 12.5
 """An object nearer than this, px, covers an exit, a switch or the start; a launch pad on their floor is 12 px away."""
 
@@ -291,7 +286,7 @@ def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[Fin
 
 
 def _waits_for_its_turn(spec: ObjectSpec) -> bool:
-    """Tell whether an object looks for the ninja only in its turn of the thinker ring."""
+    """Whether an object looks for the ninja only in its turn of the thinker ring."""
     if spec.kind == kinds.DRONE and well_formed(spec):
         return spec.values[4] in (1, 2)
     return spec.kind in (kinds.TURRET, kinds.LAUNCHER)
@@ -311,7 +306,7 @@ def _in_squares(places: Iterable[tuple[float, ...]], side: float) -> Squares:
 
 
 def _is_near(at: tuple[float, ...], places: Squares, side: float) -> bool:
-    """Tell whether a place is nearer than the side of the squares, px: only a few of thousands are tested."""
+    """Whether a place is nearer than the side of the squares, px: only a few of thousands are tested."""
     column, row = (value // side for value in at)
     around = [(column + a, row + b) for a in (-1, 0, 1) for b in (-1, 0, 1)]
     return any(dist(at, place) < side for square in around for place in places.get(square, ()))
@@ -327,10 +322,8 @@ def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
 
 
 _DIRECTIONS = (0, 1, 2, 3)
-_SAMPLES = (-1.0, -0.5, 0.0, 0.5, 1.0)
-"""Tested points of a piece of gold, across and down, as shares of its radius."""
-_HIDDEN = 2 / 3
-"""Share of gold in rock from which on nobody sees it: tiles are drawn over it."""
+_SAMPLES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # tested points of a piece of gold, across and down, as shares of its radius
+_HIDDEN = 2 / 3  # share of gold in rock from which on nobody sees it: tiles are drawn over it
 _UNIT_TOLERANCE = 0.02  # pads of other editors have 0.7 for both parts of a diagonal
 
 
@@ -378,7 +371,7 @@ _IN_TILE = {
 
 
 def _deep(ground: Ground, x: float, y: float) -> bool:
-    """Tell whether a point is inside a tile and not on its surface, a usual place of turrets and launchers."""
+    """Whether a point is inside a tile and not on its surface, a usual place of turrets and launchers."""
     return all(solid_at(ground.level, x + dx, y + dy) for dx in (-0.5, 0.5) for dy in (-0.5, 0.5))
 
 

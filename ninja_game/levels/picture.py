@@ -16,7 +16,7 @@ from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.rules import CELL, HALF
 from ninja_game.sim.schema.world_fields import TileMap
 
-COLOURS = dict.fromkeys((kind.number for kind in kinds.KINDS if kind.killer), "bright_red") | {
+_COLOURS = dict.fromkeys((kind.number for kind in kinds.KINDS if kind.killer), "bright_red") | {
     kinds.GOLD: "bright_yellow",
     kinds.BOUNCE_BLOCK: "cyan",
     kinds.LAUNCH_PAD: "bright_cyan",
@@ -31,7 +31,7 @@ COLOURS = dict.fromkeys((kind.number for kind in kinds.KINDS if kind.killer), "b
 """Terminal colours: red and magenta kill, cyan moves the ninja, green is start and goal."""
 
 # Index: 1 upper left + 2 upper right + 4 lower left + 8 lower right.
-QUARTERS = " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█"
+_QUARTERS = " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█"
 
 
 def level_picture(level: Level) -> Text:
@@ -48,7 +48,7 @@ def level_picture(level: Level) -> Text:
             if CELL <= x <= CELL * (COLUMNS + 1) and CELL <= y <= CELL * (ROWS + 1):
                 column = min(max(round((x - CELL) / HALF) - 1, 0), columns - 1)
                 row = min(int((y - CELL) / CELL), rows - 1)
-                signs[row][column] = (char, COLOURS[spec.kind])
+                signs[row][column] = (char, _COLOURS[spec.kind])
     text = Text(no_wrap=True)
     for digits in RULER.replace(";", "").splitlines():
         text.append("    " + " ".join(digits[4:]).rstrip() + "\n", "dim")
@@ -66,4 +66,4 @@ def level_picture(level: Level) -> Text:
 def _block(tiles: TileMap, column: int, row: int) -> str:
     x, y = CELL + HALF * column, CELL + CELL * row
     quarters = ((3.0, 6.0), (9.0, 6.0), (3.0, 18.0), (9.0, 18.0))
-    return QUARTERS[sum(1 << k for k, (dx, dy) in enumerate(quarters) if solid_at(tiles, x + dx, y + dy))]
+    return _QUARTERS[sum(1 << k for k, (dx, dy) in enumerate(quarters) if solid_at(tiles, x + dx, y + dy))]

@@ -14,7 +14,7 @@ from ninja_game.formats.pack.pack import Pack, is_pack
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.episodes import YOURS, Entry, EpisodeSet, episode_set
 
-KINDS = {"exit": "To the exit", "gold": "With all gold"}
+RUN_TITLES = {"exit": "To the exit", "gold": "With all gold"}
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def published_levels(path: Path) -> PublishedLevels:
 
 def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:
     certificates = {}
-    for kind in KINDS:
+    for kind in RUN_TITLES:
         name = pack.certificate(Path(entry.named.file).name, kind)
         with suppress(NinjaGameError):  # `levels lint` reports its problem; the page leaves it out
             if name is not None:

@@ -37,17 +37,15 @@ class Screen(BaseScreen):
     app: App
 
 
-CALM = Mood()
-"""The mood of all menus, whatever level was played before."""
+CALM_MOOD = Mood()  # the mood of all menus, whatever level was played before
 
 UNSEEN = {"dummy", "offscreen"}
 """SDL drivers without a visible window: no wipe, and no waiting for the next picture."""
 
-FALLBACK_RATE = 60
-"""Pictures per second where the display does not say its rate."""
+FALLBACK_RATE = 60  # pictures per second where the display does not say its rate
 
 NOTICE = 12.5  # size of the letters of a notice
-IN_BORDER = 10.0  # the same in the border below a level
+_IN_BORDER = 10.0  # the same in the border below a level
 NOTICE_WIDE = 764.0  # longest line of a notice, px
 NOTICE_LINES = 5  # most lines of a notice
 NOTICE_MS = 4000
@@ -151,7 +149,7 @@ class App:
     def _lay_out(self) -> None:
         self.canvas = Canvas(self.surface.get_size())
         self.theme = Theme(self.palette_in(self.mood), self.canvas, self.settings.text_size)
-        self.menu_theme = Theme(self.palette_in(CALM), self.canvas, self.settings.text_size)
+        self.menu_theme = Theme(self.palette_in(CALM_MOOD), self.canvas, self.settings.text_size)
         self.stack.redraw_all()
 
     def palette_in(self, mood: Mood) -> Palette:
@@ -299,7 +297,7 @@ class App:
         left, right = self.top.notice_room
         most = min(NOTICE_WIDE, right - left - 28)
         # In the border: no text covers a level.
-        middle, size, margin, high = (left + right) / 2, IN_BORDER, 1.0, 20.0
+        middle, size, margin, high = (left + right) / 2, _IN_BORDER, 1.0, 20.0
         lines = wrapped(theme, self.notice, most, size)
         if len(lines) > 1 or not (self.top.plays or self.top.small_notices):
             size, margin, high = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]

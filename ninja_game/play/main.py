@@ -18,7 +18,7 @@ from ninja_game.formats.pack.pack import Pack, is_pack
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, Screen, TasEditorOpener, build_app
 from ninja_game.play.window import Window, save_picture
-from ninja_game.player.playthrough import FileSession
+from ninja_game.player.playthrough import FilePlaythrough
 from ninja_game.runtime import run_in_background
 from ninja_game.sim.level import Body, Level
 from ninja_game.simulation import Simulation
@@ -118,7 +118,7 @@ def first_screen(
         if is_link(level_path):
             app.push(_main_menu(app))
         practice_mode = practice or app.settings.practice
-        return LevelScreen(app, FileSession(app.player, levels, body=body, practice_mode=practice_mode))
+        return LevelScreen(app, FilePlaythrough(app.player, levels, body=body, practice_mode=practice_mode))
 
     return play
 

@@ -27,7 +27,7 @@ from ninja_game.play.panels.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.window import LOGO
-from ninja_game.player.playthrough import EpisodeSession, next_run
+from ninja_game.player.playthrough import EpisodePlaythrough, next_run
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.grid import Point
 from ninja_game.simulation import Simulation
@@ -37,10 +37,9 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.level_view import LevelView
 
-PANEL: Area = 14, 96, 232, 390
-"""The panel's area: at the edge, so that the run behind it is visible."""
+PANEL: Area = 14, 96, 232, 390  # the panel's area: at the edge, so that the run behind it is visible
 
-HEAD, FIRST, ROW, EDGE = 98, 62, 43, 16
+_HEAD, _FIRST, _ROW, _EDGE = 98, 62, 43, 16
 """Heights of the title, of the first button and of a row of two, and the width of the panel's edge, px."""
 
 
@@ -54,7 +53,7 @@ class MainMenu(MenuScreen):
     def __init__(self, app: App) -> None:
         super().__init__(app)
         self.attract = Attract(app)
-        self.run: EpisodeSession | None = None
+        self.run: EpisodePlaythrough | None = None
         self._lost = ""
 
     @property
@@ -122,13 +121,13 @@ class MainMenu(MenuScreen):
         return lambda: self.app.push(screen(self.app))
 
     def build(self) -> Sequence[Widget]:
-        x, y, w = PANEL[0] + EDGE, PANEL[1] + HEAD, PANEL[2] - 2 * EDGE
+        x, y, w = PANEL[0] + _EDGE, PANEL[1] + _HEAD, PANEL[2] - 2 * _EDGE
         (text, action, hint), *others = self.entries()
         half = w / 2 - 4
         return [
-            Button((x, y, w, FIRST - 8), text, action, hint=hint, size=19, detail=self._where()),
+            Button((x, y, w, _FIRST - 8), text, action, hint=hint, size=19, detail=self._where()),
             *(
-                Button((x + k % 2 * (half + 8), y + FIRST + ROW * (k // 2), wide, ROW - 8), text, action, hint=hint)
+                Button((x + k % 2 * (half + 8), y + _FIRST + _ROW * (k // 2), wide, _ROW - 8), text, action, hint=hint)
                 for k, (text, action, hint) in enumerate(others)
                 for wide in [half if k ^ 1 < len(others) else w]
             ),
@@ -174,8 +173,7 @@ BAND: tuple[tuple[Point, ...], ...] = (
 )
 """The headband under the name and its two ends: corners, px from the panel's."""
 
-REST_TICKS = 130
-"""Ticks for which a replay goes on after its end or a death."""
+_REST_TICKS = 130  # ticks for which a replay goes on after its end or a death
 
 
 class Attract:
@@ -210,7 +208,7 @@ class Attract:
             except (NinjaGameError, OSError):
                 continue
             self._playback = Playback(simulation, recording.inputs, spacing=0)
-            self._until = len(self._playback.inputs) + REST_TICKS
+            self._until = len(self._playback.inputs) + _REST_TICKS
             self.mood = self.app.player.catalogue.mood_of(recording.level) or Mood()
             self.app.follow_mood(self.mood)
             self.view = LevelView(self.app, simulation, seed=self.shown, audible=False)

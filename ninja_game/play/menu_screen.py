@@ -9,7 +9,7 @@ import pygame
 
 from ninja_game.files.shown_text import shown_text
 from ninja_game.levels.episodes import Mood
-from ninja_game.play.app import CALM, App, Screen
+from ninja_game.play.app import CALM_MOOD, App, Screen
 from ninja_game.player.player_data import PlayerData
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.input.bindings import InputEvent
@@ -20,7 +20,7 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, inside, wrapped
 from ninja_game.ui.widgets import Button, Widget
 
-FIRST_REPEAT_MS, REPEAT_MS, TEXT_REPEAT_MS = 350, 70, 40
+_FIRST_REPEAT_MS, _REPEAT_MS, _TEXT_REPEAT_MS = 350, 70, 40
 """A held direction or a key in a text repeats: after the first time, then at the other intervals, ms."""
 
 DIRECTIONS = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
@@ -28,8 +28,7 @@ MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygam
 REPEATING = frozenset({*DIRECTIONS, "page_up", "page_down"})
 
 TITLE_SIZE = 22
-BACK: Area = (WIDTH - 24 - 84, 15, 84, 26)
-"""The place beside the title where the mouse goes back."""
+BACK: Area = (WIDTH - 24 - 84, 15, 84, 26)  # the place beside the title where the mouse goes back
 
 
 class MenuScreen(Screen):
@@ -59,7 +58,7 @@ class MenuScreen(Screen):
 
     @property
     def mood(self) -> Mood:
-        return CALM
+        return CALM_MOOD
 
     def build(self) -> Sequence[Widget]:
         """The widgets; the first that can have the focus gets it."""
@@ -105,7 +104,7 @@ class MenuScreen(Screen):
         if event.raw.type == pygame.KEYDOWN:
             self._typed.end()
             if taken:
-                self._typed.begin(event.raw, scancode_of(event.raw), first=FIRST_REPEAT_MS, every=TEXT_REPEAT_MS)
+                self._typed.begin(event.raw, scancode_of(event.raw), first=_FIRST_REPEAT_MS, every=_TEXT_REPEAT_MS)
         if taken:
             self.widgets_changed()
         if isinstance(self.focus, TextEntry) and self.focus.edited.was_full:
@@ -122,7 +121,7 @@ class MenuScreen(Screen):
             self._direction.end()
         if event.menu:
             if event.menu in REPEATING:
-                self._direction.begin(event.menu, first=FIRST_REPEAT_MS, every=REPEAT_MS)
+                self._direction.begin(event.menu, first=_FIRST_REPEAT_MS, every=_REPEAT_MS)
             self.act(event.menu)
 
     def act(self, action: str, *, held: bool = False) -> None:
@@ -283,7 +282,7 @@ def _aside(start: Widget, goal: Widget, dx: int) -> float:
 
 
 PANEL_WIDTH = 300
-ROW = 40
+_ROW = 40
 
 Action = Callable[[], object]
 MenuRow = tuple[str, Action | None, str]
@@ -305,7 +304,7 @@ class Panel(MenuScreen):
 
     see_through = True
     offers_back = False
-    row_height = ROW
+    row_height = _ROW
     veil = 130
     head, side, size = 48, 30, 12.0
 
@@ -483,7 +482,7 @@ class FormPanel(Menu):
         x, y, w, _ = self._box
         entries = []
         for k, ((prompt, text, longest), now) in enumerate(zip(self._fields, self.texts, strict=True)):
-            area, put = (x + 30, y + 48 + ROW * k, w - 60, 30), partial(self.texts.__setitem__, k)
+            area, put = (x + 30, y + 48 + _ROW * k, w - 60, 30), partial(self.texts.__setitem__, k)
             entries.append(TextEntry(area, prompt, now, put, longest=longest, proposed=k == 0 and now == text))
         return [*entries, *list(super().build())[len(entries) :]]
 

@@ -16,7 +16,7 @@ from ninja_game.play.menu_screen import MenuScreen
 from ninja_game.player.progress import Mark, has_all_gold, medal_of
 from ninja_game.player.records import Played
 from ninja_game.ui.audio.music import MENU
-from ninja_game.ui.medals import MEDALS, draw_all_gold, draw_medal
+from ninja_game.ui.medals import MEDALS_FROM_BRONZE, draw_all_gold, draw_medal
 from ninja_game.ui.theme import Theme
 from ninja_game.view.sprites.thumbnail import thumbnail
 
@@ -111,7 +111,7 @@ def draw_pars(
     tick: int | None,
     x: float,
     y: float,
-    medals: Sequence[str] = MEDALS,
+    medals: Sequence[str] = MEDALS_FROM_BRONZE,
 ) -> None:
     """Draw pars in a row; those that a tick reaches are filled."""
     if pars is None:

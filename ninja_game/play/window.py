@@ -18,13 +18,11 @@ from ninja_game.ui.theme import Theme, palette_named
 from ninja_game.view.ninja.figure import icon
 
 TITLE = "ninja-game"
-LOGO = "NINJA"
-"""The name over the main menu, and on the first picture."""
+LOGO = "NINJA"  # the name over the main menu, and on the first picture
 
 _INVISIBLE = {"dummy", "offscreen", "evdev"}
 _ICON = 64
-WIDEST = 2200, 1300
-"""Largest size of a window that no player has resized, px."""
+WIDEST = 2200, 1300  # largest size of a window that no player has resized, px
 
 
 class Window:
@@ -170,8 +168,7 @@ def fitting_size(wished: tuple[int, int] = (0, 0), *, wide: bool = False) -> tup
 
 
 WIPE_MS = 300
-EDGE = 5
-"""Width of the curtain's edge, logical px."""
+_EDGE = 5  # width of the curtain's edge, logical px
 
 
 class Wipe:
@@ -198,4 +195,4 @@ class Wipe:
         share = self._left / WIPE_MS
         left = width - round(width * share * share)
         surface.blit(self._before, (left, 0), (left, 0, width - left, height))
-        surface.fill(theme.palette.accent, (left, 0, theme.canvas.px(EDGE), height))
+        surface.fill(theme.palette.accent, (left, 0, theme.canvas.px(_EDGE), height))

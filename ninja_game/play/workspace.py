@@ -22,14 +22,13 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, inside
 from ninja_game.ui.widgets import Widget
 
-FIRST_REPEAT_MS = 300
-"""ms before the command of a held key repeats."""
+_FIRST_REPEAT_MS = 300  # ms before the command of a held key repeats
 
 
-class Command(NamedTuple):
-    """``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them; ``pad``: an input of a standard gamepad.
+class KeyCommand(NamedTuple):
+    """A command of an editor. ``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them.
 
-    ``repeats_ms``: interval of repeats while it is held; 0: none.
+    ``pad``: an input of a standard gamepad. ``repeats_ms``: interval of repeats while it is held; 0: none.
     """
 
     name: str
@@ -39,18 +38,18 @@ class Command(NamedTuple):
     repeats_ms: int = 0
 
 
-def bundled_commands(file: str) -> list[Command]:
+def bundled_commands(file: str) -> list[KeyCommand]:
     """The commands of an editor from a bundled file, whose head explains its columns."""
     return [_command(*cells) for cells in asset_rows(f"commands/{file}")]
 
 
-def _command(name: str, label: str = "", keys: str = "", pad: str = "", repeats_ms: str = "0") -> Command:
+def _command(name: str, label: str = "", keys: str = "", pad: str = "", repeats_ms: str = "0") -> KeyCommand:
     if label:
-        return Command(name, label, tuple(keys.split()), pad, int(repeats_ms))
-    return Command(name, ACTIONS[name].label, ACTIONS[name].keys)
+        return KeyCommand(name, label, tuple(keys.split()), pad, int(repeats_ms))
+    return KeyCommand(name, ACTIONS[name].label, ACTIONS[name].keys)
 
 
-def key_text(command: Command) -> str:
+def key_text(command: KeyCommand) -> str:
     """The key of a command, for people; '' for none."""
     return "+".join(map(key_label_of, command.keys[0].split("+"))) if command.keys else ""
 
@@ -61,7 +60,7 @@ class CommandTable:
     ``pads``: commands by buttons of a pad, besides those in the commands.
     """
 
-    def __init__(self, commands: Sequence[Command], pads: Mapping[str, str] | None = None) -> None:
+    def __init__(self, commands: Sequence[KeyCommand], pads: Mapping[str, str] | None = None) -> None:
         self.commands = commands
         self.by_name = {command.name: command for command in commands}
         self._by_key = {key: command.name for command in commands for key in command.keys}
@@ -117,7 +116,7 @@ class HeldCommand(HeldKey[str]):
             kind, button = event.source or ("", "")
             self._button = button if kind == "pad" else ""
             key = 0 if kind == "pad" else scancode_of(event.raw)
-            self.begin(name, key, first=FIRST_REPEAT_MS, every=every)
+            self.begin(name, key, first=_FIRST_REPEAT_MS, every=every)
 
     def follow(self, event: pygame.Event) -> None:
         super().follow(event)
@@ -126,14 +125,14 @@ class HeldCommand(HeldKey[str]):
             self.end()
 
 
-Commands = Mapping[str, Callable[[], object]]
-"""Actions by the names of the table of commands."""
+Commands = Mapping[str, Callable[[], object]]  # actions by the names of the table of commands
 
 
 class Pane:
-    """``area``: logical px. ``widgets``: in it; what they show is part of ``render_key``.
+    """A part of a workspace, drawn again only when its ``render_key`` changes. ``area``: logical px.
 
-    ``wants``: the widget that gets the focus as soon as the part is shown.
+    ``widgets``: in it; what they show is part of ``render_key``. ``wants``: the widget that gets the focus as soon as
+    the part is shown.
     """
 
     area: Area = (0, 0, 0, 0)

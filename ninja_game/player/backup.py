@@ -35,7 +35,7 @@ from ninja_game.formats.run_time import level_score
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import WITH_HELP, is_place
 from ninja_game.player.records import Records
-from ninja_game.player.schema import SCHEMA, VERSION, OtherVersionError, bounded
+from ninja_game.player.schema import SCHEMA, SCHEMA_VERSION, OtherVersionError, bounded
 from ninja_game.player.settings import read_settings
 from ninja_game.player.store import Store
 from ninja_game.runs.deaths import KILLERS
@@ -43,10 +43,10 @@ from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.level import BODIES
 
 MAX_FILES = 4096
-MAX_BYTES = 256 * 2**20  # of all files, unpacked
+MAX_BACKUP_BYTES = 256 * 2**20  # of all files, unpacked
 
 MAX_REPLAYS = 5_000  # in its records
-MAX_ROWS = 100_000  # of any other table
+MAX_TABLE_ROWS = 100_000  # of any other table
 
 BRANCHES = ".branches.json"  # suffix of a file beside a run: its branches in the TAS editor
 
@@ -64,8 +64,8 @@ act on some others by themselves, such as a ``desktop.ini``.
 MAX_LEVELS_BYTES = 16 * 2**20  # bytes of all levels of the replays: each is read, and its replay run again
 MAX_DRAFT_BYTES = 2**20  # bytes of a level under edit
 MAX_LEVEL_BYTES = 2**20  # bytes of the level of a replay
-MAX_TICKS = 10_000_000  # of all replays, which are run again
-FEW_TICKS = 200_000  # that many are run before kernels would be ready
+MAX_REPLAY_TICKS = 10_000_000  # of all replays, which are run again
+_FEW_TICKS = 200_000  # that many are run before kernels would be ready
 
 _SCHEMA = "SELECT type, name, tbl_name, sql FROM sqlite_master WHERE sql IS NOT NULL"
 
@@ -157,7 +157,7 @@ def read_backup(player: PlayerData, data: bytes) -> list[str]:
 def _unpacked(data: bytes) -> tuple[dict[str, bytes], list[str]]:
     """The files of a backup for a player's folder, by name, and the names of others. Raises ValueError."""
     files, left_out = {}, []
-    archive = open_zip(io.BytesIO(data), most_files=MAX_FILES, most_bytes=MAX_BYTES)
+    archive = open_zip(io.BytesIO(data), most_files=MAX_FILES, most_bytes=MAX_BACKUP_BYTES)
     for entry in archive.infolist():
         name = entry.filename
         if not (problem := _problem(name, entry.file_size)):
@@ -183,7 +183,7 @@ def _open_records(path: Path) -> Store:
     try:
         with closing(sqlite3.connect(path)) as db, bounded(db):
             ((version,),) = db.execute("PRAGMA user_version")
-            if version != VERSION:
+            if version != SCHEMA_VERSION:
                 raise ValueError(f"records {OtherVersionError(version)}")
             there = set(db.execute(_SCHEMA))
             # SQLite would run a foreign trigger, check, default or index when the records are opened.
@@ -195,7 +195,7 @@ def _open_records(path: Path) -> Store:
                 raise ValueError(f"damaged records: {state}")
             for name in SCHEMA.keys() & {name for _, name, *_ in there}:
                 ((rows,),) = db.execute(f"SELECT count(*) FROM {name}")
-                if rows > (most := MAX_REPLAYS if name == "replay" else MAX_ROWS):
+                if rows > (most := MAX_REPLAYS if name == "replay" else MAX_TABLE_ROWS):
                     raise ValueError(f"{rows:,} rows in the table {name}, of which at most {most:,} are accepted")
             level = "length(CAST(level_text AS BLOB))"
             lengths = f"coalesce(max({level}), 0), total({level}), total(length(inputs))"
@@ -204,8 +204,8 @@ def _open_records(path: Path) -> Store:
                 raise ValueError(f"a level of {longest:,} bytes, of which at most {MAX_LEVEL_BYTES:,} are accepted")
             if levels > MAX_LEVELS_BYTES:
                 raise ValueError(f"levels of {levels:,.0f} bytes, of which at most {MAX_LEVELS_BYTES:,} are accepted")
-            if ticks > MAX_TICKS:
-                raise ValueError(f"replays of {ticks:,.0f} ticks, of which at most {MAX_TICKS:,} are accepted")
+            if ticks > MAX_REPLAY_TICKS:
+                raise ValueError(f"replays of {ticks:,.0f} ticks, of which at most {MAX_REPLAY_TICKS:,} are accepted")
         store = Store(path)
     except sqlite3.Error as error:
         raise ValueError(str(error)) from None
@@ -246,7 +246,7 @@ class _TargetFolder:
     def _read(self, name: str) -> bytes:
         """The content of a file; for an unreadable one a byte that equals no file of ours."""
         with suppress(FileError, OSError):
-            content = read_bytes(self._tree.root / name, MAX_BYTES)
+            content = read_bytes(self._tree.root / name, MAX_BACKUP_BYTES)
             return _without_path(content) if self._tree.root.name == EDITING else content
         return b"\0"
 
@@ -281,7 +281,7 @@ def _merge(player: PlayerData, store: Store, db: sqlite3.Connection) -> int:
     before = _count(db)
     ticks = store.connection.execute("SELECT total(length(inputs)) FROM replay").fetchone()[0]
     # A replay may be kept, a best and one of an episode: it is run once.
-    replay_of = cache(partial(_replay, theirs, memory="plain" if ticks < FEW_TICKS else "auto"))
+    replay_of = cache(partial(_replay, theirs, memory="plain" if ticks < _FEW_TICKS else "auto"))
     for row in store.rows("SELECT id FROM replay WHERE kept", (), (int,)):
         if replay := replay_of(row[0]):
             player.records.keep_replay(replay)

@@ -14,7 +14,7 @@ from ninja_game.levels.episodes import Entry, Episode
 from ninja_game.player import progress
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
-from ninja_game.player.progress import LOCKED, UNLOCKED, Mark, Marks, PackProgress, Place, has_all_gold, medal_of
+from ninja_game.player.progress import LOCKED, UNLOCKED, LevelMarks, Mark, PackProgress, Place, has_all_gold, medal_of
 from ninja_game.player.records import Records, Statistics
 from ninja_game.player.settings import Settings, read_settings, write_changes
 from ninja_game.player.store import Store, Work
@@ -138,8 +138,8 @@ class PlayerData:
         return self.catalogue.author_run(entry) if self._is_maker and self.catalogue.is_own(entry) else None
 
     @cached_property
-    def marks(self) -> Marks:
-        return Marks(self.store)
+    def marks(self) -> LevelMarks:
+        return LevelMarks(self.store)
 
     @cached_property
     def statistics(self) -> Statistics:

@@ -47,7 +47,7 @@ class Navigation(Enum):
     BACK = "the screen from which the level was opened"
 
 
-class LevelContext:
+class Playthrough:
     """A level by itself, of a file, or of an episode. The subclasses below choose the next level.
 
     ``entry``: the present level. ``lifetime``: ticks at its start. ``notices``: of what was saved. ``next_label``: the
@@ -173,7 +173,7 @@ class LevelContext:
         return Navigation.BACK
 
 
-class LevelSession(LevelContext):
+class LevelPlaythrough(Playthrough):
     """A level by itself (single level, time trial): every attempt starts with the full lifetime.
 
     Its file is read again if it has changed at a restart. ``following``: the levels after it in the list that it was
@@ -255,7 +255,7 @@ class LevelSession(LevelContext):
                 return
 
 
-class FileSession(LevelSession):
+class FilePlaythrough(LevelPlaythrough):
     """The levels of a file, one after the other; after the last one the first again."""
 
     def __init__(
@@ -275,7 +275,7 @@ class FileSession(LevelSession):
         return super().advance()
 
 
-class EpisodeSession(LevelContext):
+class EpisodePlaythrough(Playthrough):
     """An episode from its first level on. ``position``: of the present one, from 0.
 
     ``legitimate``: neither practice nor a "cheated" episode; else nothing is a best and only "reached" moves on.
@@ -414,7 +414,7 @@ def note_progress(
         save_unfinished(data.store, following.key if following else "")
 
 
-def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeSession | None:
+def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodePlaythrough | None:
     """The context to continue: after the level played last, or else the first episode that has not been passed.
 
     None without episodes.
@@ -427,12 +427,12 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeSession
     chosen = next(iter(opened or ahead or episodes), None)
     if chosen is None:
         return None
-    run = EpisodeSession(data, chosen, practice_mode=practice_mode)
+    run = EpisodePlaythrough(data, chosen, practice_mode=practice_mode)
     run.skip_to_furthest()
     return run
 
 
-def unfinished_run(data: PlayerData, chosen: Episode | None = None) -> EpisodeSession | None:
+def unfinished_run(data: PlayerData, chosen: Episode | None = None) -> EpisodePlaythrough | None:
     """The unfinished run of an episode, or of the one played last; None if it has not been begun or is over."""
     key, replays = load_unfinished(data.store)
     if chosen is None:
@@ -442,7 +442,7 @@ def unfinished_run(data: PlayerData, chosen: Episode | None = None) -> EpisodeSe
         replays = []
     if chosen is None or len(replays) >= len(chosen.levels):
         return None
-    run = EpisodeSession(data, chosen)
+    run = EpisodePlaythrough(data, chosen)
     if replays:
         run.resume(replays)
     else:

@@ -12,7 +12,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.player.store import Store
 
-COLOURS = 9  # colours of the ninja beyond the first one; each complete column unlocks one (presentation.md §3)
+_COLOURS = 9  # colours of the ninja beyond the first one; each complete column unlocks one (presentation.md §3)
 
 OVERCLOCK_COLUMNS = 6
 FASTEST_TICK_GAIN = 10  # ms that overclock can take off a tick's 25
@@ -108,7 +108,7 @@ def complete_columns(progress: PackProgress, episodes: Collection[int]) -> int:
 
 def unlocked_colours(columns: int) -> int:
     """The number of colours beyond the first one that so many complete columns unlock."""
-    return min(columns, COLOURS)
+    return min(columns, _COLOURS)
 
 
 def custom_colour_unlocked(columns: int, present: int) -> bool:
@@ -163,13 +163,13 @@ WITH_HELP = "with help"  # instead of the body in marks of such passes: they unl
 
 
 class Mark(NamedTuple):
-    """``fastest``: tick of the earliest exit contact; ``most_gold``: most pieces in a passed run."""
+    """The best so far. ``fastest``: tick of the earliest exit contact; ``most_gold``: most pieces in a passed run."""
 
     fastest: int
     most_gold: int
 
 
-class Marks:
+class LevelMarks:
     """Marks in a store. Damaged ones are not read."""
 
     def __init__(self, store: Store) -> None:

@@ -42,8 +42,7 @@ class SavedReplay(NamedTuple):
 _SAVED = ", ".join(f"replay.{name}" for name in SavedReplay._fields)
 _SAVED_KINDS = tuple(get_type_hints(SavedReplay).values())
 
-_level = lru_cache(16)(parse_level_string)
-"""A level by its text: consecutive replays are often of one level."""
+_level = lru_cache(16)(parse_level_string)  # a level by its text: consecutive replays are often of one level
 
 _TEXTS = ("level", "level_text", "name", "player", "body", "outcome", "digest", "made", "co_authors")
 _WHOLE = {**dict.fromkeys(_TEXTS, str), "final_tick": int, "gold": int, "inputs": bytes}

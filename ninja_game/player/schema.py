@@ -15,13 +15,12 @@ OPENING_SECONDS = 1.0  # longest wait of a start for another program that has lo
 
 MAX_CELL_BYTES = 2**26  # the largest value, and row; SQLite itself makes values of a gigabyte if a file asks for it
 
-MAX_STEPS = 30
-"""Millions of instructions of SQLite to check a file: some four seconds; the records of years take one."""
+MAX_STEPS = 30  # millions of instructions of SQLite to check a file: some four seconds; the records of years take one
 
 _WRITE_VERSION = 18  # place of a byte in the file's header: 1 or 2 if SQLite may write it
 
 
-VERSION = 7  # the version of the tables, in a file's header; raise it with every change of them
+SCHEMA_VERSION = 7  # the version of the tables, in a file's header; raise it with every change of them
 
 _TABLES = {
     "replay": """(
@@ -93,8 +92,8 @@ class OtherVersionError(Exception):
     """
 
     def __init__(self, version: int) -> None:
-        self.age = "newer" if version > VERSION else "older"
-        super().__init__(f"written by a game that is {self.age}: version {version} instead of {VERSION}")
+        self.age = "newer" if version > SCHEMA_VERSION else "older"
+        super().__init__(f"written by a game that is {self.age}: version {version} instead of {SCHEMA_VERSION}")
 
 
 def open_database(name: str, source: Path | None = None, seconds: float = OPENING_SECONDS) -> sqlite3.Connection:
@@ -119,7 +118,7 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
             connection.execute("PRAGMA journal_mode = WAL")
         connection.execute("PRAGMA synchronous = FULL")
         connection.execute("PRAGMA foreign_keys = ON")
-        if connection.execute("PRAGMA user_version").fetchone()[0] != VERSION:
+        if connection.execute("PRAGMA user_version").fetchone()[0] != SCHEMA_VERSION:
             _create(connection)
     except UnicodeDecodeError:
         # SQLite's message about a damaged schema contains its bytes, which Python cannot decode.
@@ -191,7 +190,7 @@ def _check_file(connection: sqlite3.Connection, name: str) -> None:
         raise
     if not empty and application != APPLICATION_ID:
         raise sqlite3.DatabaseError("not a file of this game")
-    if version not in {0, VERSION}:
+    if version not in {0, SCHEMA_VERSION}:
         raise OtherVersionError(version)
     if connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
         raise sqlite3.DatabaseError("its pages contradict each other")
@@ -207,11 +206,11 @@ def _create(connection: sqlite3.Connection) -> None:
     """Make the tables of a new file, in one transaction; a second process with the same aim waits."""
     connection.execute("BEGIN IMMEDIATE")
     try:
-        if connection.execute("PRAGMA user_version").fetchone()[0] != VERSION:
+        if connection.execute("PRAGMA user_version").fetchone()[0] != SCHEMA_VERSION:
             for statement in SCHEMA.values():
                 connection.execute(statement)
             connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
-            connection.execute(f"PRAGMA user_version = {VERSION}")
+            connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
     except BaseException:
         connection.execute("ROLLBACK")
         raise

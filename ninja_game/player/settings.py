@@ -21,11 +21,11 @@ from ninja_game.files.writing import write_atomically
 if TYPE_CHECKING:
     from tomlkit import TOMLDocument
 
-VERSION = 1
+SETTINGS_VERSION = 1
 BINDING_TABLES = {"keys": "keys", "pad": "pad-buttons"}
 
 COMMENT = "Settings of ninja-game. What is missing or wrong here has its default; comments stay."
-MAX_BYTES = 2**16  # a larger file is no file of settings; a number of so many digits is read within 0.1 s
+MAX_SETTINGS_BYTES = 2**16  # a larger file is no file of settings; a number of so many digits is read within 0.1 s
 
 LOCK_SECONDS = 1.0
 
@@ -190,14 +190,14 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
     """
     try:
         with _long_numbers():
-            data = parse_toml(read_utf8(path, MAX_BYTES), any_number=True)
+            data = parse_toml(read_utf8(path, MAX_SETTINGS_BYTES), any_number=True)
     except FileNotFoundError:
         return Settings(), []
     except OSError as error:
         return Settings(), [f"The settings cannot be read ({error.strerror}); the defaults are used."]
     except (FileError, ValueError) as error:
         return Settings(), [f"The settings file is damaged ({shown_text(str(error))}). {_put_aside(path, 'damaged')}"]
-    if data.get("version", VERSION) != VERSION:
+    if data.get("version", SETTINGS_VERSION) != SETTINGS_VERSION:
         return Settings(), [f"The settings file is from another version of the game. {_put_aside(path, 'other')}"]
     return _settings_of(data)
 
@@ -206,7 +206,7 @@ def read_usable_settings(path: Path) -> Settings:
     """The usable settings in a file, for a caller that cannot wait: no message, no file moved."""
     try:
         with _long_numbers():
-            return _settings_of(parse_toml(read_utf8(path, MAX_BYTES), any_number=True))[0]
+            return _settings_of(parse_toml(read_utf8(path, MAX_SETTINGS_BYTES), any_number=True))[0]
     except (OSError, FileError, ValueError):
         return Settings()
 
@@ -280,10 +280,10 @@ def _changed_text(path: Path, before: Settings, after: Settings) -> str:
     why = "damaged"
     try:
         with _long_numbers():
-            text = read_utf8(path, MAX_BYTES)
+            text = read_utf8(path, MAX_SETTINGS_BYTES)
             parse_toml(text, any_number=True)
             document = tomlkit.parse(text)
-            if document.get("version", VERSION) == VERSION:
+            if document.get("version", SETTINGS_VERSION) == SETTINGS_VERSION:
                 for name in SPECS:
                     if getattr(before, name) != getattr(after, name):
                         _put(document, name, getattr(before, name), getattr(after, name))
@@ -305,7 +305,7 @@ def _new_text(settings: Settings) -> str:
 
     document = tomlkit.document()
     document.add(tomlkit.comment(COMMENT))
-    document.add("version", tomlkit.item(VERSION))
+    document.add("version", tomlkit.item(SETTINGS_VERSION))
     for name in SPECS:
         _put(document, name, {}, getattr(settings, name))
     return document.as_string()

@@ -36,7 +36,7 @@ from ninja_game.runs.workers import ClusterError
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_NAMES
 
-RECORDS = 64  # records a chunk at most: enough that sending it is cheap beside running it
+_RECORDS = 64  # records a chunk at most: enough that sending it is cheap beside running it
 
 Result = Verdict | Unreadable
 
@@ -88,8 +88,8 @@ def chunks_in(paths: Iterable[Path], record: int | None = None) -> Iterator[Chun
             yield Chunk(file, text=text, named=named)
         elif record is not None and records[record:]:
             yield Chunk(file, record, records=(records[record],), named=named)
-        for first in range(0, len(records) if record is None else 0, RECORDS):
-            yield Chunk(file, first, records=tuple(records[first : first + RECORDS]), named=named)
+        for first in range(0, len(records) if record is None else 0, _RECORDS):
+            yield Chunk(file, first, records=tuple(records[first : first + _RECORDS]), named=named)
 
 
 def self_contained(chunk: Chunk, level: Level | None = None) -> Chunk:
@@ -162,7 +162,7 @@ def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result
 
 
 MAX_NUMBER = 2**53  # numbers of a result are smaller
-OUTCOMES = (*OUTCOME_NAMES, NOT_RUN)
+_OUTCOMES = (*OUTCOME_NAMES, NOT_RUN)
 
 _TYPES = {name: hint for name, hint in get_type_hints(Verdict).items() if name != "problems"}
 
@@ -180,7 +180,7 @@ def result_from_data(data: object) -> Result:
             raise ValueError(f"{name} is out of range")
         if not isinstance(value, kind) or (isinstance(value, bool) and bool not in (kind, *get_args(kind))):
             raise ValueError(f"{name} is {value!r}"[:80])
-    if data["outcome"] not in OUTCOMES:
+    if data["outcome"] not in _OUTCOMES:
         raise ValueError(f"outcome is {data['outcome']!r}"[:80])
     problems = data["problems"]
     if not isinstance(problems, (list, tuple)) or not all(map(_is_problem, problems)):

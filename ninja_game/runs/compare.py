@@ -188,7 +188,7 @@ def _shortest_segments(runs: Sequence[RunSplits], known: Container[Key]) -> dict
     return shortest
 
 
-NEAR = CELL  # greatest distance of two runs at the same place, px: a cell
+NEAR_DISTANCE = CELL  # greatest distance of two runs at the same place, px: a cell
 
 MAX_PAIRS = 100_000_000  # most pairs of ticks that are compared: two runs of four minutes
 
@@ -224,8 +224,8 @@ class Comparison:
 
     ``first_keys``: the first tick with other keys; ``first_place``: the first tick after which the ninja is at another
     place, or the shorter run is over; None if there is no such tick. ``splits``: the lead at each split that both
-    reach; ``places``: the lead wherever the second run passes within NEAR px of the first, tick by tick of the first.
-    ``positions``: of both, float64 (ticks, 2), px. ``deaths``: the killers, in words; "": none.
+    reach; ``places``: the lead wherever the second run passes within NEAR_DISTANCE px of the first, tick by tick of
+    the first. ``positions``: of both, float64 (ticks, 2), px. ``deaths``: the killers, in words; "": none.
     """
 
     first_keys: int | None
@@ -299,19 +299,19 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
     return _nearest_on_path(came_from, ours, theirs)
 
 
-AHEAD = 10
+_AHEAD = 10
 """Ticks for which two ninjas are extrapolated at their speeds, to tell how near their states are. Not tuned."""
 
 
 def nearest_state(ours: NDArray[np.float64], tick: int, theirs: NDArray[np.float64]) -> int:
     """The tick of another run before which its ninja was nearest to ours before a tick, by place and speed; 0 for 0.
 
-    Positions after each tick, float64 (ticks, 2), px; a difference of speed counts as the distance after AHEAD ticks.
+    Positions after each tick, float64 (ticks, 2), px; a difference of speed counts as the distance after _AHEAD ticks.
     """
     if not tick:
         return 0
     moves, move = np.diff(theirs, axis=0, prepend=theirs[:1]), ours[tick - 1] - ours[max(tick - 2, 0)]
-    return int(np.argmin(np.hypot(*(theirs - ours[tick - 1]).T) + AHEAD * np.hypot(*(moves - move).T))) + 1
+    return int(np.argmin(np.hypot(*(theirs - ours[tick - 1]).T) + _AHEAD * np.hypot(*(moves - move).T))) + 1
 
 
 def _nearest_on_path(
@@ -320,7 +320,7 @@ def _nearest_on_path(
     """Follow the cheapest path back; for each of our ticks the nearest of its partners."""
     i, j = (size - 1 for size in came_from.shape)
     partner = np.full(len(ours), -1)
-    smallest = np.full(len(ours), NEAR)
+    smallest = np.full(len(ours), NEAR_DISTANCE)
     while i >= 0 and j >= 0:
         distance = float(np.hypot(*(ours[i] - theirs[j])))
         if distance <= smallest[i]:

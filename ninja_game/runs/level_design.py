@@ -22,19 +22,19 @@ from ninja_game.sim.states import LAUNCHER_FLIGHT, TURRET_PRE_FIRE
 Points = NDArray[np.float64]  # places, px: (n, 2)
 
 STANDING_TICKS = 400  # pause at the start: ten seconds
-NEAR = 20.0  # a near miss: fewer px between the ninja and a hazard
+_NEAR = 20.0  # a near miss: fewer px between the ninja and a hazard
 BAIT = 40.0  # gold closer (px) to a possible place of a hazard is in danger
-EMPTY = 4 * CELL  # space farther (px) from every object and from the run is unused
+_EMPTY = 4 * CELL  # space farther (px) from every object and from the run is unused
 FEW = 6  # with fewer pieces, evenness is not measured
 BAY = 6, 5  # columns and rows of a bay that may repeat
 
 HAZARDS = [kind for kind in kinds.KINDS if kind.killer]
-RADII = {kind.name: kind.disc or kind.box or 0.0 for kind in HAZARDS}
+_RADII = {kind.name: kind.disc or kind.box or 0.0 for kind in HAZARDS}
 """Distance from its place in a trace at which a hazard kills, px: a turret's shot and a rocket's tip are points."""
 GUNS = {"gauss turret": TURRET_PRE_FIRE, "homing launcher": LAUNCHER_FLIGHT}
 """Hazards that kill by shots, and their status number during a shot."""
-DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)  # right, down, left, up, as a thwump's direction numbers them
-LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}  # hazards that strike along a line
+_DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)  # right, down, left, up, as a thwump's direction numbers them
+_LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}  # hazards that strike along a line
 
 
 class Design(NamedTuple):
@@ -97,7 +97,7 @@ def design(level: Level, inputs: bytes) -> Design:
         most_bays(level),
         unused(level, ground, path),
         float(np.abs(np.diff(path, axis=0)).sum()) / max(CELL, float(to_exit.min(initial=np.inf))),
-        float(np.mean(clearance(run) < NEAR)),
+        float(np.mean(clearance(run) < _NEAR)),
     )
 
 
@@ -120,19 +120,19 @@ def clearance(run: RunTrace) -> NDArray[np.float64]:
     for column, kind in enumerate(run.kinds):
         rows = run.objects[:, column]
         deadly = rows["s"] == 1 if kind == "mine" else rows["s"] == GUNS[kind] if kind in GUNS else None
-        if kind not in RADII:
+        if kind not in _RADII:
             continue
-        space = np.hypot(run.ninja["x"] - rows["x"], run.ninja["y"] - rows["y"]) - RADIUS - RADII[kind]
+        space = np.hypot(run.ninja["x"] - rows["x"], run.ninja["y"] - rows["y"]) - RADIUS - _RADII[kind]
         nearest = np.minimum(nearest, space if deadly is None else np.where(deadly, space, np.inf))
     return nearest
 
 
 def in_danger(level: Level, ground: Ground, still: RunTrace, points: Points) -> NDArray[np.bool_]:
     """Which points lie within 40 px of a possible place of a hazard, or in the sight of a gun."""
-    by_touch = RADII.keys() - GUNS.keys()
+    by_touch = _RADII.keys() - GUNS.keys()
     moving = [rows[::5] for kind, rows in zip(still.kinds, still.objects.T, strict=True) if kind in by_touch]
     reached = [np.column_stack([rows["x"], rows["y"]]) for rows in moving]
-    lanes = [lane(ground, record) for record in level.objects if record.kind in LANES and well_formed(record)]
+    lanes = [lane(ground, record) for record in level.objects if record.kind in _LANES and well_formed(record)]
     reached += [np.array(list(cells)).reshape(-1, 2) for cells in lanes]
     near = distances(points, np.concatenate([places(level, kinds.MINE), *reached])) < BAIT
     for kind in (kinds.TURRET, kinds.LAUNCHER):
@@ -145,7 +145,7 @@ def lane(ground: Ground, record: ObjectSpec) -> Iterator[tuple[float, float]]:
     """The places where a thwump strikes or a guard runs: steps of half a cell up to the rock."""
     x, y = record.values[:2]
     is_guard = record.kind == kinds.FLOOR_GUARD
-    for dx, dy in [(1, 0), (-1, 0)] if is_guard else [DIRECTIONS[int(record.values[2]) % 4]]:
+    for dx, dy in [(1, 0), (-1, 0)] if is_guard else [_DIRECTIONS[int(record.values[2]) % 4]]:
         for step in range(2 * COLUMNS):
             place = x + dx * step * CELL / 2, y + dy * step * CELL / 2
             if solid_at(ground.level, *place):
@@ -198,4 +198,4 @@ def unused(level: Level, ground: Ground, path: Points) -> float:
         return 0.0
     cells = np.array([(CENTRE_X[cell], CENTRE_Y[cell]) for cell in ground.cells])
     used = np.array([record.values[:2] for record in level.objects if well_formed(record)], np.float64)
-    return float(np.mean(np.minimum(distances(cells, used), distances(cells, path[::5])) > EMPTY))
+    return float(np.mean(np.minimum(distances(cells, used), distances(cells, path[::5])) > _EMPTY))

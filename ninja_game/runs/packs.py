@@ -113,14 +113,16 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
         yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, measured)
 
 
-KINDS = ("exit", "gold")
+RUN_KINDS = ("exit", "gold")
 
 
 def level_of(pack: Pack, file: str) -> str:
     """The level file that a file is, or that it certifies; else the file."""
     if not file.startswith(CERTIFICATES):
         return file
-    return next((level for level in pack.files.levels for kind in KINDS if certificate_name(level, kind) == file), file)
+    return next(
+        (level for level in pack.files.levels for kind in RUN_KINDS if certificate_name(level, kind) == file), file
+    )
 
 
 def lint(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> Iterator[PackFinding]:
@@ -207,12 +209,12 @@ def _about_levels(pack: Pack) -> Iterator[PackFinding]:
 
 
 def _about_certificates(pack: Pack) -> Iterator[PackFinding]:
-    named = {pack.certificate(file, kind) for file in pack.files.levels for kind in KINDS}
+    named = {pack.certificate(file, kind) for file in pack.files.levels for kind in RUN_KINDS}
     for name in pack.files.names:
         if name.startswith(CERTIFICATES) and name not in named:
             yield pack_finding("stray-certificate", name)
     for file in pack.levels:
-        for kind in KINDS:
+        for kind in RUN_KINDS:
             try:
                 run, name = certificate(pack, file, kind), certificate_name(file, kind)
                 if run:

@@ -42,7 +42,7 @@ OBJECT_RECORD = np.dtype([("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
 
 MAX_CELLS = 8_000_000  # most objects times ticks in a trace: some 330 MB while it is made
 
-BLOCK = 256  # ticks traced at a time if the end of the run is unknown
+_BLOCK = 256  # ticks traced at a time if the end of the run is unknown
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ def trace_level(
     )
     kinds = [world.observe(id_ + 1)[0] for id_ in range(world.number("id_count"))] if with_objects else []
     ids = tuple(id_ for id_, kind in enumerate(kinds) if KIND_OF[kind].traced)
-    end, most, at_once = len(inputs), affordable_ticks(level, budget), BLOCK if after is not None else MAX_TICKS
+    end, most, at_once = len(inputs), affordable_ticks(level, budget), _BLOCK if after is not None else MAX_TICKS
     if world.name == "plain":
         at_once = min(at_once, affordable_ticks(level, PLAIN_WORK))
     blocks: list[TraceArrays] = []

@@ -24,13 +24,13 @@ from ninja_game.files.untrusted import MAX_ARRAYS, UNREADABLE, open_zip, read_ar
 from ninja_game.runs.trace import NINJA_NAME, NINJA_RECORD, OBJECT_RECORD, RunTrace, rows
 from ninja_game.sim.inputs import MAX_TICKS, Input
 
-COLUMNS = (
+TRACE_COLUMNS = (
     "file", "record", "name", "tick", "keys", "id", "kind", "x", "y", "s", "prev_x", "prev_y", "vx", "vy", "gold",
     "events",
 )  # fmt: skip
 """Columns of the CSV. The ninja has no id; objects have neither keys, previous position, velocity, gold nor events."""
 
-MAX_BYTES = 2**28  # the largest CSV, or all arrays of a .npz: a million ticks of the ninja are a seventh of it
+MAX_TRACE_BYTES = 2**28  # the largest CSV, or all arrays of a .npz: a million ticks of the ninja are a seventh of it
 
 _KEYS = (("L", Input.LEFT), ("R", Input.RIGHT), ("J", Input.JUMP_HELD), ("!", Input.JUMP_PRESSED))
 
@@ -64,7 +64,7 @@ def keys_text(keys: int) -> str:
 
 def write_csv(traces: Iterable[FiledTrace], out: IO[str]) -> None:
     """Write traces; numbers are the shortest decimals that read back as the same double."""
-    table = csv.DictWriter(out, COLUMNS, restval="", lineterminator="\n")
+    table = csv.DictWriter(out, TRACE_COLUMNS, restval="", lineterminator="\n")
     table.writeheader()
     for record, name, run, file, inputs, _ in traces:
         place = {"file": file, "record": record, "name": name}
@@ -80,13 +80,13 @@ def read_csv(text: Iterable[str], *, file: str = "") -> Iterator[FiledTrace]:
         header = tuple(table.fieldnames or ())
     except csv.Error:
         header = ("no table",)
-    if header != COLUMNS:
+    if header != TRACE_COLUMNS:
         raise FormatError(
             "this is not a trace",
             file=file,
             line=1,
             found=repr(",".join(header)[:80]),
-            expected=f"the header {','.join(COLUMNS)}",
+            expected=f"the header {','.join(TRACE_COLUMNS)}",
             hint="`ninja-game trace -o` writes it",
         )
     try:
@@ -158,7 +158,7 @@ def write_npz(traces: Iterable[FiledTrace], out: IO[bytes]) -> None:
 def read_npz(data: IO[bytes], path: Path) -> Iterator[FiledTrace]:
     """The traces of a file that ``write_npz`` wrote. Raises FormatError where it is something else."""
     try:
-        with open_zip(data, most_files=MAX_ARRAYS, most_bytes=MAX_BYTES) as archive:
+        with open_zip(data, most_files=MAX_ARRAYS, most_bytes=MAX_TRACE_BYTES) as archive:
             arrays = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
             for number in sorted(int(name.removeprefix("ninja_")) for name in arrays if name.startswith("ninja_")):
                 yield _read_arrays(archive, arrays, number)
@@ -187,14 +187,14 @@ def _read_arrays(archive: ZipFile, arrays: Mapping[str, ZipInfo], number: int) -
 def is_trace(path: Path) -> bool:
     """Whether a file is a trace, by its first bytes. Raises FileError for anything but a regular file; OSError."""
     with open_regular(path) as file:
-        return file.readline(len(COLUMNS[0]) + 1).startswith((f"{COLUMNS[0]},".encode(), ZIPPED))
+        return file.readline(len(TRACE_COLUMNS[0]) + 1).startswith((f"{TRACE_COLUMNS[0]},".encode(), ZIPPED))
 
 
 def read_traces(path: Path) -> Iterator[FiledTrace]:
     """The traces of a CSV or .npz file, by what the file begins with. Raises FormatError, FileError, OSError."""
     with open_regular(path) as file:
-        if os.fstat(file.fileno()).st_size > MAX_BYTES:
-            expected = f"at most {MAX_BYTES >> 20} MiB, unpacked"
+        if os.fstat(file.fileno()).st_size > MAX_TRACE_BYTES:
+            expected = f"at most {MAX_TRACE_BYTES >> 20} MiB, unpacked"
             raise FileError("the trace is too large", str(path), expected=expected)
         zipped = file.read(len(ZIPPED)) == ZIPPED
         file.seek(0)

@@ -29,14 +29,14 @@ from ninja_game.signals import signals_deferred
 J = TypeVar("J")
 R = TypeVar("R")
 
-AHEAD = 4  # jobs in flight for each worker: enough that none waits
+_AHEAD = 4  # jobs in flight for each worker: enough that none waits
 
-TRIES = 3  # times that a job may kill a process before it is given up; a cluster's scheduler counts by itself
+_TRIES = 3  # times that a job may kill a process before it is given up; a cluster's scheduler counts by itself
 
 WORKER_BYTES = 2 << 30  # memory of a worker process, on systems with such limits
 JOB_SECONDS = 3600  # processor time of one job there
 
-PATIENCE = 30  # seconds to wait for a cluster's first worker
+_PATIENCE = 30  # seconds to wait for a cluster's first worker
 
 
 class ClusterError(NinjaGameError):
@@ -55,7 +55,7 @@ class Local:
     """
 
     lost: tuple[type[BaseException], ...] = (BrokenProcessPool, MemoryError)
-    tries = TRIES
+    tries = _TRIES
 
     def __init__(self, count: int, *, processes: bool = False) -> None:
         self.count = count
@@ -163,7 +163,7 @@ class Cluster:
         except (OSError, ValueError, TypeError) as error:
             raise ClusterError(f"no Dask scheduler at {address!r}: {error}") from None
         try:
-            self._client.wait_for_workers(1, timeout=PATIENCE)
+            self._client.wait_for_workers(1, timeout=_PATIENCE)
         except OSError:
             self._client.close()
             raise ClusterError(f"the Dask scheduler at {address} has no workers") from None
@@ -205,7 +205,7 @@ def in_order(pool: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> It
     flying: deque[tuple[J, Any]] = deque()
     waiting = iter(jobs)
     while True:
-        for job in islice(waiting, max(0, AHEAD * pool.count - len(flying))):
+        for job in islice(waiting, max(0, _AHEAD * pool.count - len(flying))):
             flying.append((job, pool.submit(function, job)))
         if not flying:
             return

@@ -143,7 +143,7 @@ def save_replay(path: Path, replay: Replay) -> None:
     write_atomically(path, write_replay(replay))
 
 
-MAX_TICKS = 4000
+MAX_SIMPLIFIED_TICKS = 4000
 """Longer runs keep all their keys: a tick takes some 0.5 ms."""
 _CHOICES = (*range(8), *range(12, 16))
 """The inputs that a keyboard can make in one tick."""
@@ -155,15 +155,15 @@ def without_idle_keys(
     """Simplify keys in the ticks ``first`` … ``last`` - 1 (None: to the end) without a change of any tick's state.
 
     Of keys that lead to the same state a tick gets those of ``original``, the run that ``inputs`` was made from, as
-    long as both go the same way; after that, as few changes as possible. Runs over MAX_TICKS, and runs with triggers
-    that no keyboard makes, stay as they are.
+    long as both go the same way; after that, as few changes as possible. Runs over
+    MAX_SIMPLIFIED_TICKS, and runs with triggers that no keyboard makes, stay as they are.
     """
     import numpy as np  # pages do not have it
 
     from ninja_game.batch.batch import Batch
 
     last = len(inputs) if last is None else last
-    if len(inputs) > MAX_TICKS or with_press_bits(inputs) != inputs:
+    if len(inputs) > MAX_SIMPLIFIED_TICKS or with_press_bits(inputs) != inputs:
         return inputs
     batch = Batch(level, len(_CHOICES), body=body, threads=1)
 

@@ -11,7 +11,10 @@ from ninja_game.formats.replay.provenance import names_of_text
 
 @dataclass(frozen=True)
 class Contributions:
-    """``edits``: of keys; ``commands``: those whose searched keys were used; ``names``: other contributors."""
+    """What a run under edit is made of. ``edits``: number of edits of keys.
+
+    ``commands``: those whose searched keys were used; ``names``: other contributors.
+    """
 
     edits: int = 0
     commands: tuple[str, ...] = ()

@@ -17,16 +17,14 @@ from ninja_game.runs.compare import Split, run_splits
 from ninja_game.search.formula.task import MAX_SPAN
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.tas.session import Session
+from ninja_game.tas.session import TasSession
 from ninja_game.tas.timeline import Timeline
 
-EXIT_TICKS = 5 * TICKS_PER_SECOND
-"""Least ticks in which the exit is searched, for a run that does not reach it."""
+EXIT_TICKS = 5 * TICKS_PER_SECOND  # least ticks in which the exit is searched, for a run that does not reach it
 IMPROVES = IMPROVE, IMPROVE_GOLD = "improve", "improve with the gold"
 """Methods for a whole run: with any gold, or with as much as it has."""
-NEAR = 6.0  # px within which the ninja is at a place
-SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
-"""Greatest distance between two equal ends, px and px/tick."""
+_NEAR = 6.0  # px within which the ninja is at a place
+SAME_PLACE, SAME_VELOCITY = 0.5, 0.05  # greatest distance between two equal ends, px and px/tick
 
 
 class SpanGoal(NamedTuple):
@@ -48,7 +46,7 @@ class SpanGoal(NamedTuple):
 class SearchedSpan:
     """The ticks ``first`` … ``last`` - 1 of a run under edit."""
 
-    session: Session
+    session: TasSession
     first: int
     last: int
 
@@ -82,7 +80,7 @@ class SearchedSpan:
 
 def be_there(span: SearchedSpan) -> SpanGoal:
     end = span.end
-    return SpanGoal(f"distance({end['x']:.6g}, {end['y']:.6g}) < {NEAR:g}")
+    return SpanGoal(f"distance({end['x']:.6g}, {end['y']:.6g}) < {_NEAR:g}")
 
 
 def go_beyond(span: SearchedSpan) -> SpanGoal:

@@ -35,7 +35,7 @@ from ninja_game.tas.tracks import (
     track_of_json,
 )
 
-FOLDER, SUFFIX = "tas", ".jsonl"  # in the player's folder
+JOURNAL_FOLDER, JOURNAL_SUFFIX = "tas", ".jsonl"  # in the player's folder
 
 
 def edit_as_json(old: InputTrack, new: InputTrack) -> dict[str, Any]:
@@ -70,7 +70,7 @@ class Journal(RecoveryFile):
     """Writes the journal of one run, from its first edit on. ``opened``: its first line."""
 
     def __init__(self, folder: Path, opened: dict[str, Any], file: Path | None = None) -> None:
-        super().__init__(folder / FOLDER, SUFFIX, file)
+        super().__init__(folder / JOURNAL_FOLDER, JOURNAL_SUFFIX, file)
         self.opened = opened
         self._handle: int | None = None
 
@@ -138,7 +138,7 @@ class RecoveredRun:
 
 def recovered(folder: Path) -> Iterator[RecoveredRun]:
     """The runs of sessions that crashed, the newest first; those of running sessions are left out."""
-    return recovered_from(folder / FOLDER, SUFFIX, read_journal)
+    return recovered_from(folder / JOURNAL_FOLDER, JOURNAL_SUFFIX, read_journal)
 
 
 def read_journal(file: Path) -> RecoveredRun:

@@ -17,13 +17,12 @@ from ninja_game.tas.journal import BesideRun, Journal, RecoveredRun, edit_as_jso
 from ninja_game.tas.timeline import EMPTY_TRAJECTORY, Timeline, Trajectory
 from ninja_game.tas.tracks import Branch, Branches, InputTrack, branch_as_json, track_as_json
 
-TICKS_PER_FRAME = 6000
-"""Ticks simulated at once after an edit on the compiled memory: some ms."""
+TICKS_PER_FRAME = 6000  # ticks simulated at once after an edit on the compiled memory: some ms
 TICKS_PER_FRAME_PLAIN = 2000
 OPENED = "as it was opened"
 
 
-class Session:
+class TasSession:
     """A run under edit. ``folder``: the player's, for the journal; ``player``: the editor of the run.
 
     ``origin``: level, body, name and author of the run; ``moved``: it was recorded on another level. ``before_track``:

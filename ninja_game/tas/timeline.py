@@ -30,13 +30,11 @@ from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_NAMES
 from ninja_game.simulation import SaveState, Simulation
 from ninja_game.tas.tracks import first_difference
 
-AFTERMATH = 40
-"""Ticks simulated behind the last input, without a key."""
+AFTERMATH = 40  # ticks simulated behind the last input, without a key
 _GROWTH = 4096  # least growth of the table, rows
 _WATCHED_RECORD = np.dtype([*OBJECT_RECORD.descr, ("switched", "u1")])
 
-NINJA_FIELDS = (*TRACED_FLOATS, "state", "in_air")
-"""The fields of the ninja on which its picture depends."""
+NINJA_FIELDS = (*TRACED_FLOATS, "state", "in_air")  # the fields of the ninja on which its picture depends
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,8 +65,7 @@ class Trajectory:
         return {name: column[min(tick, len(column) - 1)].item() for name, column in self.columns.items()}
 
 
-EMPTY_TRAJECTORY = Trajectory({name: np.zeros(0) for name in NINJA_FIELDS})
-"""The trajectory of a run without ticks."""
+EMPTY_TRAJECTORY = Trajectory({name: np.zeros(0) for name in NINJA_FIELDS})  # the trajectory of a run without ticks
 
 
 class Timeline:
@@ -285,8 +282,7 @@ class Timeline:
         return run.world
 
 
-NAMED_APART = 3
-"""Objects that ``apart_text`` names at most."""
+NAMED_APART = 3  # objects that `apart_text` names at most
 
 
 def apart_text(ours: World, theirs: World) -> str:

@@ -18,11 +18,12 @@ from ninja_game.tas.contributions import NONE, Contributions
 
 @dataclass(frozen=True)
 class InputTrack:
-    """``inputs``: one byte per tick, the sum of its ``Input`` flags; in ticks beyond them no key is down.
+    """The inputs of a run under edit, which never change: an edit gives another track.
 
-    A jump triggers when the key goes down. Other jumps in a recording (``Input.JUMP_PRESSED`` without the key, or a key
-    that goes down without it) stay in all ticks that are not edited. ``made``: the contributions to the keys since the
-    run was opened; a session sets it for each track.
+    ``inputs``: one byte per tick, the sum of its ``Input`` flags; in ticks beyond them no key is down. A jump triggers
+    when the key goes down. Other jumps in a recording (``Input.JUMP_PRESSED`` without the key, or a key that goes down
+    without it) stay in all ticks that are not edited. ``made``: the contributions to the keys since the run was opened;
+    a session sets it for each track.
     """
 
     inputs: bytes

@@ -17,7 +17,7 @@ from ninja_game.play.workspace import Commands, Pane
 from ninja_game.sim.grid import Point
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.journal import BesideRun
-from ninja_game.tas.session import Session
+from ninja_game.tas.session import TasSession
 from ninja_game.tas.timeline import Timeline, Trajectory
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
@@ -44,7 +44,7 @@ class OtherRun:
 class TasEditor:
     """The shared state of all parts of the TAS editor."""
 
-    def __init__(self, app: App, session: Session) -> None:
+    def __init__(self, app: App, session: TasSession) -> None:
         self.app = app
         self.session = session
         self.theme: Theme = app.theme  #: in the TAS editor's own logical px, unlike other screens'

@@ -16,7 +16,7 @@ from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, WorkspaceScreen
 from ninja_game.tas.files import OpenedRun, new_run, same_level
 from ninja_game.tas.journal import RecoveredRun
-from ninja_game.tas.session import Session
+from ninja_game.tas.session import TasSession
 from ninja_game.tas_editor.commands import TABLE, RunCommands
 from ninja_game.tas_editor.editor import Splitters, TasEditor, TasPart
 from ninja_game.tas_editor.level.part import LevelPart
@@ -47,7 +47,7 @@ class TasScreen(WorkspaceScreen):
         self, app: App, opened: OpenedRun, others: Sequence[Recording] = (), recovered_run: RecoveredRun | None = None
     ) -> None:
         super().__init__(app)
-        self.session = Session(opened, app.player.folder, player=app.settings.name)
+        self.session = TasSession(opened, app.player.folder, player=app.settings.name)
         if recovered_run is not None:
             self.session.recover(recovered_run)
         self.editor = TasEditor(app, self.session)

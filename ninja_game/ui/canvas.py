@@ -10,8 +10,7 @@ import pygame
 
 from ninja_game.sim.grid import Point
 
-WIDTH, HEIGHT = 792, 600
-"""Logical size of the stage, px."""
+WIDTH, HEIGHT = 792, 600  # logical size of the stage, px
 
 Colour = str | tuple[int, int, int] | tuple[int, int, int, int] | pygame.Color
 

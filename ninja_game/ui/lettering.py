@@ -67,11 +67,11 @@ def _safe(text: str) -> str:
     return "\u2003".join(map(shown_text, text.split("    ")))
 
 
-HEIGHT = 1.08  # height of a line of text for letters of size 1; capitals are 0.675 of the size
+LINE_HEIGHT = 1.08  # height of a line of text for letters of size 1; capitals are 0.675 of the size
 _CAP_SHARE = 0.675
 _TOP = 0.1
 WEIGHTS = (0.95, 1.42)  # width of the strokes of plain and bold letters, on the glyphs' grid
-SPACING = 1.18  # free space between two letters, on the grid, stroke ends not counted
+LETTER_SPACING = 1.18  # free space between two letters, on the grid, stroke ends not counted
 _FINE = 4
 _LOWERED = 0.8  # height of a tall letter under an accent, as a share of its usual height
 _COMMANDS = re.compile(r"([MLQOAD])([^MLQOAD]*)")
@@ -179,7 +179,7 @@ class StrokeFont:
     def __init__(self, size: float, *, bold: bool) -> None:
         self._unit = size * _CAP_SHARE / CAP
         self._weight = WEIGHTS[bold]
-        self.height = max(1, ceil(size * HEIGHT))
+        self.height = max(1, ceil(size * LINE_HEIGHT))
         self._baseline_top = _TOP * size
         self._pad = self._weight / 2 * self._unit + 1
         self._fallback = pygame.font.Font(None, max(6, round(size * 1.35)))
@@ -188,7 +188,7 @@ class StrokeFont:
 
     def _advance(self, letter: Glyph) -> float:
         """Distance to the next letter, px."""
-        return (letter.width + SPACING + self._weight) * self._unit
+        return (letter.width + LETTER_SPACING + self._weight) * self._unit
 
     def _width(self, text: str) -> int:
         """Width of a text, px."""
@@ -197,7 +197,7 @@ class StrokeFont:
         letters = [glyph(character) for character in text]
         if None in letters:
             return self._fallback.size(text)[0] + 2
-        return ceil(sum(self._advance(letter) for letter in letters if letter) - SPACING * self._unit + 2)
+        return ceil(sum(self._advance(letter) for letter in letters if letter) - LETTER_SPACING * self._unit + 2)
 
     def _draw(self, character: str, colour: tuple[int, int, int, int], phase: int) -> pygame.Surface:
         """A letter on its own sheet, its origin ``phase`` quarters of a px beside ``_pad`` px from the left."""

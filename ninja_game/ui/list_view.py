@@ -12,7 +12,7 @@ from ninja_game.ui.widgets import Widget
 DrawRow = Callable[[pygame.Surface, Theme, int, Area, bool], None]
 """Draws a row: surface, theme, number, area, whether it is selected while the list has the focus."""
 
-BAR = 8
+BAR_WIDTH = 8
 
 
 class ListView(Widget):
@@ -101,7 +101,7 @@ class ListView(Widget):
     def row_area(self, index: int) -> Area:
         x, y, w, _ = self.area
         line, column = divmod(index, self.columns)
-        width = (w - BAR - 4) / self.columns
+        width = (w - BAR_WIDTH - 4) / self.columns
         return x + column * width, y + (line - self.first) * self.cell_height, width, self.cell_height
 
     def _index_at(self, x: float, y: float) -> int | None:
@@ -113,7 +113,7 @@ class ListView(Widget):
 
     def click(self, x: float, y: float) -> bool:
         """Choose the clicked row; on the bar: scroll there."""
-        if x >= self.area[0] + self.area[2] - BAR - 4:
+        if x >= self.area[0] + self.area[2] - BAR_WIDTH - 4:
             return self.drag(x, y)
         index = self._index_at(x, y)
         if index is not None:
@@ -135,7 +135,7 @@ class ListView(Widget):
 
     def drag(self, x: float, y: float) -> bool:
         hidden = self.lines - self.visible_lines
-        if hidden <= 0 or x < self.area[0] + self.area[2] - BAR - 30:
+        if hidden <= 0 or x < self.area[0] + self.area[2] - BAR_WIDTH - 30:
             return False
         share = (y - self.area[1]) / self.area[3]
         self.first = round(min(1.0, max(0.0, share)) * hidden)
@@ -156,5 +156,5 @@ class ListView(Widget):
         if self.lines > self.visible_lines:
             length = max(20.0, h * self.visible_lines / self.lines)
             top = y + (h - length) * self.first / (self.lines - self.visible_lines)
-            theme.canvas.fill_rect(surface, theme.palette.panel_edge, x + w - BAR, y, BAR - 3, h, 2)
-            theme.canvas.fill_rect(surface, theme.palette.accent, x + w - BAR, top, BAR - 3, length, 2)
+            theme.canvas.fill_rect(surface, theme.palette.panel_edge, x + w - BAR_WIDTH, y, BAR_WIDTH - 3, h, 2)
+            theme.canvas.fill_rect(surface, theme.palette.accent, x + w - BAR_WIDTH, top, BAR_WIDTH - 3, length, 2)

@@ -12,7 +12,7 @@ from ninja_game.ui.theme import Theme, mixed
 _METALS = {"bronze": "#b8743a", "silver": "#b4bcc6", "gold": "#e3b021", "author": "#5fb2a5"}
 _INK = pygame.Color("#1d1d22")
 _LARGE = 30.0  # size from which a medal shows its relief, px
-MEDALS = tuple(reversed(pars.MEDALS))
+MEDALS_FROM_BRONZE = tuple(reversed(pars.MEDALS))
 
 
 def draw_medal(

@@ -15,7 +15,7 @@ import pygame
 
 from ninja_game.files.bundled import asset_lines
 from ninja_game.ui.canvas import Canvas, Colour
-from ninja_game.ui.lettering import HEIGHT, Lettering
+from ninja_game.ui.lettering import LINE_HEIGHT, Lettering
 
 Area = tuple[float, float, float, float]  # x, y, width, height, logical px
 
@@ -25,7 +25,7 @@ def inside(area: Area, x: float, y: float) -> bool:
     return left <= x < left + w and top <= y < top + h
 
 
-EDGE = 2  # px left free between a text and the window's edge
+_EDGE = 2  # px left free between a text and the window's edge
 
 NARROWEST = 0.2
 """Width of the narrowest letter with its space, as a share of the size: longer texts are shortened before measuring."""
@@ -62,7 +62,7 @@ class Theme:
         room = self._room(x, align) if width is None else min(width, self._room(x, align))
         scale = self.largest(text, size, room, bold=bold, height=height)
         text = self._fit(text, room, size * scale, bold=bold)
-        y -= (scale - 1) * size * HEIGHT / 2
+        y -= (scale - 1) * size * LINE_HEIGHT / 2
         return self.lettering.draw(
             surface, text, x, y, size * scale, colour or self.palette.text, align=align, bold=bold
         )
@@ -71,21 +71,21 @@ class Theme:
         """The room from a text's place to the window's edges."""
         left, right = self.canvas.logical((0, 0))[0], self.canvas.logical(self.canvas.window)[0]
         rooms = {"left": right - x, "right": x - left}
-        return rooms.get(align, 2 * min(right - x, x - left)) - EDGE
+        return rooms.get(align, 2 * min(right - x, x - left)) - _EDGE
 
     def largest(
         self, text: str, size: float, width: float, *, bold: bool = False, height: float | None = None
     ) -> float:
         """The largest scale in which a text fits; the smallest if none does. ``size``: in the normal one."""
         for scale in self.scales[:-1]:
-            high = height is None or size * scale * HEIGHT <= height
+            high = height is None or size * scale * LINE_HEIGHT <= height
             if high and self.lettering.width(text, size * scale, bold=bold) <= width:
                 return scale
         return self.scales[-1]
 
     def common_height(self, texts: Iterable[str], size: float, width: float) -> float:
         """The height at which all bold texts of a list of that width get the same scale."""
-        return size * HEIGHT * min(self.largest(text, size, width, bold=True) for text in texts)
+        return size * LINE_HEIGHT * min(self.largest(text, size, width, bold=True) for text in texts)
 
     def width(self, text: str, size: float = 8, *, bold: bool = False) -> float:
         """Width of a text that fits, logical px."""

@@ -25,7 +25,7 @@ from ninja_game.view.sprites.drawing import DrawTarget, is_near
 OVERLAY_ACTIONS = (
     "overlay_hitboxes", "overlay_grid", "overlay_edges", "overlay_rays", "overlay_cells", "overlay_thinkers",
 )  # fmt: skip
-HIT_BOXES, GRID, EDGES, RAYS, CELLS, THINKERS = OVERLAY_ACTIONS
+_HIT_BOXES, _GRID, _EDGES, _RAYS, _CELLS, _THINKERS = OVERLAY_ACTIONS
 
 _SIDES: tuple[tuple[float, float, float, float], ...] = (
     (10.6, -11, 10.6, 11), (-11, 10.6, 11, 10.6), (-10.6, -11, -10.6, 11), (-11, -10.6, 11, -10.6),
@@ -71,30 +71,30 @@ class Overlays:
         if not self.on:
             return
         world = simulation.world
-        if self.on & {GRID, EDGES}:
+        if self.on & {_GRID, _EDGES}:
             self._draw_sheet(target, world)
-        if CELLS in self.on:
+        if _CELLS in self.on:
             _draw_cells(target, world)
-        if RAYS in self.on:
+        if _RAYS in self.on:
             _draw_rays(target, simulation)
-        if THINKERS in self.on:
+        if _THINKERS in self.on:
             _draw_thinkers(target, world)
-        if HIT_BOXES in self.on:
+        if _HIT_BOXES in self.on:
             for shape in hit_shapes(world):
                 _draw_shape(target, shape)
-        if self.on & {GRID, EDGES}:
+        if self.on & {_GRID, _EDGES}:
             # The sheet covers everything: one rectangle to restore, not hundreds.
             target.covered[:] = [target.canvas.stage]
 
     def _draw_sheet(self, target: DrawTarget, world: World) -> None:
         """Grid and edges seldom change: they are drawn once and copied."""
-        state = (target.canvas, target.palette.name, GRID in self.on, EDGES in self.on, bytes(world.edges))
+        state = (target.canvas, target.palette.name, _GRID in self.on, _EDGES in self.on, bytes(world.edges))
         if self._sheet is None or state != self._sheet_of:
             self._sheet_of = state
             self._sheet = pygame.Surface(target.canvas.window, pygame.SRCALPHA)
-            if GRID in self.on:
+            if _GRID in self.on:
                 _paint_grid(self._sheet, target.canvas, target.palette)
-            if EDGES in self.on:
+            if _EDGES in self.on:
                 _paint_edges(self._sheet, target.canvas, target.palette, world)
         target.surface.blit(self._sheet, (0, 0))
 

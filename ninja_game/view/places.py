@@ -24,8 +24,7 @@ Things = tuple[tuple[float, float, int], ...]
 
 MUST, MAY = 1000, 30
 
-TAG_ROOM = 72.0
-"""Below this line, px, there is room for a thing's name above it."""
+TAG_ROOM = 72.0  # below this line, px, there is room for a thing's name above it
 
 
 def tag_top(y: float) -> float:

@@ -188,7 +188,7 @@ def test_splits_end_before_the_keys_and_the_newest_is_not_cut(
 def test_a_large_gif_is_told(replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     said = "as .mp4 it would be smaller"
     assert said not in film_of(replay, "--to", 3, "-o", tmp_path / "a.gif").output
-    monkeypatch.setattr("ninja_game.cli.terminal.LARGE", 9)
+    monkeypatch.setattr("ninja_game.cli.terminal._LARGE", 9)
     assert said in film_of(replay, "--to", 3, "-o", tmp_path / "b.gif").output
 
 

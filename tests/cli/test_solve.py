@@ -364,7 +364,7 @@ def test_progress_is_told_now_and_then_where_nobody_watches(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(progress, "LONG", 0.001)
-    monkeypatch.setattr(progress, "EVERY", 0.001)
+    monkeypatch.setattr(progress, "_EVERY", 0.001)
     told = []
 
     def items() -> Iterator[int]:

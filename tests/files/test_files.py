@@ -138,6 +138,17 @@ def test_other_errors_within_the_block_keep_their_names(tmp_path: Path) -> None:
     assert missing.value.filename == str(tmp_path / "other")
 
 
+def test_a_process_that_is_ended_by_force_leaves_no_unfinished_file(tmp_path: Path) -> None:
+    program = (
+        "import pathlib, sys\nfrom ninja_game import signals\nfrom ninja_game.files.writing import open_atomically\n"
+        "with open_atomically(pathlib.Path(sys.argv[1])) as file:\n"
+        "    file.write(b'half')\n    signals._end(15)\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", program, str(tmp_path / "a")], check=False, capture_output=True)
+    assert (ended.returncode, ended.stderr) == (143, b"ninja-game: terminated\n")
+    assert not list(tmp_path.iterdir())
+
+
 def test_leftovers_of_killed_writers_are_removed_and_live_ones_stay(tmp_path: Path) -> None:
     program = (
         "import os, pathlib, signal, sys\nfrom ninja_game.files.writing import open_atomically\n"

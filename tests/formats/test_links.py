@@ -22,8 +22,8 @@ from ninja_game.files import reading
 from ninja_game.files.bundled import bundled_levels, bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.links import (
-    MAX_BYTES,
     MAX_CHARACTERS,
+    MAX_LINK_BYTES,
     MAX_TEXTS,
     is_link,
     level_link,
@@ -171,8 +171,8 @@ def packed(data: bytes, *, checked: bool = True) -> str:
         (LINK.replace("#level", "#replay") + "&" + LINK[1:], "too many things"),
         (f"#level=1.{packed(b'x', checked=False)}", "not whole"),
         (f"#level=1.{packed(bytes(20))}", "not a text file"),
-        (f"#level=1.{packed(b'0' * (MAX_BYTES + 1))}", "unpacks to too much"),
-        ("#replay=" + "&replay=".join([f"1.{packed(b'0' * (MAX_BYTES // 2 + 1))}"] * 2), "unpacks to too much"),
+        (f"#level=1.{packed(b'0' * (MAX_LINK_BYTES + 1))}", "unpacks to too much"),
+        ("#replay=" + "&replay=".join([f"1.{packed(b'0' * (MAX_LINK_BYTES // 2 + 1))}"] * 2), "unpacks to too much"),
         ("#level=1." + "A" * MAX_CHARACTERS, "too long"),
     ],
 )
@@ -184,7 +184,7 @@ def test_broken_links_say_so(link: str, message: str) -> None:
 
 def test_too_much_for_a_link_is_refused_when_it_is_made() -> None:
     noise = "".join(map(chr, random.Random(1).choices(range(0x100, 0x2000), k=MAX_CHARACTERS // 2)))
-    for text in ("0" * (MAX_BYTES + 1), noise):
+    for text in ("0" * (MAX_LINK_BYTES + 1), noise):
         with pytest.raises(LinkError, match="too much for a link"):
             write_link("level", [text])
 
@@ -196,7 +196,7 @@ def test_bomb_takes_no_more_memory_than_the_limit() -> None:
         pack_texts(bomb)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert peak < 4 * MAX_BYTES
+    assert peak < 4 * MAX_LINK_BYTES
 
 
 def test_replay_in_a_link_reads_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

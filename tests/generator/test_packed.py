@@ -53,7 +53,7 @@ def test_a_line_with_too_few_fields_is_told() -> None:
 
 
 def test_a_bomb_takes_no_more_than_the_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(packed, "MAX_BYTES", 5000)
+    monkeypatch.setattr(packed, "MAX_PACKED_BYTES", 5000)
     (tmp_path / "bomb.xz").write_bytes(lzma.compress(b"x" * 10_000_000))
     with pytest.raises(FileError, match="cannot be read"):
         packed._lines(tmp_path / "bomb.xz")

@@ -16,7 +16,7 @@ from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, LATE_JUMP, Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menu_screen import Menu
-from ninja_game.player.playthrough import EpisodeSession, FileSession
+from ninja_game.player.playthrough import EpisodePlaythrough, FilePlaythrough
 from ninja_game.ui.input.bindings import ACTIONS
 from tests.support.scripted import (
     ScriptedControls,
@@ -142,7 +142,7 @@ def test_changed_level_file_is_read_again_on_retry(app: App, recording: Recordin
     file = tmp_path / "mine.txt"
     both = f"$one#a#b#{LONG}#\n$two#a#b#{LONG}!0^9,9#\n"
     file.write_text(both)
-    run = FileSession(app.player, load_levels(str(file)))
+    run = FilePlaythrough(app.player, load_levels(str(file)))
     run.advance()
     screen = LevelScreen(app, run)
     app.push(screen)
@@ -175,7 +175,7 @@ def test_locked_records_are_a_notice(
 def test_skipping_with_locked_records_goes_on_with_a_notice(
     app: App, recording: Recording, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    run = EpisodeSession(app.player, app.player.catalogue.episodes[0], practice_mode=True)
+    run = EpisodePlaythrough(app.player, app.player.catalogue.episodes[0], practice_mode=True)
     app.push(LevelScreen(app, run))
 
     def locked(*_: object, **__: object) -> None:
@@ -193,7 +193,7 @@ def test_a_passed_level_says_what_its_keys_do(
     app, controls = stage
     text = write_level_string(recording.level)
     (tmp_path / "two.txt").write_text(f"$one#me#a#{text}#\n$two#me#a#{text}#\n")
-    two = LevelScreen(app, FileSession(app.player, load_levels(str(tmp_path / "two.txt"))))
+    two = LevelScreen(app, FilePlaythrough(app.player, load_levels(str(tmp_path / "two.txt"))))
     alone = LevelScreen(app, level_run(app, recording.level))
     for screen, words in ((two, "Confirm: next level"), (alone, "Confirm: play again")):
         app.push(screen)

@@ -16,7 +16,7 @@ from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, Phase
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.playthrough import FileSession
+from ninja_game.player.playthrough import FilePlaythrough
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
 from ninja_game.view.hud import Hud, bar_length
@@ -218,7 +218,7 @@ def test_the_levels_of_a_file_follow_each_other(
     file = tmp_path / "two.txt"
     text = write_level_string(recording.level)
     file.write_text(f"$one#me#a#{text}#\n$none#me#a#{'0' * 713}|#\n$two#me#a#{text}#\n")
-    screen = LevelScreen(app, FileSession(app.player, load_levels(str(file))))
+    screen = LevelScreen(app, FilePlaythrough(app.player, load_levels(str(file))))
     app.push(screen)
     frames(app)
     file.write_text(file.read_text().replace("#a#", "#b#"))

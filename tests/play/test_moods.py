@@ -20,7 +20,7 @@ from ninja_game.play.menu_screen import Panel
 from ninja_game.play.panels.help import HelpScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.thumbnails import Thumbnails
-from ninja_game.player.playthrough import LevelSession
+from ninja_game.player.playthrough import LevelPlaythrough
 from ninja_game.player.settings import BY_COLUMN
 from ninja_game.sim import kinds
 from ninja_game.ui.scenery import grain, ground, scenery_sheet
@@ -161,7 +161,7 @@ def test_text_can_be_read_on_the_scenery(palette: Palette) -> None:
 def in_column(app: App, column: int) -> LevelScreen:
     """A level of a column, as it is played."""
     named = app.player.catalogue.ours.levels[0].named
-    return LevelScreen(app, LevelSession(app.player, Entry(named, "game", f"{10 * column:02d}-0")))
+    return LevelScreen(app, LevelPlaythrough(app.player, Entry(named, "game", f"{10 * column:02d}-0")))
 
 
 def test_the_picture_follows_the_column_of_what_is_shown(app: App) -> None:
@@ -207,7 +207,7 @@ def test_each_level_of_an_episode_has_its_tone_and_what_stands_on_it_looks_the_s
     assert len({pygame.image.tobytes(scenery_sheet(tone), "RGB") for tone in (*tones, following)}) == 6
     assert len({pygame.image.tobytes(grain(tone, "outline"), "RGBA") for tone in (*tones, following)}) == 6
     named = app.player.catalogue.ours.levels[0].named
-    app.push(LevelScreen(app, LevelSession(app.player, Entry(named, "game", "00-2"))))
+    app.push(LevelScreen(app, LevelPlaythrough(app.player, Entry(named, "game", "00-2"))))
     app.frame(0)
     assert app.theme.palette is tones[2]
 

@@ -19,12 +19,12 @@ from ninja_game.sim import states
 from ninja_game.sim.kinds import DRONE, EXIT, FLOOR_GUARD, LAUNCHER, TURRET
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.music import (
-    BY_COLUMN,
+    _FAR,
+    _NEAR,
     CALM,
-    FAR,
+    COLUMN_MUSIC,
     LAYERS_OF,
     MENU,
-    NEAR,
     SILENCE,
     Music,
     MusicLevels,
@@ -69,7 +69,7 @@ def begin(sound: AudioPlayer, name: str) -> None:
 
 
 def test_every_place_has_its_files(folder: Path) -> None:
-    assert set(LAYERS_OF) == set(BEDS) == {MENU, *BY_COLUMN}
+    assert set(LAYERS_OF) == set(BEDS) == {MENU, *COLUMN_MUSIC}
     assert {f"{name}-{layer}" for name, layers in LAYERS_OF.items() for layer in layers} == set(TRACKS)
     assert {path.stem for path in (folder / "music").glob("*.ogg")} == set(TRACKS)
 
@@ -140,8 +140,8 @@ def test_danger_grows_as_it_comes_near(about: dict[str, int]) -> None:
     def danger(distance: float, **other: int) -> float:
         return music_levels(world, [Mock(x=ninja.x + distance, y=ninja.y, **(about | other))]).danger
 
-    assert danger(NEAR) == danger(0) == 1
-    assert danger(FAR) == 0
+    assert danger(_NEAR) == danger(0) == 1
+    assert danger(_FAR) == 0
     assert 0 < danger(300) < danger(200) < 1
     assert danger(0, routine=0, chasing=0, think=0) == 0
 
@@ -162,17 +162,17 @@ def test_each_screen_asks_for_its_music() -> None:
         app.push(MainMenu(app))
         assert app.top.music == MENU
         entry = app.player.catalogue.ours.levels[0]
-        for episode, music in (("00-0", BY_COLUMN[0]), ("19-4", BY_COLUMN[1]), ("43-4", BY_COLUMN[4])):
+        for episode, music in (("00-0", COLUMN_MUSIC[0]), ("19-4", COLUMN_MUSIC[1]), ("43-4", COLUMN_MUSIC[4])):
             assert play_level(app, replace(entry, episode=episode)) == ""
             assert app.top.music == music
             app.pop()
         play_level(app, replace(entry, episode=""))
-        assert app.top.music in BY_COLUMN
+        assert app.top.music in COLUMN_MUSIC
         app.pop()
         app.push(TryScreen(app, EditorSession(app), entry.named.level, "", None))
         assert app.top.music == SILENCE
         app.pop()
         play_level(app, entry, practice=True)
-        assert app.top.music == BY_COLUMN[0]
+        assert app.top.music == COLUMN_MUSIC[0]
         app.change_settings(music_in_practice=False)
         assert app.top.music == SILENCE

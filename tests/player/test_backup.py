@@ -20,9 +20,9 @@ from ninja_game.editor.files import ascii_text, recovered
 from ninja_game.errors import FileError
 from ninja_game.files.tree import Tree
 from ninja_game.player import backup, schema
-from ninja_game.player.backup import MAX_REPLAYS, MAX_ROWS, _TargetFolder, read_backup, write_backup
+from ninja_game.player.backup import MAX_REPLAYS, MAX_TABLE_ROWS, _TargetFolder, read_backup, write_backup
 from ninja_game.player.player_data import PlayerData, keep_replay
-from ninja_game.player.playthrough import LevelSession
+from ninja_game.player.playthrough import LevelPlaythrough
 from tests.support.level_maker import ROOM
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 
@@ -30,7 +30,7 @@ from tests.support.players import deadly_level, entry, episode, played, player_d
 def filled(folder: Path) -> Path:
     """A player's folder with one of everything; the zip of it."""
     data = player_data(folder)
-    run = LevelSession(data, entry(short_level()))
+    run = LevelPlaythrough(data, entry(short_level()))
     assert run.passed(played(short_level()))
     keep_replay(data, played(deadly_level()).replay("dead"))
     levels = episode()
@@ -69,7 +69,7 @@ def test_what_is_better_stays_and_files_of_one_name_stand_beside_each_other(tmp_
     backup = filled(tmp_path / "from")
     here = player_data(tmp_path / "to")
     rich = short_level()
-    run = LevelSession(here, entry(rich))
+    run = LevelPlaythrough(here, entry(rich))
     assert run.passed(played(rich))
     here.records.episode_passed(
         episode().key, 1000, [played(each.named.level).replay("mine") for each in episode().levels]
@@ -277,7 +277,10 @@ COUNTING = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHER
 @pytest.mark.parametrize(
     "statement, said",
     [
-        (f"INSERT INTO played {COUNTING.format(MAX_ROWS)} SELECT i, 1, 1, 1, 1, 1 FROM n", "rows in the table played"),
+        (
+            f"INSERT INTO played {COUNTING.format(MAX_TABLE_ROWS)} SELECT i, 1, 1, 1, 1, 1 FROM n",
+            "rows in the table played",
+        ),
         (f"INSERT INTO replay {COUNTING.format(MAX_REPLAYS)} SELECT {NOTHING} FROM n", "rows in the table replay"),
         ("CREATE TRIGGER t BEFORE UPDATE ON replay BEGIN DELETE FROM replay; END", "the trigger t is not ours"),
         ("CREATE TRIGGER replay BEFORE UPDATE ON replay BEGIN DELETE FROM replay; END", "trigger replay is not ours"),
@@ -317,7 +320,7 @@ def test_what_replays_claim_and_do_not_do_is_left_out(tmp_path: Path) -> None:
     data = with_records(filled(tmp_path / "from"), forged, "UPDATE episode_best SET score = 99999")
     here = player_data(tmp_path / "to")
     level = short_level()
-    assert LevelSession(here, entry(level)).passed(played(level))
+    assert LevelPlaythrough(here, entry(level)).passed(played(level))
     words = read_backup(here, data)
     assert words[0] == "0 new replays in the records"
     assert [word for word in words if "does not do what it says" in word], words

@@ -11,7 +11,7 @@ from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.pack.pack import certificate_name
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.playthrough import EpisodeSession
+from ninja_game.player.playthrough import EpisodePlaythrough
 from ninja_game.player.progress import LOCKED, UNLOCKED
 from tests.support.own_pack import PACK
 from tests.support.players import played, short_level
@@ -158,7 +158,7 @@ def test_first_episode_that_there_is_in_a_column_is_open(tmp_path: Path) -> None
     pack_of(tmp_path / "levels" / "mine", "My pack", (2, 5, 17))
     episodes = data.catalogue.packs()[1].episodes
     assert [data.episode_state(episode) for episode in episodes.values()] == [UNLOCKED, LOCKED, UNLOCKED]
-    run = EpisodeSession(data, episodes[2])
+    run = EpisodePlaythrough(data, episodes[2])
     assert run.legitimate
     run.passed(played(run.level))
     assert data.episode_state(episodes[5]) == UNLOCKED
@@ -169,7 +169,7 @@ def test_progress_of_packs_is_kept_apart_and_passes_over_gaps(tmp_path: Path) ->
     data = PlayerData(tmp_path)
     pack_of(tmp_path / "levels" / "mine", "My pack", (0, 3))
     episodes = data.catalogue.packs()[1].episodes
-    run = EpisodeSession(data, episodes[0])
+    run = EpisodePlaythrough(data, episodes[0])
     run.passed(played(run.level))
     assert data.progress_in("My pack").state(3) == UNLOCKED
     assert data.progress_in("My pack").is_beaten(0)

@@ -14,7 +14,7 @@ import pytest
 
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.player_data import keep_replay
-from ninja_game.player.playthrough import EpisodeSession, LevelSession
+from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
 from ninja_game.player.progress import LOCKED, UNLOCKED
 from ninja_game.player.records import Records
 from ninja_game.player.schema import open_database
@@ -25,7 +25,7 @@ from tests.support.players import deadly_level, entry, episode, played, player_d
 def file_with_a_best(folder: Path) -> Path:
     """The closed file of records of a player who has passed a level."""
     data = player_data(folder)
-    assert LevelSession(data, entry(short_level())).passed(played(short_level()))
+    assert LevelPlaythrough(data, entry(short_level())).passed(played(short_level()))
     data.close()
     return folder / "records.sqlite"
 
@@ -120,7 +120,7 @@ EDITS = [
 @pytest.mark.parametrize("edit", EDITS)
 def test_damaged_rows_are_left_out_and_play_goes_on(edit: str, tmp_path: Path) -> None:
     data = player_data(tmp_path, episode())
-    run = EpisodeSession(data, episode())
+    run = EpisodePlaythrough(data, episode())
     for _ in range(5):
         attempt = played(run.entry.named.level, lifetime=run.lifetime)
         run.passed(attempt)
@@ -140,7 +140,7 @@ def test_damaged_rows_are_left_out_and_play_goes_on(edit: str, tmp_path: Path) -
     seconds_text(again.statistics.played().ticks)
     assert again.progress.state(99) == LOCKED
     assert again.columns_complete == (not edit.startswith("UPDATE progress"))
-    run = EpisodeSession(again, episode())
+    run = EpisodePlaythrough(again, episode())
     for _ in range(5):
         attempt = played(run.entry.named.level, lifetime=run.lifetime)
         assert not any("Not saved" in notice for notice in run.passed(attempt))

@@ -9,7 +9,7 @@ import pytest
 
 from ninja_game.levels.episodes import Episode
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.playthrough import EpisodeSession, LevelSession, Navigation, next_run
+from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough, Navigation, next_run
 from ninja_game.player.progress import HELPED
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -63,10 +63,10 @@ def test_episode_is_continued_with_its_clock_and_its_runs(tmp_path: Path) -> Non
 
 def test_practice_neither_keeps_a_place_nor_goes_on_from_one(tmp_path: Path) -> None:
     data = player_data(tmp_path, episode(*LEVELS))
-    run = EpisodeSession(data, data.catalogue.episodes[0], practice_mode=True)
+    run = EpisodePlaythrough(data, data.catalogue.episodes[0], practice_mode=True)
     run.passed(played(LEVELS[0], practice=True))
     assert place(data) == 0
-    run = EpisodeSession(data, data.catalogue.episodes[0])
+    run = EpisodePlaythrough(data, data.catalogue.episodes[0])
     run.passed(played(LEVELS[0]))
     assert place(data) == 1
     assert place(data, practice=True) == 0
@@ -83,7 +83,7 @@ def test_damaged_place_is_forgotten(tmp_path: Path, value: str) -> None:
 
 def test_clock_is_not_continued_behind_changed_levels(tmp_path: Path) -> None:
     data = player_data(tmp_path, episode(*LEVELS))
-    EpisodeSession(data, data.catalogue.episodes[0]).passed(played(LEVELS[0]))
+    EpisodePlaythrough(data, data.catalogue.episodes[0]).passed(played(LEVELS[0]))
     data.close()
     data = player_data(tmp_path, episode(short_level(gold=3), *LEVELS[1:]))
     run = next_run(data)
@@ -94,7 +94,7 @@ def test_clock_is_not_continued_behind_changed_levels(tmp_path: Path) -> None:
 
 def test_play_goes_on_behind_a_level_that_was_skipped(tmp_path: Path) -> None:
     data = player_data(tmp_path, placed(0, *LEVELS))
-    run = EpisodeSession(data, data.catalogue.episodes[0])
+    run = EpisodePlaythrough(data, data.catalogue.episodes[0])
     run.passed(played(LEVELS[0]))
     run.advance()
     run.advance()
@@ -108,7 +108,7 @@ def test_play_goes_on_behind_a_level_that_was_skipped(tmp_path: Path) -> None:
 def test_play_goes_on_in_the_episode_played_last_also_after_a_skip_and_at_its_end(tmp_path: Path) -> None:
     others = [short_level(number, gold=1) for number in (11, 12)]
     data = player_data(tmp_path, placed(0, *LEVELS), placed(10, *others), placed(11, short_level(13)))
-    run = EpisodeSession(data, data.catalogue.episodes[10])
+    run = EpisodePlaythrough(data, data.catalogue.episodes[10])
     run.advance()
     goes_on = next_run(data)
     assert goes_on is not None
@@ -122,7 +122,7 @@ def test_play_goes_on_in_the_episode_played_last_also_after_a_skip_and_at_its_en
 
 def test_pass_with_help_opens_what_follows_and_is_called_so_everywhere(tmp_path: Path) -> None:
     data = player_data(tmp_path, placed(0, *LEVELS))
-    run = EpisodeSession(data, data.catalogue.episodes[0])
+    run = EpisodePlaythrough(data, data.catalogue.episodes[0])
     helped = played(LEVELS[0])
     helped.assists.add("slow motion")
     run.passed(helped)
@@ -130,8 +130,8 @@ def test_pass_with_help_opens_what_follows_and_is_called_so_everywhere(tmp_path:
     assert place(data) == 1
     assert data.marks.of(first.digest) is None
     assert data.reached(first, None) == HELPED
-    assert not LevelSession(data, first).shows_hints, "its texts are done"
-    run = EpisodeSession(data, data.catalogue.episodes[0])
+    assert not LevelPlaythrough(data, first).shows_hints, "its texts are done"
+    run = EpisodePlaythrough(data, data.catalogue.episodes[0])
     run.passed(played(LEVELS[0]))
     assert data.reached(first, data.marks.of(first.digest)).startswith("Time")
     data.close()
@@ -140,13 +140,13 @@ def test_pass_with_help_opens_what_follows_and_is_called_so_everywhere(tmp_path:
 def test_level_passed_by_itself_where_the_episode_stands_moves_it_on(tmp_path: Path) -> None:
     data = player_data(tmp_path, placed(0, *LEVELS), placed(1, short_level(5)))
     first, second, third = data.catalogue.episodes[0].levels
-    LevelSession(data, second).passed(played(LEVELS[1]))
+    LevelPlaythrough(data, second).passed(played(LEVELS[1]))
     assert place(data) == 0, "the first has not been passed"
-    LevelSession(data, first, practice_mode=True).passed(played(LEVELS[0], practice=True))
+    LevelPlaythrough(data, first, practice_mode=True).passed(played(LEVELS[0], practice=True))
     assert place(data) == 0, "practice moves nothing"
-    LevelSession(data, first).passed(played(LEVELS[0]))
+    LevelPlaythrough(data, first).passed(played(LEVELS[0]))
     assert place(data) == 2
-    LevelSession(data, third).passed(played(LEVELS[2]))
+    LevelPlaythrough(data, third).passed(played(LEVELS[2]))
     goes_on = next_run(data)
     assert goes_on is not None
     assert goes_on.episode.number == 1

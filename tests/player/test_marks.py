@@ -9,7 +9,7 @@ import pytest
 
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.levels.episodes import Entry
-from ninja_game.player.playthrough import LevelSession
+from ninja_game.player.playthrough import LevelPlaythrough
 from ninja_game.player.progress import Mark, has_all_gold, medal_of, tally, worst_medal
 from ninja_game.sim.level import Body
 from tests.support.players import EXIT_TICK, deadly_level, entry, played, player_data, short_level
@@ -25,7 +25,7 @@ def with_pars(gold: int = 0) -> Entry:
 
 def passed(folder: Path, level: Entry, *, wait: int = 0, practice: bool = False) -> tuple[list[str], Mark | None]:
     data = player_data(folder)
-    run = LevelSession(data, level, practice_mode=practice)
+    run = LevelPlaythrough(data, level, practice_mode=practice)
     notices = run.passed(played(level.named.level, wait=wait, practice=practice))
     mark = data.marks.of(level.digest)
     data.close()
@@ -63,7 +63,7 @@ def test_practice_and_the_other_body_bring_no_medal(tmp_path: Path) -> None:
     body: Body = "box"
     assert data.marks.passed(level.digest, 5, 0, body) == (5, 0)
     assert data.marks.all() == {}
-    assert LevelSession(data, level, body="box").pars is None
+    assert LevelPlaythrough(data, level, body="box").pars is None
     data.close()
 
 

@@ -8,7 +8,7 @@ from unittest.mock import patch
 import pytest
 
 from ninja_game.player.player_data import EPISODE_BEST, NEW_BEST
-from ninja_game.player.playthrough import EpisodeSession, LevelSession, Navigation
+from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough, Navigation
 from ninja_game.player.progress import CHEATED, LOCKED, UNLOCKED, PackProgress, complete_columns, new_unlocks
 from ninja_game.player.store import Store
 from ninja_game.runs.deaths import SELF
@@ -95,7 +95,7 @@ def test_unlocks_are_announced_once() -> None:
 
 def test_episode_carries_its_lifetime_and_saves_its_best(tmp_path: Path) -> None:
     data = player_data(tmp_path, episode())
-    run = EpisodeSession(data, episode())
+    run = EpisodePlaythrough(data, episode())
     for level in range(5):
         assert run.position == level
         attempt = played(run.entry.named.level, lifetime=run.lifetime)
@@ -112,7 +112,7 @@ def test_episode_carries_its_lifetime_and_saves_its_best(tmp_path: Path) -> None
     assert data.progress.state(1) == UNLOCKED
     assert "A new ninja colour is yours: see Settings" in notices  # the only episode of its column
     with patch.object(data.records, "episode_passed", lambda *_: True):
-        again = EpisodeSession(data, episode())
+        again = EpisodePlaythrough(data, episode())
         for _ in range(5):
             notices = again.passed(played(again.entry.named.level, lifetime=again.lifetime))
             again.advance()
@@ -121,7 +121,7 @@ def test_episode_carries_its_lifetime_and_saves_its_best(tmp_path: Path) -> None
 
 def test_assisted_level_takes_the_episodes_record_and_opens_what_follows(tmp_path: Path) -> None:
     data = player_data(tmp_path, episode())
-    run = EpisodeSession(data, episode())
+    run = EpisodePlaythrough(data, episode())
     for level in range(5):
         attempt = played(run.entry.named.level, lifetime=run.lifetime)
         attempt.assists = {"slow motion"} if level == 0 else set()
@@ -135,14 +135,14 @@ def test_assisted_level_takes_the_episodes_record_and_opens_what_follows(tmp_pat
 def test_cheated_episode_gives_no_bests(tmp_path: Path) -> None:
     data = player_data(tmp_path, episode(0), episode(1))
     pass_levels(data.progress, 0, legitimate=False)
-    run = EpisodeSession(data, episode(1))
+    run = EpisodePlaythrough(data, episode(1))
     run.passed(played(run.entry.named.level))
     assert data.records.level_bests() == {}
 
 
 def test_only_a_better_level_score_replaces_the_best(tmp_path: Path) -> None:
     data = player_data(tmp_path)
-    run = LevelSession(data, entry(short_level()))
+    run = LevelPlaythrough(data, entry(short_level()))
     assert "First pass" in run.passed(played(short_level(), wait=5))[0]
     assert run.passed(played(short_level(), wait=5)) == []
     assert run.passed(played(short_level(), wait=9)) == []
@@ -155,7 +155,7 @@ def test_only_a_better_level_score_replaces_the_best(tmp_path: Path) -> None:
 
 def test_deaths_are_counted_by_killer(tmp_path: Path) -> None:
     data = player_data(tmp_path)
-    run = LevelSession(data, entry(deadly_level()))
+    run = LevelPlaythrough(data, entry(deadly_level()))
     run.died(played(deadly_level()))
     run.died(played(deadly_level()))
     attempt = played(deadly_level())

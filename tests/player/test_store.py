@@ -15,9 +15,9 @@ from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.player import schema
 from ninja_game.player.player_data import PlayerData, keep_replay, save_work
-from ninja_game.player.playthrough import EpisodeSession, LevelSession
+from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
 from ninja_game.player.progress import UNLOCKED
-from ninja_game.player.schema import VERSION
+from ninja_game.player.schema import SCHEMA_VERSION
 from ninja_game.player.store import Store
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 
@@ -25,7 +25,7 @@ from tests.support.players import deadly_level, entry, episode, played, player_d
 def saved_record(folder: Path) -> str:
     """Pass a level in this folder; the level's digest."""
     data = player_data(folder)
-    run = LevelSession(data, entry(short_level()))
+    run = LevelPlaythrough(data, entry(short_level()))
     assert run.passed(played(short_level()))
     data.close()
     return run.entry.digest
@@ -44,7 +44,7 @@ def test_record_and_its_replay_come_back_equal(tmp_path: Path) -> None:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("version, age", [(VERSION + 1, "newer"), (VERSION - 1, "older")])
+@pytest.mark.parametrize("version, age", [(SCHEMA_VERSION + 1, "newer"), (SCHEMA_VERSION - 1, "older")])
 def test_file_of_another_version_is_set_aside(tmp_path: Path, version: int, age: str) -> None:
     path = tmp_path / "records.sqlite"
     Store(path).close()
@@ -52,7 +52,7 @@ def test_file_of_another_version_is_set_aside(tmp_path: Path, version: int, age:
         db.execute(f"PRAGMA user_version = {version}")
     db.close()
     store = Store(path)
-    assert f"a game that is {age}: version {version} instead of {VERSION}" in store.messages[0]
+    assert f"a game that is {age}: version {version} instead of {SCHEMA_VERSION}" in store.messages[0]
     assert (tmp_path / f"records.{age}-1.sqlite").is_file()
 
 
@@ -78,13 +78,13 @@ def test_setting_aside_never_overwrites(tmp_path: Path) -> None:
 
 def test_file_of_this_version_opens_with_its_records(tmp_path: Path) -> None:
     made = sqlite3.connect(tmp_path / "records.sqlite")
-    made.executescript(Path(__file__).with_name(f"records-version-{VERSION}.sql").read_text("utf-8"))
+    made.executescript(Path(__file__).with_name(f"records-version-{SCHEMA_VERSION}.sql").read_text("utf-8"))
     made.close()
     data = player_data(tmp_path, episode())
     tables = "SELECT type, name, sql FROM sqlite_master WHERE sql IS NOT NULL ORDER BY name"
     there = data.store.connection.execute(tables).fetchall()
     assert there == Store(None).connection.execute(tables).fetchall(), "backups compare them"
-    assert data.store.connection.execute("PRAGMA user_version").fetchone()[0] == VERSION
+    assert data.store.connection.execute("PRAGMA user_version").fetchone()[0] == SCHEMA_VERSION
     assert not data.messages
     best = data.records.episode_best(episode().key)
     assert best is not None
@@ -129,7 +129,7 @@ def test_failed_change_leaves_nothing_behind(tmp_path: Path) -> None:
 def test_unusable_place_keeps_the_records_in_memory_and_says_so(tmp_path: Path) -> None:
     (tmp_path / "player").write_text("in the way")
     data = player_data(tmp_path / "player")
-    run = LevelSession(data, entry(short_level()))
+    run = LevelPlaythrough(data, entry(short_level()))
     notices = run.passed(played(short_level()))
     assert not any("saved" in notice for notice in notices[:-1])
     assert notices[-1].startswith("Not saved yet: the records cannot be opened")
@@ -141,7 +141,7 @@ def test_unusable_place_keeps_the_records_in_memory_and_says_so(tmp_path: Path) 
 def test_what_was_kept_in_memory_is_saved_as_soon_as_the_place_can_be_used(tmp_path: Path) -> None:
     (tmp_path / "player").write_text("in the way")
     data = player_data(tmp_path / "player", episode())
-    EpisodeSession(data, episode()).passed(played(short_level()))
+    EpisodePlaythrough(data, episode()).passed(played(short_level()))
     (tmp_path / "player").unlink()
     assert keep_replay(data, played(deadly_level()).replay()) == "Replay: saved"
     data.close()
@@ -162,7 +162,7 @@ def test_locked_records_hold_nobody_up_and_nothing_is_lost(tmp_path: Path) -> No
     data = player_data(tmp_path, episode())
     assert not data.records.replays()
     other = lock(tmp_path)
-    run = EpisodeSession(data, episode())
+    run = EpisodePlaythrough(data, episode())
     attempt = played(short_level())
     assert data.store.connection.execute("PRAGMA busy_timeout").fetchone() == (200,), "ms"
     assert run.passed(attempt) == ["Not saved yet: database is locked"]
@@ -197,7 +197,7 @@ def test_what_waits_is_saved_at_the_end(tmp_path: Path) -> None:
     data = player_data(tmp_path)
     assert not data.records.replays()
     other = lock(tmp_path)
-    LevelSession(data, entry(short_level())).passed(played(short_level()))
+    LevelPlaythrough(data, entry(short_level())).passed(played(short_level()))
     other.execute("ROLLBACK")
     other.close()
     data.close()
@@ -221,7 +221,7 @@ def test_records_that_may_only_be_read_are_shown(tmp_path: Path, monkeypatch: py
 
 def test_failed_commit_advances_nothing(tmp_path: Path) -> None:
     data = player_data(tmp_path, episode())
-    run = EpisodeSession(data, episode())
+    run = EpisodePlaythrough(data, episode())
     # A constraint that is looked at when the transaction ends.
     data.store.connection.executescript(
         "CREATE TABLE a (id INTEGER PRIMARY KEY); CREATE TABLE b (a REFERENCES a DEFERRABLE INITIALLY DEFERRED);"

@@ -14,7 +14,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.compare import (
-    NEAR,
+    NEAR_DISTANCE,
     aligned,
     best_run,
     compare_runs,
@@ -151,7 +151,7 @@ def test_alignment_goes_forwards_and_only_pairs_what_is_near(
     partner = aligned(ours, theirs)
     found = partner[partner >= 0]
     assert (np.diff(found) >= 0).all()
-    assert all(np.hypot(*(ours[i] - theirs[j])) <= NEAR for i, j in enumerate(partner) if j >= 0)
+    assert all(np.hypot(*(ours[i] - theirs[j])) <= NEAR_DISTANCE for i, j in enumerate(partner) if j >= 0)
 
 
 def test_positions_are_those_of_the_run() -> None:

@@ -29,7 +29,15 @@ from ninja_game.runs.trace import (
     rows,
     trace_digests,
 )
-from ninja_game.runs.trace_files import COLUMNS, MAX_BYTES, FiledTrace, read_csv, read_traces, write_csv, write_npz
+from ninja_game.runs.trace_files import (
+    MAX_TRACE_BYTES,
+    TRACE_COLUMNS,
+    FiledTrace,
+    read_csv,
+    read_traces,
+    write_csv,
+    write_npz,
+)
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.schema.world_fields import TileMap, World
 from tests.support.reference import scene_traces, scenes
@@ -197,7 +205,7 @@ def test_odd_arrays_are_errors_of_ours_and_take_no_memory(member: bytes, tmp_pat
 
 def test_a_zip_that_unpacks_to_gigabytes_is_refused(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="more than 256 MiB, unpacked"):
-        list(read_traces(_zip_of(tmp_path, bytes(MAX_BYTES + 1))))
+        list(read_traces(_zip_of(tmp_path, bytes(MAX_TRACE_BYTES + 1))))
 
 
 @pytest.mark.parametrize("name, value", [("compress_type", 99), ("CRC", 1), ("flag_bits", 1)])
@@ -266,4 +274,4 @@ def test_damaged_bytes_of_a_trace_never_escape_as_other_errors(tmp_path: Path) -
 )  # fmt: skip
 def test_odd_rows_are_errors_of_ours(row: str) -> None:
     with pytest.raises(FormatError, match="a row that cannot be read"):
-        list(read_csv([",".join(COLUMNS) + "\n", row + "\n"]))
+        list(read_csv([",".join(TRACE_COLUMNS) + "\n", row + "\n"]))

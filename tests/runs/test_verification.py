@@ -27,8 +27,8 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.runs import archive as archives
 from ninja_game.runs.archive import Totals, verify_all, write_report
 from ninja_game.runs.chunks import (
+    _RECORDS,
     HEADER,
-    RECORDS,
     CheckpointLog,
     Chunk,
     Result,
@@ -63,7 +63,7 @@ def archive(tmp_path: Path) -> Path:
     """A folder with everything: good and bad runs, replays of ours, a level, rubbish, a broken record among others."""
     folder = tmp_path / "archive"
     (folder / "b").mkdir(parents=True)
-    many = [(f"Run {number}", WALK if number % 3 else SPIKED, running(WALK_END)) for number in range(RECORDS + 6)]
+    many = [(f"Run {number}", WALK if number % 3 else SPIKED, running(WALK_END)) for number in range(_RECORDS + 6)]
     write_records(folder / "a.txt", *many)
     write_records(folder / "b" / "none.txt", ("Walk", WALK, running(9)), ("None", NO_NINJA, running(5)))
     (folder / "b" / "level.txt").write_text(WALK)
@@ -85,9 +85,9 @@ def test_nothing_stops_the_rest(archive: Path) -> None:
     totals = Totals()
     for result in expected(archive):
         totals.add(result)
-    assert totals.recordings == RECORDS + 6 + 2 + 1 + 1 + 1
+    assert totals.recordings == _RECORDS + 6 + 2 + 1 + 1 + 1
     assert totals.unreadable >= 3
-    assert totals.outcomes["dead"] == (RECORDS + 6 + 2) // 3
+    assert totals.outcomes["dead"] == (_RECORDS + 6 + 2) // 3
     messages = [result.message for result in expected(archive) if isinstance(result, Unreadable)]
     assert any("none.txt" in message and "record 1" in message for message in messages)
     assert any("d.txt" in message for message in messages)
@@ -172,7 +172,7 @@ def test_a_journal_lets_a_stopped_run_go_on_where_it_was(
     monkeypatch.setattr(archives, "JOB_WEIGHT", 1)
     path = tmp_path / "log"
     stopped = verify_plainly([archive], jobs=1, resume=path)
-    for _ in range(RECORDS + 3):
+    for _ in range(_RECORDS + 3):
         next(stopped)
     stopped.close()  # type: ignore[attr-defined]
     with CheckpointLog(path) as log:

@@ -11,8 +11,8 @@ from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import Palette, Theme
 from ninja_game.view.effects import particles
 from ninja_game.view.ninja.figure import (
+    _FALL,
     DANCES,
-    FALL,
     FLOAT,
     LEAP,
     RISE,
@@ -87,7 +87,7 @@ THINGS: list[Shown] = [
 
 POSES: list[tuple[str, Pose, float]] = [
     ("stand", STAND, 0), ("skid", SKID, 3), ("slide", SLIDE, 0), ("leap", LEAP, 3), ("rise", RISE, 1),
-    ("float", FLOAT, 2), ("fall", FALL, 2),
+    ("float", FLOAT, 2), ("fall", _FALL, 2),
     *((f"run {k}/6", run_pose(k / 6, 5.0), 5) for k in range(6)),
     *((f"dance {k + 1}", dance.at(9)[0].placed(1, dance.at(9)[1]), 0) for k, dance in enumerate(DANCES)),
 ]  # fmt: skip

@@ -32,11 +32,11 @@ MADE: dict[str, Callable[[], object]] = {
 
 VERSIONS = {
     "rules": text.RULES_VERSION,
-    "replay text": text.VERSION,
-    "level text": writer.VERSION,
-    "link": links.VERSION,
-    "settings": settings.VERSION,
-    "records": schema.VERSION,
+    "replay text": text.REPLAY_VERSION,
+    "level text": writer.ASCII_VERSION,
+    "link": links.LINK_VERSION,
+    "settings": settings.SETTINGS_VERSION,
+    "records": schema.SCHEMA_VERSION,
     "board ledger": report.VERSION,
 }
 

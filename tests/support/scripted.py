@@ -16,7 +16,7 @@ from ninja_game.levels.episodes import Entry
 from ninja_game.play.app import App, build_app
 from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.player.playthrough import LevelSession
+from ninja_game.player.playthrough import LevelPlaythrough
 from ninja_game.sim.level import Level
 from ninja_game.ui.audio.player import AudioOutput
 from ninja_game.ui.input.bindings import MENU_KEYS, Bindings, InputEvent
@@ -50,9 +50,9 @@ class ScriptedControls(Bindings):
         return action.capitalize()
 
 
-def level_run(app: App, level: Level, title: str = "level", **options: Any) -> LevelSession:
+def level_run(app: App, level: Level, title: str = "level", **options: Any) -> LevelPlaythrough:
     """A level by itself, played by the app's player."""
-    return LevelSession(app.player, Entry(NamedLevel(title, "", "", level, ""), "yours"), **options)
+    return LevelPlaythrough(app.player, Entry(NamedLevel(title, "", "", level, ""), "yours"), **options)
 
 
 def press(*actions: str) -> None:

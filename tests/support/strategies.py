@@ -5,12 +5,13 @@ from __future__ import annotations
 from hypothesis import strategies as st
 
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.numbers import NAN, parse_number
+from ninja_game.formats.numbers import parse_number
 from ninja_game.formats.replay.notations import Marker, is_marker_name
 from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.kinds import VALUE_COUNTS
 from ninja_game.sim.level import BODIES, TILES, Level, ObjectSpec
+from ninja_game.sim.rules import NAN
 from ninja_game.tas.tracks import InputTrack
 
 # Decimals of at most 15 digits, as they stand in levels, read by the game's rule.

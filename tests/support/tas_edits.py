@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.tas.session import Session
+from ninja_game.tas.session import TasSession
 
 if TYPE_CHECKING:
     from tests.support.tas_driver import TasDriver
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 MAX_BRANCHES = 6
 
 
-def edit_at_random(session: Session, rng: Random, *, strokes: bool = True) -> None:
+def edit_at_random(session: TasSession, rng: Random, *, strokes: bool = True) -> None:
     """Any change that a session can make. ``strokes``: also edits of several changes, which a kill may tear."""
     track = session.track
     first = rng.randrange(len(track) + 2)

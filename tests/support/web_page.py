@@ -11,7 +11,7 @@ from typing import Any
 
 from ninja_game.files.user_folder import cache_folder
 from ninja_game.web.site.build import build_site, site_server
-from ninja_game.web.site.game_archive import VERSION
+from ninja_game.web.site.game_archive import PYODIDE_VERSION
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 BUSY = ROOT / "benchmarks" / "busy.py"
@@ -19,7 +19,7 @@ DIGESTS, SCENES = (ROOT / "tests" / "support" / f"page_{name}.py" for name in ("
 """Files that Python runs here and in a page alike."""
 
 CACHE = cache_folder()
-PYODIDE = CACHE / f"pyodide-{VERSION}"
+PYODIDE = CACHE / f"pyodide-{PYODIDE_VERSION}"
 """Where Pyodide's files are once a site was built."""
 
 SIZE = (1584, 1200)

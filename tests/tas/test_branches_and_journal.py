@@ -17,8 +17,8 @@ from ninja_game.formats.load import load_replays
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import open_run, save_run
-from ninja_game.tas.journal import FOLDER, BesideRun, Journal, read_journal, recovered
-from ninja_game.tas.session import OPENED, Session
+from ninja_game.tas.journal import JOURNAL_FOLDER, BesideRun, Journal, read_journal, recovered
+from ninja_game.tas.session import OPENED, TasSession
 from ninja_game.tas.tracks import Branch, Branches, InputTrack, branches_of_json
 from tests.support.samples import WALK_END, replay_of_walk
 from tests.support.strategies import tracks
@@ -100,18 +100,18 @@ def test_damaged_branches_are_told() -> None:
 
 
 @pytest.fixture(name="session")
-def session_of_a_file(tmp_path: Path) -> Session:
+def session_of_a_file(tmp_path: Path) -> TasSession:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(), "utf-8")
-    return Session(open_run(path), tmp_path, memory="plain")
+    return TasSession(open_run(path), tmp_path, memory="plain")
 
 
 def journal_of(folder: Path) -> Path:
-    (file,) = (folder / FOLDER).glob("*.jsonl")
+    (file,) = (folder / JOURNAL_FOLDER).glob("*.jsonl")
     return file
 
 
-def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_path: Path) -> None:
+def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: TasSession, tmp_path: Path) -> None:
     rng = Random(3)
     states = [(session.track, list(session.branches.all))]
     sizes = []
@@ -140,7 +140,7 @@ def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_pa
         assert read_journal(file).tracks == found.tracks
 
 
-def test_damaged_journals_give_only_edits_that_there_were(session: Session, tmp_path: Path) -> None:
+def test_damaged_journals_give_only_edits_that_there_were(session: TasSession, tmp_path: Path) -> None:
     rng = Random(4)
     there = {session.track}
     for _ in range(25):
@@ -155,10 +155,10 @@ def test_damaged_journals_give_only_edits_that_there_were(session: Session, tmp_
         for found in recovered(tmp_path):
             if begin:
                 assert {found.opened.track, *found.tracks} <= there
-            Session(found.opened, tmp_path, memory="plain").close()
+            TasSession(found.opened, tmp_path, memory="plain").close()
 
 
-def test_a_run_goes_on_where_a_killed_session_was(session: Session, tmp_path: Path) -> None:
+def test_a_run_goes_on_where_a_killed_session_was(session: TasSession, tmp_path: Path) -> None:
     session.change(session.track.replaced(2, 3, [5]))
     session.keep_branch("one")
     session.begin()
@@ -170,29 +170,29 @@ def test_a_run_goes_on_where_a_killed_session_was(session: Session, tmp_path: Pa
     (found,) = recovered(tmp_path)
     assert found.tracks[-1] == stroke, "also in the middle of a stroke"
     assert len(found.tracks) == 2
-    again = Session(found.opened, tmp_path, memory="plain")
+    again = TasSession(found.opened, tmp_path, memory="plain")
     again.recover(found)
     assert again.file.path == tmp_path / "walk.replay.txt"
     assert (again.track, [each.name for each in again.branches.all]) == (stroke, [OPENED, "one"])
     assert not again.is_saved
     assert list(recovered(tmp_path)) == [], "it is gone on with"
     with pytest.raises(FileError, match="another window"):
-        Session(found.opened, tmp_path, memory="plain").recover(found)
+        TasSession(found.opened, tmp_path, memory="plain").recover(found)
     again.change(again.track.replaced(9, 10, [7]))
     last = again.track
     again.journal.close(keep=True)
     (found,) = recovered(tmp_path)
     assert found.tracks[-1] == last
-    third = Session(found.opened, tmp_path, memory="plain")
+    third = TasSession(found.opened, tmp_path, memory="plain")
     third.recover(found)
     assert third.undo()
     assert third.track == stroke
     third.save(tmp_path / "walk.replay.txt")
     assert load_replays(tmp_path / "walk.replay.txt")[0].replay.playback(9)[:5] == with_press_bits([4] * 5)
-    assert list((tmp_path / FOLDER).iterdir()) == []
+    assert list((tmp_path / JOURNAL_FOLDER).iterdir()) == []
 
 
-def test_the_run_as_it_was_opened_is_a_branch_from_the_first_edit_on(session: Session, tmp_path: Path) -> None:
+def test_the_run_as_it_was_opened_is_a_branch_from_the_first_edit_on(session: TasSession, tmp_path: Path) -> None:
     opened = session.track
     session.change(opened.named(2, "here"))
     assert not session.branches.all, "no key has changed"
@@ -211,16 +211,16 @@ def test_the_run_as_it_was_opened_is_a_branch_from_the_first_edit_on(session: Se
     assert open_run(tmp_path / "walk.replay.txt").branches.all == [kept], "also in the saved file"
 
 
-def test_runs_beside_are_there_again_after_a_crash(session: Session, tmp_path: Path) -> None:
+def test_runs_beside_are_there_again_after_a_crash(session: TasSession, tmp_path: Path) -> None:
     first, second = (BesideRun(name, session.track.replaced(0, 1, [4]), Contributions(names=(name,))) for name in "ab")
     session.show_beside(first)
-    assert not (tmp_path / FOLDER).exists(), "nothing was edited yet"
+    assert not (tmp_path / JOURNAL_FOLDER).exists(), "nothing was edited yet"
     session.change(session.track.replaced(2, 3, [5]))
     session.show_beside(second)
     session.journal.close(keep=True)
     (found,) = recovered(tmp_path)
     assert found.beside == (first, second)
-    again = Session(found.opened, tmp_path, memory="plain")
+    again = TasSession(found.opened, tmp_path, memory="plain")
     again.recover(found)
     assert again.beside == [first, second]
     again.save(tmp_path / "walk.replay.txt")
@@ -229,11 +229,11 @@ def test_runs_beside_are_there_again_after_a_crash(session: Session, tmp_path: P
     assert next(recovered(tmp_path)).beside == (first, second)
 
 
-def test_nobody_discards_what_another_window_goes_on_with(session: Session, tmp_path: Path) -> None:
+def test_nobody_discards_what_another_window_goes_on_with(session: TasSession, tmp_path: Path) -> None:
     session.change(session.track.replaced(0, 1, [1]))
     session.journal.close(keep=True)
     (found,) = recovered(tmp_path)
-    other = Session(found.opened, tmp_path, memory="plain")
+    other = TasSession(found.opened, tmp_path, memory="plain")
     other.recover(found)
     assert not remove_abandoned(found.file)
     other.change(other.track.replaced(3, 4, [1]))
@@ -242,7 +242,7 @@ def test_nobody_discards_what_another_window_goes_on_with(session: Session, tmp_
 
 
 def test_what_cannot_be_written_is_told_and_comes_later(
-    session: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    session: TasSession, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     session.change(session.track.replaced(0, 1, [1]))
     write = os.write
@@ -260,11 +260,11 @@ def test_what_cannot_be_written_is_told_and_comes_later(
     assert found.branches.all == session.branches.all
 
 
-def test_a_run_beside_does_not_lose_edits_that_are_yet_to_be_written(session: Session, tmp_path: Path) -> None:
-    (tmp_path / FOLDER).write_text("in the way")
+def test_a_run_beside_does_not_lose_edits_that_are_yet_to_be_written(session: TasSession, tmp_path: Path) -> None:
+    (tmp_path / JOURNAL_FOLDER).write_text("in the way")
     session.change(session.track.replaced(0, 1, [1, 1]))
     session.show_beside(BesideRun("Cy", session.track, Contributions()))
-    (tmp_path / FOLDER).unlink()
+    (tmp_path / JOURNAL_FOLDER).unlink()
     session.change(session.track.replaced(1, 2, [4]))
     session.journal.close(keep=True)
     (found,) = recovered(tmp_path)
@@ -274,8 +274,8 @@ def test_a_run_beside_does_not_lose_edits_that_are_yet_to_be_written(session: Se
 def test_a_place_without_files_is_told(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(), "utf-8")
-    (tmp_path / FOLDER).write_text("in the way")
-    session = Session(open_run(path), tmp_path, memory="plain")
+    (tmp_path / JOURNAL_FOLDER).write_text("in the way")
+    session = TasSession(open_run(path), tmp_path, memory="plain")
     session.change(session.track.replaced(0, 1, [1]))
     assert "cannot be kept safe" in session.journal.problem
 
@@ -287,7 +287,7 @@ def test_undo_and_redo_bring_back_every_edit(seed: int) -> None:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "walk.replay.txt"
         path.write_text(replay_of_walk(), "utf-8")
-        session = Session(open_run(path), Path(folder), memory="plain")
+        session = TasSession(open_run(path), Path(folder), memory="plain")
         tracks = [session.track]
         for _ in range(20):
             session.change(session.track.replaced(rng.randrange(30), 30, [rng.randrange(8)]))
@@ -315,7 +315,7 @@ def test_branches_stay_a_tree_whatever_is_edited_between(steps: list[tuple[str, 
     with TemporaryDirectory() as folder:
         path = Path(folder) / "walk.replay.txt"
         path.write_text(replay_of_walk(), "utf-8")
-        session = Session(open_run(path), Path(folder), memory="plain")
+        session = TasSession(open_run(path), Path(folder), memory="plain")
         whole = session.track
         session.change(whole.replaced(0, len(whole), []))
         for step, number in steps:
@@ -337,7 +337,7 @@ def test_branches_stay_a_tree_whatever_is_edited_between(steps: list[tuple[str, 
         session.close()
 
 
-def test_a_kill_between_the_file_and_its_journal_loses_nothing(session: Session, tmp_path: Path) -> None:
+def test_a_kill_between_the_file_and_its_journal_loses_nothing(session: TasSession, tmp_path: Path) -> None:
     first = session.track
     session.change(session.track.replaced(0, 24, []))
     session.change(InputTrack(b"\1"))
@@ -346,7 +346,7 @@ def test_a_kill_between_the_file_and_its_journal_loses_nothing(session: Session,
     session.journal.close(keep=True)
     save_run(session.origin, session.track, session.branches, path, session.file)
     (found,) = recovered(tmp_path)
-    again = Session(found.opened, tmp_path, memory="plain")
+    again = TasSession(found.opened, tmp_path, memory="plain")
     again.recover(found)
     again.undo()
     again.undo()
@@ -356,7 +356,7 @@ def test_a_kill_between_the_file_and_its_journal_loses_nothing(session: Session,
     assert open_run(path).track == first
 
 
-def test_edits_of_an_empty_run_are_found_again(session: Session, tmp_path: Path) -> None:
+def test_edits_of_an_empty_run_are_found_again(session: TasSession, tmp_path: Path) -> None:
     session.change(InputTrack(b""))
     session.journal.begin_again(session._opened())
     session.change(InputTrack(b"\1"))
@@ -365,7 +365,7 @@ def test_edits_of_an_empty_run_are_found_again(session: Session, tmp_path: Path)
     assert (found.opened.track, found.tracks) == (InputTrack(b""), (InputTrack(b"\1"),))
 
 
-def test_watched_formulas_alone_are_something_to_save(session: Session, tmp_path: Path) -> None:
+def test_watched_formulas_alone_are_something_to_save(session: TasSession, tmp_path: Path) -> None:
     before = session.is_saved
     session.watch(["x", "vy > 0"])
     assert (before, session.is_saved) == (True, False)

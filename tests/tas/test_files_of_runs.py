@@ -25,8 +25,8 @@ from ninja_game.runs.verify import Verdict
 from ninja_game.sim.inputs import fit_inputs
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import OpenedRun, RunFile, branches_path, new_run, open_run, save_run, track_of
-from ninja_game.tas.journal import FOLDER, recovered
-from ninja_game.tas.session import Session
+from ninja_game.tas.journal import JOURNAL_FOLDER, recovered
+from ninja_game.tas.session import TasSession
 from ninja_game.tas.tracks import Branches, InputTrack
 from tests.support.own_pack import PACK, instead_of_ours
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
@@ -137,7 +137,7 @@ def test_other_files_are_never_replaced_unasked(tmp_path: Path) -> None:
     path, other = tmp_path / "walk.replay.txt", tmp_path / "other.replay.txt"
     path.write_text(replay_of_walk(), "utf-8")
     other.write_text("somebody's", "utf-8")
-    session = Session(open_run(path), tmp_path, memory="plain")
+    session = TasSession(open_run(path), tmp_path, memory="plain")
     session.change(session.track.replaced(3, 4, [5]))
     with pytest.raises(OccupiedError, match=r"a file named other\.replay\.txt already exists"):
         session.save(other)
@@ -158,10 +158,10 @@ def test_other_files_are_never_replaced_unasked(tmp_path: Path) -> None:
 
 def edited_and_lost(path: Path, folder: Path) -> Path:
     """The journal of a session that has died, with an edit of the run in a file."""
-    session = Session(open_run(path), folder, memory="plain")
+    session = TasSession(open_run(path), folder, memory="plain")
     session.change(session.track.replaced(3, 4, [5]))
     session.close(keep=True)
-    (journal,) = (folder / FOLDER).glob("*.jsonl")
+    (journal,) = (folder / JOURNAL_FOLDER).glob("*.jsonl")
     return journal
 
 
@@ -178,7 +178,7 @@ def test_a_journal_knows_no_file_but_a_run_that_is_there(tmp_path: Path) -> None
         assert found.opened.file.path == home
     journal.write_text(f"{first}\n{rest}", "utf-8")
     (found,) = recovered(tmp_path)
-    session = Session(found.opened, tmp_path, memory="plain")
+    session = TasSession(found.opened, tmp_path, memory="plain")
     session.recover(found)
     path.unlink()
     with pytest.raises(OccupiedError, match=r"another program has removed walk\.replay\.txt"):
@@ -190,7 +190,7 @@ def test_branches_are_not_written_through_a_link(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(), "utf-8")
     branches_path(path).symlink_to(tmp_path / "made")
-    session = Session(open_run(path), tmp_path, memory="plain")
+    session = TasSession(open_run(path), tmp_path, memory="plain")
     session.keep_branch("$(touch marker)")
     with pytest.raises(OccupiedError):
         session.save(path)
@@ -204,7 +204,7 @@ def test_saving_what_was_not_changed_writes_nothing(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(), "utf-8", newline="\r\n")
     data = path.read_bytes()
-    session = Session(open_run(path), tmp_path, memory="plain")
+    session = TasSession(open_run(path), tmp_path, memory="plain")
     session.save(path)
     assert path.read_bytes() == data
     session.keep_branch("one")
@@ -262,13 +262,13 @@ def test_a_replay_goes_on_naming_the_file_of_its_level(tmp_path: Path) -> None:
 def test_branches_travel_beside_their_run(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(), "utf-8")
-    session = Session(open_run(path), tmp_path, memory="plain")
+    session = TasSession(open_run(path), tmp_path, memory="plain")
     session.keep_branch("as it was")
     session.change(session.track.replaced(5, 9, [0] * 4))
     session.keep_branch("slower")
     assert not session.is_saved
     session.save(path)
-    again = Session(open_run(path), tmp_path, memory="plain")
+    again = TasSession(open_run(path), tmp_path, memory="plain")
     assert again.branches.all == session.branches.all
     assert [(each.outcome, each.end, each.gold) for each in again.branches.all] == [("exit", 23, 1), ("exit", 29, 1)]
     again.checkout_branch(0)
@@ -313,10 +313,10 @@ def test_names_come_from_load_replays(tmp_path: Path) -> None:
     assert opened.recording.name == load_replays(path)[0].name
 
 
-def by_ann(path: Path, **about: Any) -> Session:
+def by_ann(path: Path, **about: Any) -> TasSession:
     """A session of Bob's with a run that Ann played."""
     path.write_text(replay_of_walk(author="Ann", made=Provenance(played=True), **about), "utf-8")
-    return Session(open_run(path), path.parent, player="Bob", memory="plain")
+    return TasSession(open_run(path), path.parent, player="Bob", memory="plain")
 
 
 def test_a_saved_run_says_how_often_it_was_edited_and_by_whom(tmp_path: Path) -> None:
@@ -351,7 +351,7 @@ def test_keys_that_are_taken_bring_their_authors_and_searches_along(tmp_path: Pa
     assert (session.origin.replay.made, session.origin.replay.co_authors) == expected
     session.close(keep=True)
     (lost,) = recovered(tmp_path)
-    again = Session(lost.opened, tmp_path, player="Bob", memory="plain")
+    again = TasSession(lost.opened, tmp_path, player="Bob", memory="plain")
     again.recover(lost)
     assert (again.origin.replay.made, again.origin.replay.co_authors) == expected
     again.save(path)
@@ -362,7 +362,7 @@ def test_keys_that_are_taken_bring_their_authors_and_searches_along(tmp_path: Pa
 @pytest.mark.parametrize("player", ["", "Bob"])
 def test_a_result_that_is_taken_is_no_edit_and_its_origin_stays(player: str, tmp_path: Path) -> None:
     source = write_records(tmp_path / "person.txt", ("a", WALK, running(WALK_END)))
-    session = Session(open_run(source, record=0), tmp_path, player=player, memory="plain")
+    session = TasSession(open_run(source, record=0), tmp_path, player=player, memory="plain")
     found = Contributions(commands=("improve",))
     session.change(session.track.replaced(5, 6, [0]), taken=found, edited=False)
     path = tmp_path / "new.replay.txt"
@@ -377,7 +377,7 @@ def test_a_result_that_is_taken_is_no_edit_and_its_origin_stays(player: str, tmp
 
 
 def test_an_empty_run_was_nobodys_before(tmp_path: Path) -> None:
-    session = Session(new_run(NamedLevel("a room", "me", "", LEVEL, "")), tmp_path, memory="plain")
+    session = TasSession(new_run(NamedLevel("a room", "me", "", LEVEL, "")), tmp_path, memory="plain")
     session.change(session.track.replaced(0, 0, [2] * 9))
     assert str(session.origin.replay.made) == "edited 1"
     session.close()
@@ -405,7 +405,7 @@ def test_what_is_undone_is_credited_no_longer(tmp_path: Path) -> None:
     session.change(session.track.replaced(9, 10, [0]))
     session.close(keep=True)
     (lost,) = recovered(tmp_path)
-    again = Session(lost.opened, tmp_path, player="Bob", memory="plain")
+    again = TasSession(lost.opened, tmp_path, player="Bob", memory="plain")
     again.recover(lost)
     assert (again.origin.replay.made, again.origin.replay.co_authors) == own
     again.undo()
@@ -432,7 +432,7 @@ def test_the_name_in_a_record_of_n_is_no_players(tmp_path: Path) -> None:
     source = write_records(tmp_path / "demos.txt", ("a", WALK, running(WALK_END)), ("b", WALK, running(9)))
     opened, other = open_run(source, record=0), load_replays(source)[1]
     assert (opened.recording.author, opened.recording.player) == ("me", "")
-    session = Session(opened, tmp_path, player="Bob", memory="plain")
+    session = TasSession(opened, tmp_path, player="Bob", memory="plain")
     assert session.origin.replay.credit == ""
     session.change(session.track.replaced(5, 6, [0]), taken=Contributions.of(other))
     session.save(tmp_path / "new.replay.txt")

@@ -12,11 +12,11 @@ import pytest
 
 from ninja_game.play.lab.screen import FIGURES
 from ninja_game.web.pages.documents import LAB, Documents, markdown_files, page_of
-from ninja_game.web.pages.frame import GAME
+from ninja_game.web.pages.frame import GAME_PAGE
 from tests.test_docs import anchors
 
 ROOT = Path(__file__).resolve().parents[2]
-ELSEWHERE = (GAME, "gallery/index.html", "app-folder/figures.js")
+ELSEWHERE = (GAME_PAGE, "gallery/index.html", "app-folder/figures.js")
 """What other parts of the build put beside the documents."""
 
 

@@ -28,7 +28,7 @@ from ninja_game.runtime import PACKAGE
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.site import build, game_archive
 from ninja_game.web.site.build import site_server
-from ninja_game.web.site.game_archive import LEFT_OUT
+from ninja_game.web.site.game_archive import _LEFT_OUT
 from tests.support.slow import the_rest_is_slow
 
 DOCUMENTS = cache(lambda address: Documents(address).build())
@@ -67,15 +67,15 @@ def test_the_same_files_give_the_same_site_and_old_ones_go(pyodide: Path, tmp_pa
     out = tmp_path / "out"
     first = build.build_site(out, pyodide, tmp_path)
     names = names_in(out)
-    assert {*first, build.MARK} == names
+    assert {*first, build._MARK} == names
     assert {"index.html", "play.html", "sw.js", "manifest.webmanifest", "licences/MPL-2.0.txt"} <= names
     (app,) = {name.split("/")[0] for name in names if name.startswith("app-")}
     assert {f"{app}/start.js", f"{app}/game.tar.gz", f"{app}/pyodide/pyodide.mjs"} <= names
     before = {name: (out / name).read_bytes() for name in names}
     (out / "mine.txt").write_text("not of the site")
-    mark = json.loads((out / build.MARK).read_text())
+    mark = json.loads((out / build._MARK).read_text())
     mark["files"] += ["old.js", "../outside.txt", "a/../../outside.txt", "/outside.txt", "\0", "", "pyodide/.."]
-    (out / build.MARK).write_text(json.dumps(mark))
+    (out / build._MARK).write_text(json.dumps(mark))
     (out / "old.js").write_text("of an earlier version")
     (tmp_path / "outside.txt").write_text("not in the folder")
     DOCUMENTS.cache_clear()
@@ -85,7 +85,7 @@ def test_the_same_files_give_the_same_site_and_old_ones_go(pyodide: Path, tmp_pa
     assert (tmp_path / "outside.txt").exists()
 
 
-@pytest.mark.parametrize("place", the_rest_is_slow(["index.html", "licences/MPL-2.0.txt", "learn", build.MARK], 1))
+@pytest.mark.parametrize("place", the_rest_is_slow(["index.html", "licences/MPL-2.0.txt", "learn", build._MARK], 1))
 def test_nothing_is_written_or_removed_through_a_link(place: str, pyodide: Path, tmp_path: Path) -> None:
     out, outside = tmp_path / "out", tmp_path / "outside"
     build.build_site(out, pyodide, tmp_path)
@@ -99,7 +99,7 @@ def test_nothing_is_written_or_removed_through_a_link(place: str, pyodide: Path,
 
 def test_a_mark_that_is_nested_too_deep_is_no_mark(pyodide: Path, tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
-    (tmp_path / "out" / build.MARK).write_text("[" * 100_000)
+    (tmp_path / "out" / build._MARK).write_text("[" * 100_000)
     with pytest.raises(FileError, match="not a site of ninja-game"):
         build.build_site(tmp_path / "out", pyodide, tmp_path)
 
@@ -115,7 +115,7 @@ def test_the_page_knows_its_version_and_sizes(pyodide: Path, tmp_path: Path) -> 
     about = json.loads((app / "build.js").read_text().removeprefix("export const build = ").removesuffix(";\n"))
     assert about["pyodide"] == {"abi_version": "1<"}
     assert app.name == f"app-{about['id']}"
-    assert about["sizes"] == {name: (app / name).stat().st_size for name in build.LARGE}
+    assert about["sizes"] == {name: (app / name).stat().st_size for name in build._LARGE}
     page, worker = ((tmp_path / "out" / name).read_text() for name in ("play.html", "sw.js"))
     kept = json.loads(worker.split("const kept = ")[1].split(";\n")[0])
     assert {"play.html", f"{app.name}/start.js", "icons/192.png", "manifest.webmanifest"} <= set(kept["small"])
@@ -123,7 +123,7 @@ def test_the_page_knows_its_version_and_sizes(pyodide: Path, tmp_path: Path) -> 
     texts = [path.read_text() for path in (tmp_path / "out").rglob("*") if path.suffix in {".html", ".js"}]
     assert "{{" not in page + worker
     assert "user-scalable" not in page  # its dialogs are texts, which people enlarge
-    assert not [text for text in texts if build.FOLDER in text]
+    assert not [text for text in texts if build._FOLDER in text]
     for icon in json.loads((tmp_path / "out" / "manifest.webmanifest").read_text())["icons"]:
         assert (tmp_path / "out" / icon["src"]).read_bytes().startswith(b"\x89PNG")
 
@@ -154,7 +154,7 @@ def test_the_archive_holds_the_game_and_nothing_that_the_page_cannot_use(pyodide
         assert library.namelist() == ["encodings/utf_8.py", "json/__init__.py"]
 
 
-@pytest.mark.parametrize("folder, beginning", [(name, each) for name in LEFT_OUT for each in LEFT_OUT[name]])
+@pytest.mark.parametrize("folder, beginning", [(name, each) for name in _LEFT_OUT for each in _LEFT_OUT[name]])
 def test_all_that_the_page_leaves_out_is_there(folder: str, beginning: str) -> None:
     root = PACKAGE if folder == "package" else data_folder(folder)
     assert any(path.relative_to(root).as_posix().startswith(beginning) for path in root.rglob("*.*"))
@@ -182,7 +182,7 @@ def test_a_folder_that_board_has_made_becomes_a_site(pyodide: Path, tmp_path: Pa
         build.build_site(out, pyodide, tmp_path)
     (out / "mine.txt").unlink()
     build.build_site(out, pyodide, tmp_path)
-    assert pages | {"play.html", build.MARK} <= names_in(out)
+    assert pages | {"play.html", build._MARK} <= names_in(out)
 
 
 def test_other_files_than_those_of_the_version_are_refused(pyodide: Path, tmp_path: Path) -> None:

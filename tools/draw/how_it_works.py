@@ -24,7 +24,7 @@ by hand if you like: comments stay, and what is missing or wrong has its default
 """
 CLASSES = ("45°", "concave", "convex", "22° thin", "22° thick", "67° thin", "67° thick", "half")
 
-FIGURES = [f"{name}.{'gif' if name in {'pairs', 'tick'} else 'png'}" for name in windows.FIGURES]
+FIGURES = [f"{name}.{'gif' if name in {'pairs', 'tick'} else 'png'}" for name in windows.FIGURE_NAMES]
 """Figures of the lab, and films of them."""
 
 Point = tuple[float, float]

@@ -61,7 +61,7 @@ from ninja_game.search.formula.language import parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES
 from ninja_game.tas import journal
 from ninja_game.tas.files import branches_path, inputs_of_text, open_run, replay_of_track, runs_of_level
-from ninja_game.tas.session import Session
+from ninja_game.tas.session import TasSession
 from ninja_game.tas.timeline import parse_watch
 from ninja_game.ui.lettering import StrokeFont
 from ninja_game.ui.text_entry import EditedText
@@ -254,7 +254,7 @@ def _journal(path: Path) -> None:
     journal.read_journal(path)
     for found in journal.recovered(path.parent.parent):
         if len(found.opened.track) <= MAX_RUN_TICKS and all(len(take) <= MAX_RUN_TICKS for take in found.tracks):
-            Session(found.opened, path.parent.parent, memory="plain").recover(found)
+            TasSession(found.opened, path.parent.parent, memory="plain").recover(found)
 
 
 def _branches(data: bytes, folder: Path) -> None:

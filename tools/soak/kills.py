@@ -37,11 +37,11 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.levels.episodes import Entry
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.playthrough import LevelSession
+from ninja_game.player.playthrough import LevelPlaythrough
 from ninja_game.sim.level import Level
 from ninja_game.tas import journal
 from ninja_game.tas.files import open_run
-from ninja_game.tas.session import Session
+from ninja_game.tas.session import TasSession
 from ninja_game.tas.tracks import InputTrack
 from tests.support.samples import replay_of_walk
 
@@ -81,7 +81,7 @@ def play_records(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
     while True:
         level = level_of(rng.randrange(40))
         attempt = passed_attempt(level, rng.randrange(30))
-        LevelSession(data, entry_of(level)).passed(attempt)
+        LevelPlaythrough(data, entry_of(level)).passed(attempt)
         pipe.send(("best", level_digest(level), attempt.score))
         pipe.send(("replay", "", data.records.keep_replay(attempt.replay())))
         volume = rng.randrange(100)
@@ -101,7 +101,7 @@ def play_in_window(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
     driver = MenuDriver(folder)
     while True:
         level = level_of(rng.randrange(40))
-        screen = LevelScreen(driver.app, LevelSession(driver.player, entry_of(level)))
+        screen = LevelScreen(driver.app, LevelPlaythrough(driver.player, entry_of(level)))
         driver.app.push(screen)
         for _ in range(3):
             driver.keys.script = [1] * rng.randrange(1, 15) + [2] * 120
@@ -167,10 +167,10 @@ def edit_run_in_window(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
         say_and_save(at.session, rng, pipe)
 
 
-def opened_run(folder: Path) -> Session:
+def opened_run(folder: Path) -> TasSession:
     """The run, or what was not saved of it."""
     found = next(journal.recovered(folder), None)
-    session = Session(found.opened if found else open_run(folder / RUN), folder, memory="plain")
+    session = TasSession(found.opened if found else open_run(folder / RUN), folder, memory="plain")
     if found:
         session.recover(found)
     return session
@@ -181,7 +181,7 @@ def digest_of_track(track: InputTrack) -> str:
     return sha256(track.inputs.rstrip(b"\0") + repr(track.markers).encode()).hexdigest()
 
 
-def say_and_save(session: Session, rng: Random, pipe: Connection) -> None:
+def say_and_save(session: TasSession, rng: Random, pipe: Connection) -> None:
     """Say what the run is; now and then save it."""
     digest = digest_of_track(session.track)
     pipe.send(("edited", digest, 0))
@@ -293,7 +293,7 @@ class Track:
 def await_locks(folder: Path) -> None:
     """Wait until the system has freed the locks of a process that has died: on some systems that takes a moment."""
     end = time.monotonic() + PATIENCE
-    for file in (folder / journal.FOLDER).glob("*.jsonl"):
+    for file in (folder / journal.JOURNAL_FOLDER).glob("*.jsonl"):
         while (handle := try_lock(file.with_suffix(".lock"))) is None and time.monotonic() < end:
             time.sleep(0.01)
         if handle is not None:

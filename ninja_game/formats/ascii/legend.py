@@ -36,12 +36,11 @@ TILE_FAMILIES = (
 """Families of slopes: name, then the characters with the solid corner top left, top right, bottom left, bottom
 right."""
 
-RIGHT, DOWN, LEFT, UP = 0.0, 1.0, 2.0, 3.0
-DIRECTION_WORDS = {"right": RIGHT, "down": DOWN, "left": LEFT, "up": UP}
+_RIGHT, _DOWN, _LEFT, _UP = 0.0, 1.0, 2.0, 3.0
+DIRECTION_WORDS = {"right": _RIGHT, "down": _DOWN, "left": _LEFT, "up": _UP}
 """Direction numbers of the N records (objects.md §1)."""
 
-WEAPONS = {"zap drone": 0.0, "laser drone": 1.0, "chaingun drone": 2.0}
-"""Weapon numbers of drones (objects.md §5)."""
+WEAPONS = {"zap drone": 0.0, "laser drone": 1.0, "chaingun drone": 2.0}  # weapon numbers of drones (objects.md §5)
 
 DIAGONAL = 0.7071067811865468  # what a diagonal pad's 0.707106781186547 loads as (game.md §5.2)
 
@@ -92,16 +91,16 @@ SYMBOLS = (
     Symbol("o", "gold", kinds.GOLD),
     Symbol("*", "mine", kinds.MINE),
     Symbol("B", "bounce block", kinds.BOUNCE_BLOCK),
-    Symbol("^", "one-way up", kinds.ONE_WAY, values=(UP,)),
-    Symbol("v", "one-way down", kinds.ONE_WAY, values=(DOWN,)),
-    Symbol("<", "one-way left", kinds.ONE_WAY, values=(LEFT,)),
-    Symbol(">", "one-way right", kinds.ONE_WAY, values=(RIGHT,)),
+    Symbol("^", "one-way up", kinds.ONE_WAY, values=(_UP,)),
+    Symbol("v", "one-way down", kinds.ONE_WAY, values=(_DOWN,)),
+    Symbol("<", "one-way left", kinds.ONE_WAY, values=(_LEFT,)),
+    Symbol(">", "one-way right", kinds.ONE_WAY, values=(_RIGHT,)),
     *(_pad(word) for word in PAD_NORMALS),
     Symbol("5", "launch pad, other normal", kinds.LAUNCH_PAD, values=None),
-    Symbol("M", "thwump up", kinds.THWUMP, values=(UP,)),
-    Symbol("W", "thwump down", kinds.THWUMP, values=(DOWN,)),
-    Symbol("{", "thwump left", kinds.THWUMP, values=(LEFT,)),
-    Symbol("}", "thwump right", kinds.THWUMP, values=(RIGHT,)),
+    Symbol("M", "thwump up", kinds.THWUMP, values=(_UP,)),
+    Symbol("W", "thwump down", kinds.THWUMP, values=(_DOWN,)),
+    Symbol("{", "thwump left", kinds.THWUMP, values=(_LEFT,)),
+    Symbol("}", "thwump right", kinds.THWUMP, values=(_RIGHT,)),
     Symbol("n", "floor guard", kinds.FLOOR_GUARD, 0.0, 6.0, (1.0,)),
     Symbol("+", "gauss turret", kinds.TURRET),
     Symbol("Q", "homing launcher", kinds.LAUNCHER),
@@ -126,7 +125,7 @@ _FACING = {
 _PADS = {symbol.values: symbol.char for symbol in SYMBOLS if symbol.kind == kinds.LAUNCH_PAD and symbol.values}
 
 
-class Glyph(NamedTuple):
+class PlacedCharacter(NamedTuple):
     """A character of an object in the picture, and its cell (column 1…31, row 1…23)."""
 
     char: str
@@ -155,14 +154,14 @@ def symbol_chars(spec: ObjectSpec) -> tuple[tuple[str, float, float], ...]:
     return ((char, x, y),) if char else ()
 
 
-def visible_glyphs(spec: ObjectSpec) -> list[Glyph]:
+def visible_glyphs(spec: ObjectSpec) -> list[PlacedCharacter]:
     """The characters of an object in the picture: only for the parts that are exactly where a character puts them."""
     parts = []
     for char, x, y in symbol_chars(spec):
         symbol = SYMBOL_OF_CHAR[char]
         column, row = (x - symbol.dx - HALF) / CELL, (y - symbol.dy - HALF) / CELL
         if column.is_integer() and row.is_integer() and 1 <= column <= COLUMNS and 1 <= row <= ROWS:
-            parts.append(Glyph(char, int(column), int(row)))
+            parts.append(PlacedCharacter(char, int(column), int(row)))
     return parts
 
 

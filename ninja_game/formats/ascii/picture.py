@@ -69,8 +69,7 @@ class Problems:
 
 FRAME = "|"
 ROW_START = re.compile(r"\s*+(\d*+)\s*+\|", re.ASCII)
-ROW_END = re.compile(r"\|\s*+\d*+\s*+$", re.ASCII)
-"""The end of a row, even if its left frame is missing."""
+ROW_END = re.compile(r"\|\s*+\d*+\s*+$", re.ASCII)  # the end of a row, even if its left frame is missing
 _ROW = re.compile(r"\s*+(\d*+)\s*+\|(.*)\|\s*+(\d*+)\s*+", re.ASCII)
 
 _LOOKS_LIKE = {
@@ -136,7 +135,7 @@ def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems)
 
 
 def _check_number(line: int, text: str, number: int, problems: Problems) -> bool:
-    """Tell whether a row has its own number or none; a wrong number is recorded as a mistake."""
+    """Whether a row has its own number or none; a wrong number is recorded as a mistake."""
     match = _ROW.fullmatch(text)
     for label in match.group(1, 3) if match else ():
         if label and (len(label) > 2 or int(label) != number):
@@ -147,7 +146,7 @@ def _check_number(line: int, text: str, number: int, problems: Problems) -> bool
 
 
 def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[str, int] | None:
-    """Give text and column of a row, and record its mistakes; None without both frame bars."""
+    """Text and column of a row, whose mistakes are recorded; None without both frame bars."""
     match = _ROW.fullmatch(text)
     if match is None:
         column = len(text) + 1

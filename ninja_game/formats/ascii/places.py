@@ -21,7 +21,7 @@ def shown(text: str) -> str:
 
 
 def same_bits(a: float, b: float) -> bool:
-    """Tell whether two float64 are equal to the last bit: -0.0 differs from 0.0; all NaNs are equal."""
+    """Whether two float64 are equal to the last bit: -0.0 differs from 0.0; all NaNs are equal."""
     return struct.pack("<d", a) == struct.pack("<d", b) or (math.isnan(a) and math.isnan(b))
 
 

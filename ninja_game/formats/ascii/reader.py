@@ -9,7 +9,7 @@ from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.object_lines import ListedObject, OddTile, read_object_line, suggestion
 from ninja_game.formats.ascii.picture import ROW_END, ROW_START, Problems, merge_picture_and_list, read_picture
 from ninja_game.formats.ascii.places import shown
-from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION
+from ninja_game.formats.ascii.writer import ASCII_MAGIC, ASCII_VERSION, HEADER_KEYS
 from ninja_game.formats.lines import MAX_NAME, UNCOMMENTED, Line, numbered_lines, read_quoted
 from ninja_game.formats.messages import parse_messages
 from ninja_game.sim.level import COLUMNS, ROWS, Level
@@ -28,7 +28,7 @@ class AsciiLevel:
 
 
 def is_ascii_level(text: str) -> bool:
-    """Tell whether a text begins like an ASCII level, or nearly so (after blank and comment lines)."""
+    """Whether a text begins like an ASCII level, or nearly so (after blank and comment lines)."""
     _, first = next(numbered_lines(text, UNCOMMENTED), (1, ""))
     return "".join(filter(str.isalpha, first[:80].lower())).startswith("ninjagamelevel")
 
@@ -69,12 +69,14 @@ def room_level(room: Sequence[str], objects: Sequence[str]) -> Level:
 def _check_first(lines: Sequence[Line], problems: Problems) -> None:
     number, first = lines[0] if lines else (1, "")
     words = first.split()
-    expected = f"'{MAGIC} {VERSION}' in the first line"
-    if words[:2] != MAGIC.split() or len(words) != 3:
+    expected = f"'{ASCII_MAGIC} {ASCII_VERSION}' in the first line"
+    if words[:2] != ASCII_MAGIC.split() or len(words) != 3:
         problems.add("not an ASCII level", number, 1, found=shown(first), expected=expected)
-    elif words[2] != str(VERSION):
+    elif words[2] != str(ASCII_VERSION):
         hint = "a level for a newer ninja-game needs a newer ninja-game"
-        problems.add("unknown version of the level format", number, found=words[2], expected=str(VERSION), hint=hint)
+        problems.add(
+            "unknown version of the level format", number, found=words[2], expected=str(ASCII_VERSION), hint=hint
+        )
     problems.raise_if_any()
 
 

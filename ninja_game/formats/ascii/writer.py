@@ -15,7 +15,7 @@ from ninja_game.formats.ascii.legend import (
     SYMBOL_OF_CHAR,
     TILE_CHARS,
     WEAPONS,
-    Glyph,
+    PlacedCharacter,
     legend_text,
     visible_glyphs,
 )
@@ -37,8 +37,8 @@ from ninja_game.sim.grid import Cell
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
 
-MAGIC = "ninja-game level"
-VERSION = 1
+ASCII_MAGIC = "ninja-game level"
+ASCII_VERSION = 1
 HEADER_KEYS = ("name", "author", "comment", "teaches", "says")
 
 RULER = (
@@ -67,7 +67,7 @@ def write_ascii_level(
     drawn = drawn_only(level, parts)
     rows = picture_rows(level, parts)
     fields = zip(HEADER_KEYS, (name, author, comment, teaches, says), strict=True)
-    text = [f"{MAGIC} {VERSION}\n"]
+    text = [f"{ASCII_MAGIC} {ASCII_VERSION}\n"]
     text += [f"{key}: {header_text(value)}".rstrip() + "\n" for key, value in fields if value or key in HEADER_KEYS[:2]]
     text += ["\n", RULER]
     text += [f" {row:2d} {FRAME}{chars}{FRAME}\n" for row, chars in enumerate(rows, 1)]
@@ -87,7 +87,7 @@ def _tile_char(number: int) -> str:
     return TILE_CHARS[number] if 0 <= number < len(TILE_CHARS) else ODD_TILE
 
 
-def picture_rows(level: Level, parts: Sequence[Sequence[Glyph]]) -> list[str]:
+def picture_rows(level: Level, parts: Sequence[Sequence[PlacedCharacter]]) -> list[str]:
     """Rows of characters; if several objects share a cell, the first one shows."""
     cells = {
         (column, row): _tile_char(level.tile(column, row))
@@ -111,7 +111,7 @@ def tile_lines(level: Level) -> list[str]:
     return [f"tile {' '.join(cells)} id {number}" for number, cells in places.items()]
 
 
-def drawn_only(level: Level, parts: Sequence[Sequence[Glyph]]) -> int:
+def drawn_only(level: Level, parts: Sequence[Sequence[PlacedCharacter]]) -> int:
     """Count the first records that the picture alone creates in this order."""
     claims = Counter((column, row, SYMBOL_OF_CHAR[char].kind) for group in parts for char, column, row in group)
     taken: set[Cell] = set()
@@ -135,7 +135,7 @@ def drawn_only(level: Level, parts: Sequence[Sequence[Glyph]]) -> int:
     return len(level.objects)
 
 
-def _as_drawn(kind: int, group: Sequence[Glyph]) -> ObjectSpec:
+def _as_drawn(kind: int, group: Sequence[PlacedCharacter]) -> ObjectSpec:
     """The object that the picture's characters create without a line; not a valid record if it needs a line."""
     values: tuple[float, ...] = ()
     for char, column, row in group:
@@ -150,7 +150,7 @@ _LINE_WIDTH = 100
 
 
 def same_spec(a: ObjectSpec, b: ObjectSpec) -> bool:
-    """Tell whether two records are equal in kind, text and every bit of their values."""
+    """Whether two records are equal in kind, text and every bit of their values."""
     return (a.kind, a.text, len(a.values)) == (b.kind, b.text, len(b.values)) and all(
         map(same_bits, a.values, b.values)
     )

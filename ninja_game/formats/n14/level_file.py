@@ -18,8 +18,7 @@ from ninja_game.sim.level import TILES
 MARKER = "&userdata="
 """Comes before the data of the game's own level file; the data is URL-encoded and ends at the next ``&``."""
 
-SHAPE = "$name#author#comment#level string#"
-"""The form of a record, for error messages."""
+_SHAPE = "$name#author#comment#level string#"  # the form of a record, for error messages
 
 _SEPARATOR, _ENCODED_SEPARATOR = re.compile(r"\$"), re.compile(r"\$|%24")
 _ENCODING = str.maketrans({"%": "%25", "&": "%26", "+": "%2B"})
@@ -56,7 +55,7 @@ class LevelRecord:
 
 
 def is_demo(text: str) -> bool:
-    """Tell whether a text without white space is a demo, not free text."""
+    """Whether a text without white space is a demo, not free text."""
     return bool(_DEMO.fullmatch(text) or _LEGACY_DEMO.fullmatch(text))
 
 
@@ -75,7 +74,7 @@ def read_level_file(text: str, *, file: str = "") -> list[LevelRecord]:
         if record:
             records.append(record)
     if not records:
-        raise LevelError("no level record", file=file, found=repr(text[:40]), expected=SHAPE)
+        raise LevelError("no level record", file=file, found=repr(text[:40]), expected=_SHAPE)
     return records
 
 
@@ -112,10 +111,10 @@ def _read_record(part: str, number: int, line: int, file: str) -> LevelRecord | 
         if "|" not in part:
             return None
         what, hint = f"record {number} has only {last + 1} fields", "an empty field still needs its '#'"
-        raise LevelError(what, file, line, 0, repr(part[:40]), SHAPE, hint)
+        raise LevelError(what, file, line, 0, repr(part[:40]), _SHAPE, hint)
     level = _level_text(fields[3], closed=last > 3) if not demo or place == 4 else ""
     if not level and not demo:
-        raise LevelError(f"record {number} has no level string", file=file, line=line, expected=SHAPE)
+        raise LevelError(f"record {number} has no level string", file=file, line=line, expected=_SHAPE)
     name, author, comment = (_one_line(field) for field in [*fields, "", "", ""][:3])
     if (longest := max(len(name), len(author))) > MAX_NAME:
         what = f"record {number} has a name of {longest:,} characters"
@@ -132,7 +131,7 @@ def _one_line(text: str) -> str:
 
 
 def _find_demo(fields: list[str]) -> tuple[int, str]:
-    """Give the number of the field with the demo, and its text; (0, '') without one.
+    """The number of the field with the demo, and its text; (0, '') without one.
 
     It is field 4 in a complete record, 3 or 2 in a record without a level.
     """
@@ -204,7 +203,7 @@ def _check_record(record: LevelRecord, number: int, *, userdata: bool) -> None:
         if not userdata and MARKER in text:
             raise LevelError(f"the {field} of record {number} does not fit", found=MARKER)
     if not record.level and not record.demo:
-        raise LevelError(f"record {number} has no level string", expected=SHAPE)
+        raise LevelError(f"record {number} has no level string", expected=_SHAPE)
     if tidy_level_string(record.level) != record.level:
         raise LevelError(f"the level of record {number} holds white space, which a level file cannot keep")
     if record.demo and not is_demo(record.demo):

@@ -113,7 +113,7 @@ def _write_object(spec: ObjectSpec, number: Callable[[float], str]) -> str:
 
 
 def level_digest(level: Level) -> str:
-    """Give the level's sha256, as 64 hex digits, over tile ids and records with values to the last bit.
+    """The level's sha256, as 64 hex digits, over tile ids and records with values to the last bit.
 
     Records that create nothing and the sign of a zero do not count.
     """

@@ -142,7 +142,7 @@ class PackFiles:
 
 
 def is_pack(path: Path) -> bool:
-    """Tell whether a path looks like a pack: a folder with an index, a file named like a zip, a link of a pack."""
+    """Whether a path looks like a pack: a folder with an index, a file named like a zip, a link of a pack."""
     if kind := link_kind(path):
         return kind == "pack"
     try:

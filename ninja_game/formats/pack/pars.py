@@ -22,10 +22,10 @@ MEDALS = (*MARGINS, "bronze")  # the best first; bronze is for every pass
 CARE = 0.25
 """Growth of a margin per point of difficulty, as a share of it: careful play takes longer. Chosen, not tuned."""
 
-GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extreme"}
+_GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extreme"}
 """Words for difficulties below a number, for players."""
 
-STEP = 4  # pars are rounded up to multiples of so many ticks: a tenth of a second
+_STEP = 4  # pars are rounded up to multiples of so many ticks: a tenth of a second
 
 DIGITS = 16  # digits of a digest in the table
 
@@ -56,7 +56,7 @@ class Pars:
         """
         if self.difficulty is None:
             return ""
-        return next(word for below, word in GRADES.items() if self.difficulty < below)
+        return next(word for below, word in _GRADES.items() if self.difficulty < below)
 
     def par(self, medal: str) -> int:
         """The last tick of an exit contact that still earns a medal with a margin, which difficulty widens.
@@ -65,7 +65,7 @@ class Pars:
         [492, 492, 580]
         """
         margin = MARGINS[medal] * (1 + CARE * (self.difficulty or 0.0))
-        return STEP * ceil(round(self.exit * (1 + margin) / STEP, 6))
+        return _STEP * ceil(round(self.exit * (1 + margin) / _STEP, 6))
 
     def medal(self, tick: int) -> str:
         """The best medal for an exit contact in ``tick``."""

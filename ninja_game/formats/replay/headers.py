@@ -12,9 +12,10 @@ from typing import NamedTuple, TypeVar
 from ninja_game.errors import LevelError, ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.lines import MAX_NAME, Line, read_quoted
-from ninja_game.formats.numbers import NAN, parse_number
+from ninja_game.formats.numbers import parse_number
 from ninja_game.formats.replay.provenance import Provenance, names_of_text, parse_provenance
 from ninja_game.sim.level import Level
+from ninja_game.sim.rules import NAN
 
 W = TypeVar("W", bound=str)
 
@@ -22,7 +23,7 @@ REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
 CLAIMS = ("rules", "outcome", "gold", "digest", "waypoints")
 """The headers that make claims; a replay without them only needs its inputs."""
 SECTIONS = ("inputs", "level-data", "waypoints")
-KEYS = (
+_KEYS = (
     *REQUIRED, "name", "author", "co-authors", "made", "level", "level-record", "level-digest", "digest", "demo-length",
     "level-data", "waypoints",
 )  # fmt: skip
@@ -56,10 +57,10 @@ class Headers:
             if match is None:
                 raise ReplayError("not a header line", file, number, 1, repr(line[:40]), "key: value")
             key = match[1]
-            if key not in KEYS:
-                near = get_close_matches(key, KEYS, 1)
+            if key not in _KEYS:
+                near = get_close_matches(key, _KEYS, 1)
                 hint = f"did you mean '{near[0]}'?" if near else ""
-                raise ReplayError("an unknown header", file, number, 1, repr(key[:40]), ", ".join(KEYS), hint)
+                raise ReplayError("an unknown header", file, number, 1, repr(key[:40]), ", ".join(_KEYS), hint)
             if key in self.lines:
                 raise ReplayError("a header given twice", file, number, 1, repr(key), hint="keep one of them")
             # The value keeps its column, so that error messages can name it.

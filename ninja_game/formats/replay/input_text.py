@@ -24,7 +24,7 @@ MAX_INCLUDES = 100  # most files that a text may include, repetitions counted
 
 MAX_MARKERS = 100_000  # most markers in a text and its included files
 
-DEEPEST = 8  # most levels of included files, and of nested blocks
+_DEEPEST = 8  # most levels of included files, and of nested blocks
 
 _WORD = re.compile(r';.*|#"[^"]*"|\(|\)[^ \t();]*|[^ \t();]+')
 _MARKER = re.compile(r'#([\w.-]+)|#"([^"]*)"')
@@ -109,8 +109,8 @@ class _Reader:
         if text.startswith(";"):
             return
         if text == "(":
-            if len(stack) > DEEPEST:
-                raise ReplayError("too many blocks in blocks", *place, expected=f"at most {DEEPEST}")
+            if len(stack) > _DEEPEST:
+                raise ReplayError("too many blocks in blocks", *place, expected=f"at most {_DEEPEST}")
             stack.append(_Block(place))
         elif text.startswith(")"):
             _end_block(text, stack, place)
@@ -137,8 +137,8 @@ class _Reader:
         self._included += 1
         if self._include is None:
             raise ReplayError("a text that is in no folder takes in no file", *place, repr(name[:40]))
-        if self._included > MAX_INCLUDES or len(files) > DEEPEST:
-            expected = f"at most {MAX_INCLUDES}, {DEEPEST} deep"
+        if self._included > MAX_INCLUDES or len(files) > _DEEPEST:
+            expected = f"at most {MAX_INCLUDES}, {_DEEPEST} deep"
             raise ReplayError("too many files taken in", *place, repr(name[:40]), expected)
         try:
             path, text = self._include(name)

@@ -72,7 +72,7 @@ def _runs(ticks: Sequence[str]) -> Iterator[str]:
 KEYSYMS = {"ff51": "L", "ff53": "R", "ffe1": "J", "ffe2": "J", "7a": "J", "20": "J"}
 """Keys by their X11 numbers: the arrows; the shift keys, Z and space jump. Writing uses the first of a kind."""
 
-MAX_FRAMES = 9999  # most frames in a line of CelesteTAS
+_MAX_FRAMES = 9999  # most frames in a line of CelesteTAS
 
 _FRAMES = re.compile(r"([0-9]{1,7})((?:[ \t]*+,[ \t]*+[A-Za-z0-9.]++)*+)[ \t]*+,?[ \t]*+(?:#.*)?")
 _REPEAT = re.compile(r"repeat[ ,]+([1-9][0-9]{0,6})", re.IGNORECASE)
@@ -90,7 +90,7 @@ _KEYS = re.compile(r"[0-9a-f]+(:[0-9a-f]+)*")
 
 
 def is_tas_text(text: str) -> bool:
-    """Tell whether a text may be in one of these notations."""
+    """Whether a text may be in one of these notations."""
     for _, raw in numbered_lines(text):
         line = raw.strip()
         if not _SKIPPED.fullmatch(line) and not line.startswith("#") and not _ABOUT.fullmatch(line):
@@ -172,7 +172,7 @@ def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
         if at in names:
             lines.append(f"#{names[at]}")
         count = sum(1 for _ in ticks)
-        frames = (min(MAX_FRAMES, count - first) for first in range(0, count, MAX_FRAMES))
+        frames = (min(_MAX_FRAMES, count - first) for first in range(0, count, _MAX_FRAMES))
         lines += [",".join([f"{frame:>4}", *KEY_NAMES[keys].strip(".")]) for frame in frames]
         at += count
     return "".join(f"{line}\n" for line in lines)

@@ -88,7 +88,7 @@ def names_of_text(text: str) -> tuple[str, ...]:
 
 
 def can_be_written(made: Provenance, co_authors: tuple[str, ...]) -> bool:
-    """Tell whether a replay text can store how a run was made, and its co-authors.
+    """Whether a replay text can store how a run was made, and its co-authors.
 
     >>> can_be_written(Provenance(edits=3), ("Bob",)), can_be_written(Provenance(edits=3, begun_by="Ann "), ())
     (True, False)

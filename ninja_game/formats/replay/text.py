@@ -26,12 +26,10 @@ from ninja_game.sim.inputs import MAX_TICKS, Demo, fit_inputs
 from ninja_game.sim.level import BODIES, Body, Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICKS_PER_SECOND
 
-MAGIC = "ninja-game replay"
-VERSION = 3
-LAST_LINE = "end"
-"""The end of a replay with claims, so that a truncated text is noticed."""
-RULES_VERSION = 1
-"""Version of the rules of replays; every change of the world that changes any replay raises it."""
+REPLAY_MAGIC = "ninja-game replay"
+REPLAY_VERSION = 3
+LAST_LINE = "end"  # the end of a replay with claims, so that a truncated text is noticed
+RULES_VERSION = 1  # version of the rules of replays; every change of the world that changes any replay raises it
 
 OUTCOMES = ("exit", "dead", "running")
 INPUTS_AFTER = "inputs after the final tick"
@@ -128,12 +126,12 @@ class InputsAfterError(ReplayError):
     replay: Replay
 
 
-_FIRST_LINE = re.compile(rf"{MAGIC} +([0-9]{{1,9}})[ \t]*")
+_FIRST_LINE = re.compile(rf"{REPLAY_MAGIC} +([0-9]{{1,9}})[ \t]*")
 
 
 def is_replay(text: str) -> bool:
-    """Tell whether a text begins like a replay of this program."""
-    return text.lstrip("\ufeff \t\r\n").startswith(MAGIC)
+    """Whether a text begins like a replay of this program."""
+    return text.lstrip("\ufeff \t\r\n").startswith(REPLAY_MAGIC)
 
 
 def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Replay:
@@ -189,12 +187,12 @@ def _check_first_line(lines: Sequence[Line], file: str) -> None:
     """Raise ReplayError unless the first line has the right format and version."""
     number, first = lines[0] if lines else (1, "")
     match = _FIRST_LINE.fullmatch(first)
-    expected = f"'{MAGIC} {VERSION}' in the first line"
+    expected = f"'{REPLAY_MAGIC} {REPLAY_VERSION}' in the first line"
     if match is None:
         raise ReplayError("not a replay of ninja-game", file, number, 1, repr(first[:40]), expected)
-    if int(match[1]) != VERSION:
+    if int(match[1]) != REPLAY_VERSION:
         hint = "a replay from a newer ninja-game needs a newer ninja-game"
-        raise ReplayError("unknown version of the replay format", file, number, 1, match[1], str(VERSION), hint)
+        raise ReplayError("unknown version of the replay format", file, number, 1, match[1], str(REPLAY_VERSION), hint)
 
 
 def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
@@ -255,7 +253,7 @@ def write_replay(replay: Replay) -> str:
         "body": replay.body,
         **_claims(replay),
     }
-    lines = [f"{MAGIC} {VERSION}", *(f"{key}: {value}" for key, value in headers.items() if value)]
+    lines = [f"{REPLAY_MAGIC} {REPLAY_VERSION}", *(f"{key}: {value}" for key, value in headers.items() if value)]
     lines += ["inputs:", *(f"  {line}" for line in write_inputs(replay.inputs, replay.markers))]
     if replay.waypoints:
         lines += ["waypoints:", *(f"  {tick} {x!r} {y!r} {state}" for tick, x, y, state in replay.waypoints)]
@@ -305,11 +303,11 @@ def _claims(replay: Replay) -> dict[str, str]:
 EPISODE_MAGIC = "ninja-game episode"
 FIRST_LINE = f"{EPISODE_MAGIC} 1"
 
-_HEAD = re.compile(rf"^{MAGIC}\b", re.MULTILINE)
+_HEAD = re.compile(rf"^{REPLAY_MAGIC}\b", re.MULTILINE)
 
 
 def is_episode(text: str) -> bool:
-    """Tell whether a text begins like an episode of this program."""
+    """Whether a text begins like an episode of this program."""
     return text.lstrip("\ufeff \t\r\n").startswith(EPISODE_MAGIC)
 
 

@@ -3,7 +3,7 @@
 A level is a variation of one of a thousand levels of an earlier generator (``generator/packed.py``): mirrored, with
 less gold and fewer hazards, and, except in the hard ones, with a shorter task, for which start, switch and exit are put
 on the way of the known run. That run, shortened in the same way, passes every level: it was played to test this. Of the
-first ``TRIES`` variations of a number ``TABLE`` has the one with which it passed (tools/bench_levels.py).
+first ``_TRIES`` variations of a number ``_TABLE`` has the one with which it passed (tools/bench_levels.py).
 
 >>> level = bench_level("test", 0)
 >>> level.grade, level.name, len(level.inputs) <= 120
@@ -27,7 +27,7 @@ from ninja_game.editor.specs import carried
 from ninja_game.errors import ArgumentError
 from ninja_game.files.bundled import data_folder
 from ninja_game.files.reading import read_bytes
-from ninja_game.generator.packed import FROZEN, MAX_BYTES, frozen_level
+from ninja_game.generator.packed import FROZEN, MAX_PACKED_BYTES, frozen_level
 from ninja_game.learn.levels.source import LevelSource, draws
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, with_press_bit
 from ninja_game.sim.kinds import EXIT, GOLD, KIND_OF, NINJA
@@ -37,22 +37,21 @@ from ninja_game.sim.states import SKIDDING
 COUNTS = {"train": 100_000, "test": 1_000}
 VAL = range(99_000, 100_000)
 """Numbers of `train` for the choice of settings; training uses the other numbers (docs/ninjabench.md)."""
-GRADES = {"easy": (30, 88), "medium": (89, 208), "hard": None}
+_GRADES = {"easy": (30, 88), "medium": (89, 208), "hard": None}
 """Least and most ticks of the part of the known run that is the task; hard levels have the whole run."""
 DELAY = 16
 """A run with another start begins at rest: it holds one key up to this many ticks longer, its last key this many."""
-AWAY = 36.0  # least px between a new start and the old one
-KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}  # least share of hazards that is kept, by grade
+_AWAY = 36.0  # least px between a new start and the old one
+_KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}  # least share of hazards that is kept, by grade
 BASES = 1000  # number of levels that are varied
 LARGEST = 306  # number of a level with the most objects
-TRIES = 32
+_TRIES = 32
 """The last variation only removes gold, is not mirrored and has the run's own start, so that the run passes it."""
-TABLE = "bench.bin"
-"""An asset of the game: the variation of each level, one byte each, `train` before `test`."""
+_TABLE = "bench.bin"  # an asset of the game: the variation of each level, one byte each, `train` before `test`
 
 
 class BenchLevel(NamedTuple):
-    """``inputs``: a run that passes the level, one byte per tick, up to the exit or some ticks more."""
+    """A level of the benchmark. ``inputs``: a run that passes it, one byte per tick, to the exit or some ticks more."""
 
     name: str
     grade: str
@@ -81,13 +80,13 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
         raise ArgumentError(f"found level {number!r:.30} of {split!r:.30}; expected one of {COUNTS}, counted from 0")
     place = number if split == "train" else COUNTS["train"] + number
     attempt = _table()[place] if attempt is None else attempt
-    grade = list(GRADES)[number % len(GRADES)]
-    drawn = draws(np.full(256, place * TRIES + attempt, np.uint64), np.arange(256, dtype=np.uint64)) / 2.0**64
-    sure = attempt == TRIES - 1
+    grade = list(_GRADES)[number % len(_GRADES)]
+    drawn = draws(np.full(256, place * _TRIES + attempt, np.uint64), np.arange(256, dtype=np.uint64)) / 2.0**64
+    sure = attempt == _TRIES - 1
     bases = _bases(split)
-    base = _base(bases[number // len(GRADES) % len(bases)], bool(drawn[0] < 0.5 and not sure))
-    gold, killers = drawn[1], KEPT[grade] + (1.0 - KEPT[grade]) * drawn[2]
-    span = GRADES[grade]
+    base = _base(bases[number // len(_GRADES) % len(bases)], bool(drawn[0] < 0.5 and not sure))
+    gold, killers = drawn[1], _KEPT[grade] + (1.0 - _KEPT[grade]) * drawn[2]
+    span = _GRADES[grade]
     ticks = len(base.inputs)
     first, last = 0, ticks
     moved: dict[int, tuple[float, ...]] = {}
@@ -130,7 +129,7 @@ def _bases(split: str) -> list[int]:
 
 @cache
 def _table() -> bytes:
-    return read_bytes(data_folder("assets") / TABLE, sum(COUNTS.values()))
+    return read_bytes(data_folder("assets") / _TABLE, sum(COUNTS.values()))
 
 
 _SIDES = KEY_LEFT | KEY_RIGHT
@@ -146,7 +145,7 @@ def _base(number: int, mirrored: bool) -> _Base:
         places = np.frombuffer(record.places, np.float64).reshape(-1, 2)
         speeds = np.abs(np.diff(places, axis=0, prepend=places[:1])).sum(1)
         stands = np.frombuffer(record.states, np.uint8) <= SKIDDING
-        away = np.abs(places - places[0]).sum(1) >= AWAY
+        away = np.abs(places - places[0]).sum(1) >= _AWAY
         order = np.argsort(speeds, kind="stable")
         return _Base(packed.level, packed.inputs[: len(places)], places, order[(stands & away)[order]] + 1)
     base = _base(number, mirrored=False)
@@ -185,7 +184,7 @@ class BenchSource(LevelSource):
     @property
     def digest(self) -> str:
         """Sha256 (hex) of the data that determine the levels."""
-        assets = [read_bytes(data_folder("assets") / name, MAX_BYTES) for name in (FROZEN, TABLE)]
+        assets = [read_bytes(data_folder("assets") / name, MAX_PACKED_BYTES) for name in (FROZEN, _TABLE)]
         return sha256(f"{self.levels.split} {self.levels.numbers}".encode() + b"".join(assets)).hexdigest()
 
 
@@ -194,14 +193,14 @@ def bench_source(text: str) -> BenchSource:
 
     Raises ArgumentError for anything else, FileError if the assets of the game are missing.
     """
-    match = re.fullmatch(rf"(\w+)(?::({'|'.join(GRADES)}))?(?::([0-9]{{1,6}})(?:-([0-9]{{1,6}}))?)?", text)
+    match = re.fullmatch(rf"(\w+)(?::({'|'.join(_GRADES)}))?(?::([0-9]{{1,6}})(?:-([0-9]{{1,6}}))?)?", text)
     split, grade, first, last = match.groups() if match else (text.partition(":")[0], None, None, None)
     all_of = numbers = VAL if split == "val" else range(COUNTS.get(split, 0))
     numbers = numbers[int(first) : int(last or first) + 1] if first else numbers
     if grade:
-        numbers = numbers[(list(GRADES).index(grade) - numbers.start) % len(GRADES) :: len(GRADES)]
+        numbers = numbers[(list(_GRADES).index(grade) - numbers.start) % len(_GRADES) :: len(_GRADES)]
     if not match or not numbers or int(last or first or 0) >= len(all_of):
-        expected = f"with grade {', '.join(GRADES)}, or numbers 0 to {len(all_of or VAL) - 1}, or both"
+        expected = f"with grade {', '.join(_GRADES)}, or numbers 0 to {len(all_of or VAL) - 1}, or both"
         raise ArgumentError(
             f"found 'bench:{text:.60}'; expected 'bench:train', 'bench:val' or 'bench:test', {expected}"
         )

@@ -25,8 +25,7 @@ from ninja_game.formats.pack.pack import PARS
 from ninja_game.formats.pack.pars import DIGITS, parse_pars
 from ninja_game.sim.level import Level
 
-LevelChoice: TypeAlias = str | int | Sequence[str | int] | NDArray[np.integer]
-"""Levels of a source, by name or number."""
+LevelChoice: TypeAlias = str | int | Sequence[str | int] | NDArray[np.integer]  # levels of a source, by name or number
 
 
 class LevelSource:
@@ -134,7 +133,7 @@ class LevelSequences:
 
 
 def checked_seed(seed: object) -> int:
-    """Give a seed as a Python int. Raises ArgumentError for anything but a whole number of 64 bits."""
+    """A seed as a Python int. Raises ArgumentError for anything but a whole number of 64 bits."""
     return whole_number("the seed", seed, 0, 2**64 - 1)
 
 

@@ -9,9 +9,10 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from gymnasium.spaces import Box
 
+from ninja_game.backend.worlds import InitialObject
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Array, InitialObject, Part, PartContext, clamp, put
-from ninja_game.learn.observations.surroundings import FINE, solidity
+from ninja_game.learn.observations.part import Array, Part, PartContext, clamp, put
+from ninja_game.learn.observations.surroundings import SAMPLES, solidity
 from ninja_game.learn.observations.vectors import MAX_SPEED
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import COLUMN as GRID_COLUMN, ROW as GRID_ROW, UNIT_X, UNIT_Y
@@ -30,7 +31,7 @@ MAX_ROUTINE = 3.0  # the highest number of a drone's or a turret's routine
 
 @fast
 def is_there(w: World, o: Object) -> bool:
-    """Tell whether an object still exists."""
+    """Whether an object still exists."""
     if o.kind == kinds.GOLD:
         return o.taken == 0
     if o.kind == kinds.MINE:
@@ -102,7 +103,7 @@ OBSERVED_KINDS = tuple(kind.name for kind in OBSERVED)
 OBJECT_COLUMNS = (*OBSERVED_KINDS, "dx", "dy", "vx", "vy", "face_x", "face_y", "moment")
 """Columns of an object: its kind, one flag each; its offset from the ninja, px; its velocity, px/tick."""
 DX = len(OBSERVED_KINDS)
-MAX_OBJECTS = 64
+_MAX_OBJECTS = 64
 
 
 class Numbered(NamedTuple):
@@ -130,8 +131,8 @@ class NearObjects(Part):
     kinds: tuple[str, ...] = OBSERVED_KINDS
 
     def __post_init__(self) -> None:
-        if self.count not in range(1, MAX_OBJECTS + 1):
-            raise ArgumentError(f"the count of near objects is {self.count!r}; expected 1 to {MAX_OBJECTS}")
+        if self.count not in range(1, _MAX_OBJECTS + 1):
+            raise ArgumentError(f"the count of near objects is {self.count!r}; expected 1 to {_MAX_OBJECTS}")
         if not self.kinds or not set(self.kinds) <= set(OBSERVED_KINDS):
             raise ArgumentError(f"the kinds of near objects are {self.kinds!r:.60}; expected some of {OBSERVED_KINDS}")
 
@@ -235,8 +236,8 @@ class LevelPlanes(Part):
         """The solid planes of the levels; their objects with the planes; the values."""
 
         def shades(number: int) -> Array:
-            points = solidity(context, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE)
-            solid = points.reshape(GRID_ROWS, FINE, GRID_COLUMNS, FINE).mean((1, 3))[1:-1, 1:-1]
+            points = solidity(context, number, GRID_COLUMNS * SAMPLES, GRID_ROWS * SAMPLES)
+            solid = points.reshape(GRID_ROWS, SAMPLES, GRID_COLUMNS, SAMPLES).mean((1, 3))[1:-1, 1:-1]
             return np.asarray(np.rint(solid * MAX_BYTE) * factor)
 
         factor = 1.0 / MAX_BYTE if self.normalised else 1

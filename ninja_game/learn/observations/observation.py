@@ -28,8 +28,7 @@ PARTS: dict[str, type[Part]] = {
 
 PartLike: TypeAlias = Part | str
 Writer: TypeAlias = tuple[Callable[..., None], tuple[Any, ...]]
-Observed: TypeAlias = Array | dict[str, Array]
-"""Observations of several worlds: (worlds, …), or such an array per part."""
+Observed: TypeAlias = Array | dict[str, Array]  # observations of several worlds: (worlds, …), or such an array per part
 
 
 def parts_of(observation: PartLike | Sequence[PartLike]) -> list[Part]:
@@ -76,7 +75,7 @@ class Observation:
         return _zeros(self.space, count)
 
     def writers(self, buffers: Observed, context: PartContext) -> list[Writer]:
-        """Give the writers of the parts to ``buffers``: the kernel of a part and its last arguments."""
+        """The writers of the parts to ``buffers``: the kernel of a part and its last arguments."""
         writers, offset = [], 0
         for part in self.parts:
             array = buffers[part.name] if isinstance(buffers, dict) else buffers

@@ -15,13 +15,8 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
-from ninja_game.backend.plain import PlainWorlds, load_plain
-from ninja_game.backend.worlds import Worlds
-from ninja_game.batch.batch import Indices
-from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.level import Level
+from ninja_game.backend.worlds import InitialLevel, InitialObject, Worlds
 from ninja_game.sim.schema.declare import fast
-from ninja_game.sim.schema.world_fields import World
 
 Array = NDArray[Any]
 
@@ -171,64 +166,3 @@ def copy_values(target: Any, source: Any, count: int) -> None:
     """Copy ``count`` values; for whole rows, the compiler makes this a copy of memory."""
     for k in range(count):
         target[k] = source[k]
-
-
-class InitialObject(NamedTuple):
-    """An object of a new world; ``partner``: the slot of an exit's switch."""
-
-    slot: int
-    kind: int
-    x: float
-    y: float
-    partner: int
-
-
-class InitialLevel(NamedTuple):
-    """The first state of a level: its grid of tiles; its objects by slot (slot 0 is unused); the ninja's place, px."""
-
-    tiles: Sequence[int]
-    objects: Sequence[InitialObject]
-    start: tuple[float, float]
-
-
-def initial_levels(worlds: Worlds, places: Iterable[int]) -> list[InitialLevel]:
-    """Levels of worlds by their numbers."""
-    if isinstance(worlds, PlainWorlds):
-        return [_initial_level(worlds.maps[place].tiles, worlds.fresh[place]) for place in places]
-    fresh = worlds.fresh
-    every = [fresh["objects"][name] for name in ("kind", "x", "y", "partner")]
-    tiles, used, ninja = worlds.maps["tiles"], fresh["slots_used"], fresh["ninja"]
-    levels = []
-    for place in places:
-        columns = [column[place, : used[place]].tolist() for column in every]
-        objects = list(map(InitialObject, range(len(columns[0])), *columns))
-        start = float(ninja["x"][place]), float(ninja["y"][place])
-        levels.append(InitialLevel(tiles[place].tolist(), objects, start))
-    return levels
-
-
-def _initial_level(tiles: Sequence[int], w: World) -> InitialLevel:
-    slots = enumerate(w.objects[: w.slots_used])
-    objects = [InitialObject(k, o.kind, o.x, o.y, o.partner if o.kind == EXIT else 0) for k, o in slots]
-    return InitialLevel(tiles, objects, (w.ninja.x, w.ninja.y))
-
-
-def put_levels(worlds: Worlds, places: Indices, levels: Sequence[Level]) -> None:
-    """Replace the levels with these numbers, and start the worlds of the same numbers in the new levels.
-
-    A level must not have more objects than the levels with which the worlds were opened.
-    """
-    if isinstance(worlds, PlainWorlds):
-        for place, level in zip(places.tolist(), levels, strict=True):
-            worlds.maps[place], worlds.fresh[place] = load_plain(level, worlds.box)
-            worlds.worlds[place] = load_plain(level, worlds.box)[1]
-        return
-    from ninja_game.backend.compiled import load_worlds
-    from ninja_game.backend.layout import bytes_of
-
-    worlds.maps[places], fresh = load_worlds(worlds.kernel, levels, box=worlds.box)
-    states, every = bytes_of(fresh), bytes_of(worlds.worlds)
-    for rows in (places, worlds.count + places):  # a new world per level lies behind the worlds
-        every[rows] = 0
-        every[rows, : states.shape[1]] = states
-    worlds.records["event_count"][places] = 0

@@ -10,9 +10,10 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
+from ninja_game.backend.worlds import InitialObject
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.objects import OBSERVED, activity_of, is_there
-from ninja_game.learn.observations.part import InitialObject, Part, PartContext, clamp, copy_values
+from ninja_game.learn.observations.part import Part, PartContext, clamp, copy_values
 from ninja_game.learn.observations.surroundings import cached_by_tiles, solidity
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, UNIT_X, UNIT_Y
@@ -23,14 +24,13 @@ from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import DRONE_FIRING, WEAPON_LASER
 from ninja_game.sim.traces import contact_place_of
 
-FAR = 2.0 * WORLD_WIDTH  # px; farther objects are not drawn
+_FAR = 2.0 * WORLD_WIDTH  # px; farther objects are not drawn
 # px
 DOOR_HALF = 4.0
 BEAM_RADIUS = 2.0
 CROSS_RADIUS = 4.0
-EVERYWHERE = (-FAR, FAR, -FAR, FAR)
-ROUNDING = 1.0e-6
-"""px by which rounding may move the border of an object."""
+EVERYWHERE = (-_FAR, _FAR, -_FAR, _FAR)
+ROUNDING = 1.0e-6  # px by which rounding may move the border of an object
 
 
 class Frame(NamedTuple):
@@ -115,7 +115,7 @@ def paint(
     pixel_y = frame.pixel_y
     x -= frame.left
     y -= frame.top
-    if not (-FAR < x < FAR and -FAR < y < FAR):
+    if not (-_FAR < x < _FAR and -_FAR < y < _FAR):
         return
     first, last, low, high = pixels_of((x - half_x, x + half_x, y - half_y, y + half_y), frame)
     for row in range(low, high + 1):
@@ -162,7 +162,7 @@ def draw_object(o: Object, picture: Any, frame: Frame, size: float, box: bool, s
         dx = o.end_x - x
         dy = o.end_y - y
         length = sqrt(dx * dx + dy * dy)
-        if length < FAR:
+        if length < _FAR:
             for step in range(int(length / BEAM_RADIUS)):
                 part = step * BEAM_RADIUS / length
                 paint(picture, frame, x + part * dx, y + part * dy, BEAM_RADIUS, BEAM_RADIUS, True, shade)
@@ -170,8 +170,7 @@ def draw_object(o: Object, picture: Any, frame: Frame, size: float, box: bool, s
 
 MAX_SIDE = 512
 MIN_VIEW, MAX_VIEW = 48.0, WORLD_WIDTH
-SAMPLES = 4
-"""Sampled points across a pixel of the tiles."""
+_SAMPLES = 4  # sampled points across a pixel of the tiles
 
 NINJA_SHADE, SOLID_SHADE = 255, 100
 SHADES = {
@@ -180,7 +179,7 @@ SHADES = {
     kinds.MINE: 210, kinds.SWITCH: 175,
 }  # fmt: skip
 """0 is empty, 255 the ninja; 205 to 230 kill. A closed exit has half its shade."""
-STILL = {kinds.GOLD, kinds.MINE, kinds.EXIT, kinds.SWITCH, kinds.LAUNCH_PAD, kinds.ONE_WAY}
+_STILL = {kinds.GOLD, kinds.MINE, kinds.EXIT, kinds.SWITCH, kinds.LAUNCH_PAD, kinds.ONE_WAY}
 """Kinds that never move, and change their looks only after an event (``PartContext.changed``)."""
 PLAIN_SIZE = 6.0  # drawn radius, px, of objects that cannot be touched
 
@@ -222,21 +221,21 @@ class Pixels(Part):
 
         def picture(number: int) -> NDArray[np.float64]:
             tiles = cached_by_tiles(tile_picture, context, number, across, down, pixel_x, pixel_y)
-            return np.rint(np.pad(tiles, margins, constant_values=SAMPLES**2) * (SOLID_SHADE / SAMPLES**2)) * factor
+            return np.rint(np.pad(tiles, margins, constant_values=_SAMPLES**2) * (SOLID_SHADE / _SAMPLES**2)) * factor
 
         def drawn(o: InitialObject) -> DrawnObject:
             size, box = sizes[o.kind]
-            return DrawnObject(o.slot, size, box, SHADES[o.kind] * factor, o.kind not in STILL, o.x, o.y)
+            return DrawnObject(o.slot, size, box, SHADES[o.kind] * factor, o.kind not in _STILL, o.x, o.y)
 
         def movers(number: int) -> list[int]:
-            return [place for place, o in enumerate(context.objects(number, *SHADES)) if o.kind not in STILL]
+            return [place for place, o in enumerate(context.objects(number, *SHADES)) if o.kind not in _STILL]
 
         def later(number: int) -> NDArray[np.int16]:
             grid = np.full((2 * GRID_ROWS, 2 * GRID_COLUMNS), -1, np.int16)
             for place, o in enumerate(context.objects(number, *SHADES)):
                 reach = sizes[o.kind][0] + max(pixel_x, pixel_y) + 2.0 * ROUNDING
                 left, right, top, bottom = cells_of((o.x - reach, o.x + reach, o.y - reach, o.y + reach))
-                if o.kind in STILL:
+                if o.kind in _STILL:
                     grid[top : bottom + 1, left : right + 1] = place
             return grid
 
@@ -270,11 +269,11 @@ def tile_picture(
     context: PartContext, number: int, across: int, down: int, pixel_x: float, pixel_y: float
 ) -> NDArray[np.uint8]:
     """Count the solid points of each pixel (down, across); outside the world all is solid."""
-    wide, high = pixel_x / SAMPLES, pixel_y / SAMPLES
-    points = solidity(context, number, across * SAMPLES, down * SAMPLES, (wide, high))
+    wide, high = pixel_x / _SAMPLES, pixel_y / _SAMPLES
+    points = solidity(context, number, across * _SAMPLES, down * _SAMPLES, (wide, high))
     points[:, int(WORLD_WIDTH / wide) :] = 1
     points[int(WORLD_HEIGHT / high) :] = 1
-    return np.asarray(points.reshape(down, SAMPLES, across, SAMPLES).sum((1, 3)), np.uint8)
+    return np.asarray(points.reshape(down, _SAMPLES, across, _SAMPLES).sum((1, 3)), np.uint8)
 
 
 @kernel
@@ -380,14 +379,14 @@ def area_of(o: Object, size: float, gap: float) -> tuple[float, float, float, fl
         dy = o.end_y - y
     reach = size + gap
     return (
-        x + clamp(dx, -FAR, 0.0) - reach, x + clamp(dx, 0.0, FAR) + reach,
-        y + clamp(dy, -FAR, 0.0) - reach, y + clamp(dy, 0.0, FAR) + reach,
+        x + clamp(dx, -_FAR, 0.0) - reach, x + clamp(dx, 0.0, _FAR) + reach,
+        y + clamp(dy, -_FAR, 0.0) - reach, y + clamp(dy, 0.0, _FAR) + reach,
     )  # fmt: skip
 
 
 @fast
 def is_covered(place: int, level: int, later: Any, area: Any) -> bool:
-    """Tell whether an object of the layer that is drawn later may lie in this object's area."""
+    """Whether an object of the layer that is drawn later may lie in this object's area."""
     left, right, top, bottom = cells_of(area)
     for row in range(top, bottom + 1):
         for column in range(left, right + 1):

@@ -39,8 +39,7 @@ from ninja_game.sim.rules import (
 from ninja_game.sim.schema.declare import fast, kernel
 from ninja_game.sim.schema.world_fields import EDGE_STATES
 
-FINE = 8
-"""Points across a cell for measuring distances: the error is below 3 px, the distance of the points."""
+SAMPLES = 8  # points across a cell for measuring distances: the error is below 3 px, the distance of the points
 
 
 def solidity(
@@ -63,14 +62,13 @@ def mark_solid(maps: Any, number: int, wide: float, high: float, points: Any) ->
 
 
 _BY_TILES: dict[Any, NDArray[Any]] = {}
-MAX_CACHED = 4096
-"""Most results that are kept, by the tiles of their level: many levels have the same tiles."""
+MAX_CACHED = 4096  # most results that are kept, by the tiles of their level: many levels have the same tiles
 
 
 def cached_by_tiles(
     make: Callable[..., NDArray[Any]], context: PartContext, number: int, *lengths: float
 ) -> NDArray[Any]:
-    """Give the result of ``make`` for a level's tiles, kept for other levels with the same tiles."""
+    """The result of ``make`` for a level's tiles, kept for other levels with the same tiles."""
     key = make, tuple(context.fresh[number].tiles), lengths
     if key not in _BY_TILES:
         if len(_BY_TILES) >= MAX_CACHED:
@@ -85,28 +83,27 @@ def surface_distances(context: PartContext, number: int, reach: float) -> NDArra
     Outside the world all is solid. The search takes the nearest point of each row near a cell, and then the nearest of
     these.
     """
-    spacing = WORLD_WIDTH / GRID_COLUMNS / FINE
+    spacing = WORLD_WIDTH / GRID_COLUMNS / SAMPLES
     margin = int(reach / spacing)
-    solid = np.pad(solidity(context, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE), margin, constant_values=1)
+    solid = np.pad(solidity(context, number, GRID_COLUMNS * SAMPLES, GRID_ROWS * SAMPLES), margin, constant_values=1)
     within = solidity(context, number, GRID_COLUMNS, GRID_ROWS) == 1
     squares = ((np.arange(2 * margin) - margin + 0.5) * spacing) ** 2
-    shares = sliding_window_view(solid, 2 * margin, axis=1)[:, FINE // 2 :: FINE][:, :GRID_COLUMNS]
+    shares = sliding_window_view(solid, 2 * margin, axis=1)[:, SAMPLES // 2 :: SAMPLES][:, :GRID_COLUMNS]
     surfaces = []
     for side in (1, 0):
         along = np.where(shares == side, squares, np.inf).min(axis=2)
-        rows = sliding_window_view(along, 2 * margin, axis=0)[FINE // 2 :: FINE][:GRID_ROWS]
+        rows = sliding_window_view(along, 2 * margin, axis=0)[SAMPLES // 2 :: SAMPLES][:GRID_ROWS]
         surfaces.append(np.sqrt((rows + squares).min(axis=2)))
     outside, inside = np.minimum(surfaces, reach)
     distances: NDArray[np.float64] = np.where(within, -inside, outside)
     return distances
 
 
-FORMS = ("distance", "one-hot")
+_FORMS = ("distance", "one-hot")
 TILE_KINDS = len(SHAPE)
 FULL_TILE = SHAPE.index(FULL)
 MAX_SIZE = 31
-REACH = 48.0
-"""px; greater distances are cut off."""
+_REACH = 48.0  # px; greater distances are cut off
 
 
 @dataclass(frozen=True)
@@ -126,29 +123,29 @@ class LocalTiles(Part):
     def __post_init__(self) -> None:
         if self.size not in range(1, MAX_SIZE + 1, 2):
             raise ArgumentError(f"the size of local tiles is {self.size!r}; expected an odd number up to {MAX_SIZE}")
-        if self.form not in FORMS:
-            raise ArgumentError(f"the form of local tiles is {self.form!r}; expected one of {FORMS}")
+        if self.form not in _FORMS:
+            raise ArgumentError(f"the form of local tiles is {self.form!r}; expected one of {_FORMS}")
 
     @property
     def box(self) -> Box:
         """Float32 (size, size), or uint8 (size, size, 36)."""
         if self.form == "one-hot":
             return Box(0, 1, (self.size, self.size, TILE_KINDS), np.uint8)
-        reach = 1.0 if self.normalised else REACH
+        reach = 1.0 if self.normalised else _REACH
         return Box(-reach, reach, (self.size, self.size), np.float32)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
         """A padded picture of each level (distances or tile ids); width and height of a picture, and the size."""
         margin = self.size // 2
         height, width = GRID_ROWS + 2 * margin, GRID_COLUMNS + 2 * margin
-        unit = REACH if self.normalised else 1.0
+        unit = _REACH if self.normalised else 1.0
 
         def picture(number: int) -> NDArray[Any]:
             if self.form == "one-hot":
                 tiles = np.reshape(context.fresh[number].tiles, (-1, STRIDE))
                 return np.pad(tiles[1 : GRID_ROWS + 1, 1 : GRID_COLUMNS + 1], margin, constant_values=FULL_TILE)
             return (
-                np.pad(cached_by_tiles(surface_distances, context, number, REACH), margin, constant_values=-REACH)
+                np.pad(cached_by_tiles(surface_distances, context, number, _REACH), margin, constant_values=-_REACH)
                 / unit
             )
 

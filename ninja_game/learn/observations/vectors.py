@@ -9,7 +9,8 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.learn.goal_distance import point_within
-from ninja_game.learn.observations.part import InitialObject, Part, PartContext, clamp, put
+from ninja_game.backend.worlds import InitialObject
+from ninja_game.learn.observations.part import Part, PartContext, clamp, put
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
@@ -57,8 +58,7 @@ of the floor below; ``…_dx``, ``…_dy``: offset from the ninja; the last eigh
 
 _NAMES = tuple(FIELDS)
 FIRST_EXIT, FIRST_GOLD, FIRST_STATE = (_NAMES.index(name) for name in ("exit_there", "gold_there", STATE_NAMES[0]))
-FAR = 1.0e18
-"""px², farther than any distance."""
+_FAR = 1.0e18  # px², farther than any distance
 MAX_EXITS = 60  # exits per level that are looked at: the first ones
 
 
@@ -178,7 +178,7 @@ def observe_ninja(w: World, out: Any, index: int, offset: int, ranges: Any) -> N
 
 @fast
 def open_exits(w: World, exits: Any, start: int, end: int) -> int:
-    """Give the open exits of a level, one bit each, as far as there are bits."""
+    """The open exits of a level, one bit each, as far as there are bits."""
     opened = 0
     for k in range(start, min(end, start + MAX_EXITS)):
         if w.objects[exits[k].slot].is_open:
@@ -189,7 +189,7 @@ def open_exits(w: World, exits: Any, start: int, end: int) -> int:
 @fast
 def choose_exit(x: float, y: float, opened: int, exits: Any, start: int, end: int) -> int:
     """Choose the exit to show to a ninja at a place, -1: none."""
-    best = FAR
+    best = _FAR
     chosen = -1
     chosen_open = 0
     for k in range(start, min(end, start + MAX_EXITS)):
@@ -207,14 +207,14 @@ def choose_exit(x: float, y: float, opened: int, exits: Any, start: int, end: in
 
 @fast
 def nearest_gold(w: World, gold: Any, start: int, end: int, guess: int) -> int:
-    """Give the nearest piece that is left, the first of equally near ones; -1: none.
+    """The nearest piece that is left, the first of equally near ones; -1: none.
 
     The level's table is near in memory, the world's objects are not, so they are read last. With a good ``guess``, a
     piece that is left (or -1), such as the last nearest one, hardly any object is read.
     """
     x = w.ninja.x
     y = w.ninja.y
-    best = FAR
+    best = _FAR
     chosen = guess
     if guess >= 0:
         dx = gold[guess].x - x
@@ -259,10 +259,9 @@ def observe_time(
         out[index, offset] = clamp((time_limit - worlds[index].tick) * factor, 0.0, highest)
 
 
-RADII = (24.0, 60.0)  # px
+_RADII = (24.0, 60.0)  # px
 _SIDES = ((1.0, 0.0), (1.0 / ROOT2, 1.0 / ROOT2), (0.0, 1.0), (-1.0 / ROOT2, 1.0 / ROOT2))
-DIRECTIONS = [*_SIDES, *((-x, -y) for x, y in _SIDES)]
-"""The sides, from the right by way of down."""
+_DIRECTIONS = [*_SIDES, *((-x, -y) for x, y in _SIDES)]  # the sides, from the right by way of down
 FAR_TICKS = 1000.0  # ticks to the exit that are normalised to 1
 
 
@@ -279,13 +278,13 @@ class Guide(Part):
 
     @property
     def box(self) -> Box:
-        slopes = len(RADII) * len(DIRECTIONS)
+        slopes = len(_RADII) * len(_DIRECTIONS)
         low = np.array([-1.0] * slopes + [0.0], np.float32)
         return Box(low, np.array([1.0] * slopes + [1.0 if self.normalised else FARTHEST], np.float32), dtype=np.float32)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
         """The offsets of the points, px; the fields and the row of each world; factor and limit of the last value."""
-        ways = [(radius * x, radius * y, 1.0 / radius) for radius in RADII for x, y in DIRECTIONS]
+        ways = [(radius * x, radius * y, 1.0 / radius) for radius in _RADII for x, y in _DIRECTIONS]
         columns = [context.table(column, np.float64) for column in zip(*ways, strict=True)]
         factor, highest = 1.0 / FAR_TICKS if self.normalised else 1.0, float(self.box.high[-1])
         return observe_guide, *columns, context.goal.fields, context.goal.rows, factor, highest

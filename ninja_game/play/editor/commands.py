@@ -36,7 +36,7 @@ from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
+from ninja_game.player.playthrough import Navigation, PacedRun, Playthrough
 from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level
@@ -449,7 +449,7 @@ class EditorCommands(DocumentCommands):
         self.unless_unsaved(lambda: self.app.push(Menu(self.app, "New level from", rows)))
 
 
-class TryContext(LevelContext):
+class TryContext(Playthrough):
     """A level that is only tested: with practice tools, without a clock; nothing counts."""
 
     next_label = "back to the editor"

@@ -24,7 +24,7 @@ from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.keys import key_label_of
 from ninja_game.ui.theme import PALETTES, Area, Palette, Theme, inside, mixed
 from ninja_game.ui.widgets import Widget
-from ninja_game.view.ninja.figure import REACH, STAND, paint_figure
+from ninja_game.view.ninja.figure import FIGURE_REACH, STAND, paint_figure
 from ninja_game.view.sprites import static_sprites
 from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook, SpriteKey, drawing, is_near
 from ninja_game.view.sprites.moving_sprites import draw_moving
@@ -42,7 +42,7 @@ _HIDDEN = 4
 """Opacity in eighths of a door that a player cannot see yet."""
 
 
-@drawing(REACH)
+@drawing(FIGURE_REACH)
 def _standing(s: Sketch, p: Palette) -> None:
     paint_figure(s, p, STAND, 1, (0.0, 0.0), colour=p.ninja)
 

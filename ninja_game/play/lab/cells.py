@@ -16,7 +16,7 @@ from ninja_game.sim.objects.dispatch import NINE_CELLS, touch_objects
 from ninja_game.sim.rules import CELL, GOLD_RADIUS, GRID_COLUMNS, GRID_ROWS, RADIUS, STRIDE
 from ninja_game.view.overlays import hit_shapes, touched_cells
 
-BODIES: Sequence[tuple[str, object]] = (("circle", False), ("box", True))
+BODY_CHOICES: Sequence[tuple[str, object]] = (("circle", False), ("box", True))
 
 
 class GridOfCells(Figure):
@@ -63,7 +63,7 @@ class CellsTouched(Figure):
     box = False
 
     def controls(self) -> Sequence[Control]:
-        return [self.choice("Body", BODIES, "box")]
+        return [self.choice("Body", BODY_CHOICES, "box")]
 
     def drag(self, x: float, y: float) -> None:
         super().drag(max(x, CELL + RADIUS), max(y, CELL + RADIUS))
@@ -145,7 +145,7 @@ class NineCells(Figure):
         sheet.body(p.ninja, self.x, self.y, RADIUS, box=False)
 
 
-NINJA: Point = (292.0, 172.0)
+_NINJA: Point = (292.0, 172.0)
 
 
 class RayCast(Figure):
@@ -157,7 +157,7 @@ class RayCast(Figure):
         super().reset()
         self.from_x, self.from_y = 60.0, 70.0
         self.tiles, self.world = room_world(self.room, self.objects)
-        self.world.ninja.x, self.world.ninja.y = NINJA
+        self.world.ninja.x, self.world.ninja.y = _NINJA
 
     def controls(self) -> Sequence[Control]:
         return [self.choice("Arrows move", (("the end", "end"), ("the start", "start")), "moves")]

@@ -20,9 +20,9 @@ from ninja_game.sim.rules import DRONE_RADIUS, RADIUS
 from ninja_game.sim.schema.object_fields import Object
 
 FACES = ("none", "partial", "full")
-DIRECTIONS = tuple(DIRECTION_WORDS)
-STATES = ("off", "interesting", "solid")
-SIDES: Sequence[tuple[str, object]] = (("right", 0), ("down", 1), ("left", 2), ("up", 3))
+_DIRECTIONS = tuple(DIRECTION_WORDS)
+_STATES = ("off", "interesting", "solid")
+_SIDES: Sequence[tuple[str, object]] = (("right", 0), ("down", 1), ("left", 2), ("up", 3))
 
 
 class EdgeStates(Figure):
@@ -54,7 +54,7 @@ class EdgeStates(Figure):
     def controls(self) -> Sequence[Control]:
         return [
             self.slider("Tile to paint", (0, 33, 1), "tile", lambda number: tile_name(int(number))),
-            self.choice("Side", SIDES, "side"),
+            self.choice("Side", _SIDES, "side"),
             self.choice("Door", (("closed", False), ("open", True)), "is_open"),
         ]
 
@@ -94,8 +94,8 @@ class EdgeStates(Figure):
             ("cell", f"column {column}, row {row}: {tile_name(tile)}"),
             ("1. its own face there", FACES[own]),
             ("2. the neighbour's face", FACES[other] if tiles.EXISTS[neighbour] else "there is no neighbour"),
-            ("3. the state", STATES[self.world.edges[4 * self.cell + self.side]]),
-            ("in the level", ", ".join(f"{states.count(state)} {name}" for state, name in enumerate(STATES))),
+            ("3. the state", _STATES[self.world.edges[4 * self.cell + self.side]]),
+            ("in the level", ", ".join(f"{states.count(state)} {name}" for state, name in enumerate(_STATES))),
         ]
 
     def draw(self, sheet: Sheet) -> None:
@@ -145,13 +145,13 @@ class Doors(EdgeStates):
         """The direction that a drone chooses in the doorway, coming from the left."""
         drone = next(o for o in self.world.objects if o.kind == DRONE)
         drone.direction = 0
-        return DIRECTIONS[first_open(self.world, drone, drone.movement)]
+        return _DIRECTIONS[first_open(self.world, drone, drone.movement)]
 
     def numbers(self) -> list[tuple[str, str]]:
         door, points = self.world.objects[self._door], self.body.points
         return [
-            ("left cell's state", STATES[self.world.edges[door.edge_1]]),
-            ("right cell's state", STATES[self.world.edges[door.edge_2]]),
+            ("left cell's state", _STATES[self.world.edges[door.edge_1]]),
+            ("right cell's state", _STATES[self.world.edges[door.edge_2]]),
             ("the body is pushed", f"({points[-1][0] - self.x:+.1f}, {points[-1][1] - self.y:+.1f}) px"),
             ("the turret sees it", "yes" if self.ray()[0] else "no"),
             ("the drone goes", self.drone_goes()),
@@ -169,7 +169,7 @@ class Doors(EdgeStates):
         sheet.body(p.ninja, *self.body.points[-1], RADIUS, box=False, width=3)
         drone = next(o for o in self.world.objects if o.kind == DRONE)
         sheet.circle(p.switch, drone.x, drone.y, DRONE_RADIUS, 2)
-        side = DIRECTIONS.index(self.drone_goes())
+        side = _DIRECTIONS.index(self.drone_goes())
         sheet.arrow(
             p.switch, (drone.x, drone.y), (drone.x + 20 * tiles.UNIT_X[side], drone.y + 20 * tiles.UNIT_Y[side]), 3
         )
@@ -243,7 +243,7 @@ class WalkingEnemies(Figure):
     def numbers(self) -> list[tuple[str, str]]:
         rows = []
         for number, o in enumerate(self._of_kind(DRONE), 1):
-            tried = ", ".join(f"{DIRECTIONS[direction]} {STATES[state]}" for direction, state in self.tried(o))
+            tried = ", ".join(f"{_DIRECTIONS[direction]} {_STATES[state]}" for direction, state in self.tried(o))
             rows.append((f"drone {number} tried", tried or "nothing yet"))
         opened = sum(bool(door.switched) for door in self._of_kind(DOOR))
         return [

@@ -96,8 +96,7 @@ def values_of(local: str, function: Callable[..., Any], *args: Any) -> list[Any]
     return values
 
 
-FIGURE: Area = (212, 62, 540, 324)
-"""The area of a figure on the screen, logical px."""
+FIGURE: Area = (212, 62, 540, 324)  # the area of a figure on the screen, logical px
 
 
 ALL_CELLS = range(len(EXISTS))
@@ -111,10 +110,8 @@ class View(NamedTuple):
     zoom: float
 
 
-CORNER = View(0, 0, 1.5)
-"""15 x 9 cells with the border."""
-FIELD = View(CELL, CELL, 0.75)
-"""30 x 18 cells."""
+CORNER = View(0, 0, 1.5)  # 15 x 9 cells with the border
+FIELD = View(CELL, CELL, 0.75)  # 30 x 18 cells
 
 
 class Sheet:
@@ -331,8 +328,7 @@ class Figure:
         theme.canvas.frame_rect(surface, theme.palette.panel_edge, *FIGURE, 1)
 
 
-ELSEWHERE = "ninja 700,500px"
-"""Every world needs a ninja; this one is outside of the picture."""
+ELSEWHERE = "ninja 700,500px"  # every world needs a ninja; this one is outside of the picture
 
 
 def room_world(rows: Sequence[str], objects: Sequence[str] = ()) -> tuple[TileMap, World]:

@@ -16,8 +16,8 @@ from ninja_game.sim.rules import STRIDE
 from ninja_game.sim.schema.object_fields import Object
 from ninja_game.sim.schema.world_fields import World
 
-LEFT, TOP = FIELD.left, FIELD.top
-RIGHT, BOTTOM = LEFT + FIGURE[2] / FIELD.zoom, TOP + FIGURE[3] / FIELD.zoom
+_LEFT, _TOP = FIELD.left, FIELD.top
+_RIGHT, _BOTTOM = _LEFT + FIGURE[2] / FIELD.zoom, _TOP + FIGURE[3] / FIELD.zoom
 
 FIVE_CELLS = (0, 1, STRIDE - 1, STRIDE, STRIDE + 1)
 """The rest of the own list, and the lists right, below left, below, below right: every pair of neighbours once."""
@@ -42,7 +42,7 @@ class Crowd:
         for slot in range(1, count + 1):
             o = self.world.objects[slot]
             o.slot = slot
-            o.x, o.y = rng.uniform(LEFT + 10, RIGHT - 10), rng.uniform(TOP + 10, BOTTOM - 10)
+            o.x, o.y = rng.uniform(_LEFT + 10, _RIGHT - 10), rng.uniform(_TOP + 10, _BOTTOM - 10)
             self.velocities.append((rng.uniform(-speed, speed), rng.uniform(-speed, speed)))
             grid_insert(self.world, o)
 
@@ -80,10 +80,10 @@ class Crowd:
     def step(self, o: Object) -> None:
         vx, vy = self.velocities[o.slot]
         o.x, o.y = o.x + vx, o.y + vy
-        if not LEFT + self.radius < o.x < RIGHT - self.radius:
-            vx, o.x = -vx, min(max(o.x, LEFT + self.radius), RIGHT - self.radius)
-        if not TOP + self.radius < o.y < BOTTOM - self.radius:
-            vy, o.y = -vy, min(max(o.y, TOP + self.radius), BOTTOM - self.radius)
+        if not _LEFT + self.radius < o.x < _RIGHT - self.radius:
+            vx, o.x = -vx, min(max(o.x, _LEFT + self.radius), _RIGHT - self.radius)
+        if not _TOP + self.radius < o.y < _BOTTOM - self.radius:
+            vy, o.y = -vy, min(max(o.y, _TOP + self.radius), _BOTTOM - self.radius)
         self.velocities[o.slot] = vx, vy
 
     def meet(self, a: Object, b: Object) -> bool:
@@ -104,11 +104,9 @@ class Crowd:
                 slot = o.next
 
 
-MEASURED = (25, 50, 100, 200, 400)
-"""The numbers of objects in the plot."""
+MEASURED = (25, 50, 100, 200, 400)  # the numbers of objects in the plot
 
-CHART = (LEFT + 460, TOP + 270, 240.0, 140.0)
-"""The plot's area, px of the world."""
+CHART = (_LEFT + 460, _TOP + 270, 240.0, 140.0)  # the plot's area, px of the world
 
 
 @cache
@@ -125,7 +123,7 @@ class LooseGrid(Figure):
 
     name = "grids"
     view = FIELD
-    start = (LEFT + 300, TOP + 180)
+    start = (_LEFT + 300, _TOP + 180)
     count, radius = FigureSetting(60, "fill"), FigureSetting(8, "resize")
     plot = 0
 

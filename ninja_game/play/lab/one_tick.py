@@ -26,12 +26,12 @@ PHASES: dict[str, tuple[int, str]] = {
 }
 """The rules that begin a phase of a tick; the phase's number and what it does."""
 
-SHOWN = 7
-KEYS: Sequence[tuple[str, object]] = (
+_SHOWN = 7
+_KEYS: Sequence[tuple[str, object]] = (
     ("by itself", -1), ("none", 0), ("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD),
     ("jump right", KEY_RIGHT + JUMP_HELD), ("jump left", KEY_LEFT + JUMP_HELD),
 )  # fmt: skip
-PLAYED = read_inputs([(1, ".*10 R*30 RJ*20 R*30 L*40 LJ*25 L*30 .*10")]).keys
+_PLAYED = read_inputs([(1, ".*10 R*30 RJ*20 R*30 L*40 LJ*25 L*30 .*10")]).keys
 
 
 class OneTick(Figure):
@@ -49,12 +49,12 @@ class OneTick(Figure):
         """Simulate a tick and show its first call."""
         tick = self.stage.simulation.tick
         jump_held = self.stage.world.ninja.jump_held
-        self.stage.step(PLAYED[tick % len(PLAYED)] if self.keys < 0 else with_press_bit(self.keys, jump_held))
+        self.stage.step(_PLAYED[tick % len(_PLAYED)] if self.keys < 0 else with_press_bit(self.keys, jump_held))
         self.at = 0.0
 
     def controls(self) -> Sequence[Control]:
         speed = self.slider("Calls a second", (0, 400, 1), "speed", lambda calls: f"{calls:.0f}" if calls else "paused")
-        return [self.choice("Keys", KEYS, "keys"), speed]
+        return [self.choice("Keys", _KEYS, "keys"), speed]
 
     def press(self, x: float, y: float) -> None:
         self.nudge(1, 0)
@@ -91,9 +91,9 @@ class OneTick(Figure):
         return next((PHASES[name] for name in reversed(names) if name in PHASES), (0, "a tick begins"))
 
     def numbers(self) -> list[tuple[str, str]]:
-        first = max(0, int(self.at) - SHOWN + 4)
+        first = max(0, int(self.at) - _SHOWN + 4)
         rows = []
-        for number, call in enumerate(self.calls[first : first + SHOWN - 2], first):
+        for number, call in enumerate(self.calls[first : first + _SHOWN - 2], first):
             o = self.stage.world.objects[int(call.arguments["o"])] if "o" in call.arguments else None
             about = f" ({KIND_OF[o.kind].name})" if o is not None and o.kind in KIND_OF else ""
             mark = ">" if number == int(self.at) else ""

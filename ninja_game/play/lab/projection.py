@@ -11,7 +11,7 @@ from ninja_game.backend.plain import restore_plain, save_plain
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.reader import room_level
-from ninja_game.play.lab.cells import BODIES
+from ninja_game.play.lab.cells import BODY_CHOICES
 from ninja_game.play.lab.figure import ELSEWHERE, Call, Control, Figure, FigureSetting, Sheet, View, room_world, watch
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
@@ -22,7 +22,7 @@ from ninja_game.sim.rules import RADIUS
 from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.simulation import Simulation
 
-COLUMN, ROW = 8, 5
+_COLUMN, _ROW = 8, 5
 
 PUSH = "push_from_tile"
 STAGES = ("collide_circle", "collide_box", "collide_corner")
@@ -72,8 +72,8 @@ class Projection(Figure):
     """Drag the body into a tile: which rule pushes it, in which direction, how far."""
 
     name = "projection"
-    view = View(24 * (COLUMN - 2), 24 * (ROW - 1), 4.5)
-    start = (24 * COLUMN + 6.0, 24 * ROW - 2.0)
+    view = View(24 * (_COLUMN - 2), 24 * (_ROW - 1), 4.5)
+    start = (24 * _COLUMN + 6.0, 24 * _ROW - 2.0)
     tile = FigureSetting(2, "rebuild")
     box = False
 
@@ -84,13 +84,13 @@ class Projection(Figure):
 
     def rebuild(self) -> None:
         rows = [["."] * 14 for _ in range(9)]
-        rows[ROW - 1][COLUMN - 1] = TILE_CHARS[self.tile]
+        rows[_ROW - 1][_COLUMN - 1] = TILE_CHARS[self.tile]
         self.tiles, self.world = room_world(["".join(row) for row in rows])
 
     def controls(self) -> Sequence[Control]:
         return [
             self.slider("Tile", (1, 33, 1), "tile", lambda number: f"{number:.0f} of 33"),
-            self.choice("Body", BODIES, "box"),
+            self.choice("Body", BODY_CHOICES, "box"),
         ]
 
     def demonstrate(self, tick: int) -> None:
@@ -136,7 +136,7 @@ class Projection(Figure):
         sheet.body(p.good if len(push.points) > 1 else p.ninja, x, y, RADIUS, box=self.box, width=3)
         for start, end in pairwise(push.points):
             sheet.arrow(p.accent, start, end, 3)
-        cell = cell_index(COLUMN, ROW)
+        cell = cell_index(_COLUMN, _ROW)
         sheet.circle(p.faint, CENTRE_X[cell], CENTRE_Y[cell], 0.6)
 
 
@@ -144,9 +144,9 @@ class Response(Projection):
     """Drag the tip of the velocity: a body moves by it into a tile; the velocity and the contact after that."""
 
     name = "response"
-    view = View(24 * (COLUMN - 2), 24 * (ROW - 1) - 12, 4.5)
-    start = (24 * COLUMN + 6.0, 24 * ROW - 5.0)
-    origin: Point = (24 * COLUMN - 12.0, 24 * ROW - 16.0)
+    view = View(24 * (_COLUMN - 2), 24 * (_ROW - 1) - 12, 4.5)
+    start = (24 * _COLUMN + 6.0, 24 * _ROW - 5.0)
+    origin: Point = (24 * _COLUMN - 12.0, 24 * _ROW - 16.0)
 
     def demonstrate(self, tick: int) -> None:
         super().demonstrate(tick)

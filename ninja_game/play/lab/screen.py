@@ -26,9 +26,8 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Slider, Widget
 from ninja_game.view.level_view import OffscreenContext
 
-LEGEND_TOP, TEXT_TOP, NUMBERS_TOP, LINE = 390.0, 406.0, 452.0, 15.0
-CONTROLS: Area = (552, 452, 200, 26)
-"""The first control; the others are below it."""
+_LEGEND_TOP, _TEXT_TOP, _NUMBERS_TOP, _LINE = 390.0, 406.0, 452.0, 15.0
+CONTROLS: Area = (552, 452, 200, 26)  # the first control; the others are below it
 
 
 class LabScreen(MenuScreen):
@@ -105,12 +104,12 @@ class LabScreen(MenuScreen):
         theme, (x, _, w, _) = self.app.theme, FIGURE
         at = x
         for role, words in self.figure.legend.items():
-            theme.canvas.fill_rect(surface, getattr(theme.palette, role), at, LEGEND_TOP + 1, 9, 9)
-            theme.text(surface, words, at + 13, LEGEND_TOP, size=9.5)
+            theme.canvas.fill_rect(surface, getattr(theme.palette, role), at, _LEGEND_TOP + 1, 9, 9)
+            theme.text(surface, words, at + 13, _LEGEND_TOP, size=9.5)
             at += theme.width(words, 9.5) + 26
-        theme.paragraph(surface, [" ".join(self.figure.text)], (x, TEXT_TOP, w, NUMBERS_TOP - TEXT_TOP), 10.5, 13)
+        theme.paragraph(surface, [" ".join(self.figure.text)], (x, _TEXT_TOP, w, _NUMBERS_TOP - _TEXT_TOP), 10.5, 13)
         for place, (name, value) in enumerate(self.figure.numbers()):
-            y = NUMBERS_TOP + LINE * place
+            y = _NUMBERS_TOP + _LINE * place
             theme.text(surface, name, x, y, size=9.5, colour=theme.palette.faint, width=120)
             theme.text(surface, value, x + 124, y, size=9.5, width=CONTROLS[0] - x - 132)
 
@@ -166,8 +165,7 @@ class FigureArea(Widget):
 
 
 FILM_TICKS = 240
-PICTURE_TICK = 60
-"""The tick of the demonstration that pictures show."""
+PICTURE_TICK = 60  # the tick of the demonstration that pictures show
 
 
 class FigurePicture:

@@ -21,7 +21,7 @@ from ninja_game.sim.schema.world_fields import World
 from ninja_game.view.hud import EndPanel, HudView, PlacedMessage
 from ninja_game.view.places import MUST, Things
 
-FADE_TICKS = 8  # until the panel of an ended run is solid
+_FADE_TICKS = 8  # until the panel of an ended run is solid
 SHINE_TICKS = 20  # for which light moves over its medal
 _END_ROOM = 36.0  # px around the end of the run that the panel leaves free
 _POINTER_UP = 24.0  # px from a thing up to the middle of its pointer
@@ -81,7 +81,7 @@ def hud_view(play: LevelPlay) -> HudView:
         medal=play.medal,
         stamp=play.stamp,
         shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
-        end_opacity=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
+        end_opacity=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / _FADE_TICKS),
         ninja=play.ninja_place(),
         softly=not settings.reduced_motion,
         message_opacity=1.0 if settings.reduced_motion else play.messages.opacity,

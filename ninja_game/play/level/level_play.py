@@ -12,7 +12,7 @@ from ninja_game.play.app import App
 from ninja_game.play.level.messages import MessageQueue
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, AttemptState
-from ninja_game.player.playthrough import LevelContext
+from ninja_game.player.playthrough import Playthrough
 from ninja_game.player.progress import HELPED
 from ninja_game.runs.deaths import cause_of
 from ninja_game.sim.level import Level
@@ -23,40 +23,30 @@ from ninja_game.simulation import Simulation
 from ninja_game.view.level_view import LevelView
 from ninja_game.view.places import MAY, Things, things_in
 
-_FILL_SHARE = 0.05
-"""Least part of the missing length by which the bar grows per picture."""
+_FILL_SHARE = 0.05  # least part of the missing length by which the bar grows per picture
 
-DEATH_PAUSE = 8
-"""Ticks after a death before the jump key retries."""
+DEATH_PAUSE = 8  # ticks after a death before the jump key retries
 
-FREEZE_MS = 50
-"""ms for which the picture stands still at the exit."""
+FREEZE_MS = 50  # ms for which the picture stands still at the exit
 
-LATE_JUMP = 8
-"""Ticks after the end in which the key for jump and retry counts as a jump that came too late."""
+LATE_JUMP = 8  # ticks after the end in which the key for jump and retry counts as a jump that came too late
 
-STAMP_TICKS = 14
-"""Ticks from the exit contact to the stamp of the medal."""
+STAMP_TICKS = 14  # ticks from the exit contact to the stamp of the medal
 
 # After a pass the failed tries are shown together.
 TRIES_FROM = 40  # ticks after the exit contact
 TRIES_TICKS = 80  # of the show
 MAX_TRIES = 24  # the newest are shown
 
-SLOW_TICK_MS = 100
-"""A tick in slow motion: a quarter of the speed."""
+SLOW_TICK_MS = 100  # a tick in slow motion: a quarter of the speed
 
-STUCK_AFTER = 4
-"""Failed tries of a level before help is offered."""
+STUCK_AFTER = 4  # failed tries of a level before help is offered
 
-MIN_TRY_TICKS = 20
-"""Least ticks of a try that is shown after a pass."""
+MIN_TRY_TICKS = 20  # least ticks of a try that is shown after a pass
 
-REWIND_TICKS = 2
-"""Ticks back per tick for which the rewind key is held."""
+REWIND_TICKS = 2  # ticks back per tick for which the rewind key is held
 
-_SPACING = 10
-"""Ticks between save-states, at first."""
+_SPACING = 10  # ticks between save-states, at first
 
 
 def followed(shown: float, true: float) -> float:
@@ -94,7 +84,7 @@ _PHASE_OF_OUTCOME = {"running": Phase.PLAY, "dead": Phase.DEAD, "exit": Phase.PA
 class LevelPlay:
     """One level of a context, played again and again; its view shows every tick."""
 
-    def __init__(self, app: App, context: LevelContext) -> None:
+    def __init__(self, app: App, context: Playthrough) -> None:
         self.app = app
         self.context = context
         self.rng = Random()  # noqa: S311 - presentation and the suicide key

@@ -18,17 +18,16 @@ from ninja_game.simulation import Simulation
 
 SHOWN_TICKS = 240  # for which a text is shown after its event
 START_TICKS = 480  # the same in play for a single text of the start or the switch
-FADE_TICKS = 20  # in which a text near a place fades at its end
-FAR = 60.0  # px outside its frame at which it ends
+_FADE_TICKS = 20  # in which a text near a place fades at its end
+_FAR = 60.0  # px outside its frame at which it ends
 
-STILL = 0.05
-"""Slower than this the ninja is still, px/tick."""
+_STILL = 0.05  # slower than this the ninja is still, px/tick
 
 AGAIN = "Stuck? {retry} starts the level over"
 # AGAIN is for players who are stuck, not for those who wait because a text says so.
 STILL_TICKS = 400  # for which the ninja is still
 QUIET_TICKS = 800  # since any text
-AWAY = 2 * CELL  # from the start, px
+_AWAY = 2 * CELL  # from the start, px
 
 CLIMB = (
     "Hold %s, and press {jump} each time you touch the wall\n"
@@ -133,7 +132,7 @@ class MessageQueue:
     @property
     def opacity(self) -> float:
         """Opacity of the present text, 0…1."""
-        return min(1.0, max(0.0, self._left / FADE_TICKS)) if self.place else 1.0
+        return min(1.0, max(0.0, self._left / _FADE_TICKS)) if self.place else 1.0
 
     def say_again(self) -> None:
         """Forget what was shown, after another run was watched: the player has not passed those events yet."""
@@ -149,8 +148,8 @@ class MessageQueue:
         before = self.text
         self._left -= 1
         self._unread -= 1
-        if self.message and self.place and self._unread < 0 and not _is_near(world, self.message, FAR):
-            self._left = min(self._left, FADE_TICKS)
+        if self.message and self.place and self._unread < 0 and not _is_near(world, self.message, _FAR):
+            self._left = min(self._left, _FADE_TICKS)
         if self._left <= 0:
             self._say(*self._next)
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
@@ -199,10 +198,10 @@ class MessageQueue:
     def _is_stuck(self, world: World) -> bool:
         """Whether the ninja has been still for long, away from its start, without a text."""
         ninja = world.ninja
-        self._still = 0 if hypot(ninja.x - ninja.prev_x, ninja.y - ninja.prev_y) > STILL else self._still + 1
+        self._still = 0 if hypot(ninja.x - ninja.prev_x, ninja.y - ninja.prev_y) > _STILL else self._still + 1
         if world.tick == 1:
             self._began = ninja.x, ninja.y
-        away = hypot(ninja.x - self._began[0], ninja.y - self._began[1]) > AWAY
+        away = hypot(ninja.x - self._began[0], ninja.y - self._began[1]) > _AWAY
         self._quiet = 0 if self.text else self._quiet + 1
         return away and self._still >= STILL_TICKS and self._quiet >= QUIET_TICKS
 

@@ -17,7 +17,7 @@ from ninja_game.play.menu_screen import MenuScreen
 from ninja_game.play.panels.replays import watch
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
-from ninja_game.player.playthrough import EpisodeSession
+from ninja_game.player.playthrough import EpisodePlaythrough
 from ninja_game.player.progress import Mark, worst_medal
 from ninja_game.player.records import EpisodeBest
 from ninja_game.sim.rules import TICK_MS
@@ -28,17 +28,16 @@ from ninja_game.view.effects.particles import Particle, Particles
 from ninja_game.view.sprites.drawing import DrawTarget, shared_book
 from ninja_game.view.sprites.light import LightStyle, light_picture
 
-PICTURE = 132
+_PICTURE = 132
 
 LEVEL_TICKS, FEAST_TICKS = 8, 130
 """Ticks between the marks of two levels; ticks of the show after them: the medal is stamped, papers fly, light moves.
 """
 
-PAPERS, PRIZE, MIDDLE = 70, 64.0, 318.0
+_PAPERS, _PRIZE, _MIDDLE = 70, 64.0, 318.0
 """Number of papers; size of the medal of all levels; height of the medal and the score, px."""
 
-GLOW = LightStyle("gold_light", 230, 110)
-"""The light behind the score."""
+GLOW = LightStyle("gold_light", 230, 110)  # the light behind the score
 
 CLOCK = "What was left on the clock after the last level"
 
@@ -49,7 +48,7 @@ class EpisodePassed(ThumbnailScreen):
     ``medal``: the worst medal of its levels; "" where one has none.
     """
 
-    def __init__(self, app: App, run: EpisodeSession, play: Callable[[EpisodeSession], object]) -> None:
+    def __init__(self, app: App, run: EpisodePlaythrough, play: Callable[[EpisodePlaythrough], object]) -> None:
         super().__init__(app)
         self.run, self.player = run, run.data
         self._play = play
@@ -82,11 +81,11 @@ class EpisodePassed(ThumbnailScreen):
             self.chime("medal")
             self.particles.share_shown = settings.particles / 100
             rng = Random(self.run.score)  # noqa: S311 - presentation
-            for variant in range(PAPERS):
+            for variant in range(_PAPERS):
                 angle, far = rng.uniform(-3.6, 0.5), rng.uniform(120, 380)
                 flight = far * cos(angle), 0.55 * far * sin(angle)
                 born, life = self.ticks + rng.uniform(0, 12), rng.uniform(50, 75)
-                paper = Particle("confetti", WIDTH / 2, MIDDLE, *flight, life, 1.3, variant, born, 190.0)
+                paper = Particle("confetti", WIDTH / 2, _MIDDLE, *flight, life, 1.3, variant, born, 190.0)
                 self.particles.add(paper)
 
     @property
@@ -115,7 +114,7 @@ class EpisodePassed(ThumbnailScreen):
     def go_on(self) -> None:
         if self.next_episode is not None:
             practice_mode = self.player.settings.practice
-            self._play(EpisodeSession(self.player, self.next_episode, practice_mode=practice_mode))
+            self._play(EpisodePlaythrough(self.player, self.next_episode, practice_mode=practice_mode))
 
     def watch(self) -> None:
         if self._best is not None:
@@ -127,23 +126,23 @@ class EpisodePassed(ThumbnailScreen):
         episode = self.run.episode
         if self.ticks >= self._marks_end + STAMP_TICKS:
             light = light_picture(GLOW, theme.canvas.scale, palette)
-            px, py = theme.canvas.point(WIDTH / 2, MIDDLE)
+            px, py = theme.canvas.point(WIDTH / 2, _MIDDLE)
             surface.blit(light, (px - light.width // 2, py - light.height // 2))
         theme.text(surface, episode.name, WIDTH / 2, 76, size=20, align="centre", bold=True, width=WIDTH - 96)
         count = len(episode.levels)
-        left = (WIDTH - count * (PICTURE + 8) + 8) / 2
+        left = (WIDTH - count * (_PICTURE + 8) + 8) / 2
         for place, entry in enumerate(episode.levels):
-            x = left + place * (PICTURE + 8)
-            self.thumbnails.draw(surface, entry, x, 124, PICTURE)
-            middle = x + PICTURE / 2
-            theme.text(surface, entry.title, middle, 232, size=10, align="centre", width=PICTURE, height=15)
+            x = left + place * (_PICTURE + 8)
+            self.thumbnails.draw(surface, entry, x, 124, _PICTURE)
+            middle = x + _PICTURE / 2
+            theme.text(surface, entry.title, middle, 232, size=10, align="centre", width=_PICTURE, height=15)
             if self.ticks < LEVEL_TICKS * (place + 1):
                 continue
             mark = self._marks.get(entry.digest)
             for line, words in enumerate(self.player.reached(entry, mark).split(", ")):
                 y = 247 + 14 * line
-                theme.text(surface, words, middle, y, size=10, colour=palette.faint, align="centre", width=PICTURE)
-            all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
+                theme.text(surface, words, middle, y, size=10, colour=palette.faint, align="centre", width=_PICTURE)
+            all_gold_and_medal(surface, theme, entry, mark, x + _PICTURE - 11, 135)
         target = DrawTarget(theme.canvas, palette.base, shared_book(theme.canvas.scale, palette.base))
         target.begin(surface)
         Particles.draw(self.particles.front, target, self.ticks)
@@ -159,7 +158,7 @@ class EpisodePassed(ThumbnailScreen):
         theme.text(surface, score, WIDTH / 2, 290, size=44, align="centre", bold=True, height=60)
         if self.medal:
             shine = (self.ticks - self._marks_end - STAMP_TICKS) / SHINE_TICKS
-            draw_stamp(surface, theme, self.medal, WIDTH / 2 - half - 52, MIDDLE, PRIZE, stamp, shine)
+            draw_stamp(surface, theme, self.medal, WIDTH / 2 - half - 52, _MIDDLE, _PRIZE, stamp, shine)
         best = self._best
         note, news = "", [notice for notice in run.notices if notice not in OF_A_LEVEL and notice != EPISODE_BEST]
         if not run.whole:

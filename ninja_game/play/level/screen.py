@@ -24,20 +24,18 @@ from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import PlayerData, keep_replay
-from ninja_game.player.playthrough import EpisodeSession, LevelContext, LevelSession, Navigation
+from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough, Navigation, Playthrough
 from ninja_game.player.progress import opens_author
 from ninja_game.sim.inputs import JUMP_HELD
-from ninja_game.ui.audio.music import BY_COLUMN, SILENCE
+from ninja_game.ui.audio.music import COLUMN_MUSIC, SILENCE
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.view.hud import Hud
 from ninja_game.view.overlays import Overlays
 
-SLOWER = 70
-"""Game speed that is offered to a player who is stuck, %."""
+_SLOWER = 70  # game speed that is offered to a player who is stuck, %
 
-HELP, SKIP = "Get help with this level", "Skip this level"
-HELP_ROW = 2
-"""The row of help in the pause panel."""
+_HELP, _SKIP = "Get help with this level", "Skip this level"
+HELP_ROW = 2  # the row of help in the pause panel
 
 
 class LevelScreen(Screen):
@@ -45,7 +43,7 @@ class LevelScreen(Screen):
 
     plays = True
 
-    def __init__(self, app: App, context: LevelContext) -> None:
+    def __init__(self, app: App, context: Playthrough) -> None:
         super().__init__(app)
         self.context = context
         self.overlays = Overlays()
@@ -68,7 +66,7 @@ class LevelScreen(Screen):
             return SILENCE
         entry = self.context.entry
         column = entry.mood.column if entry.episode else int(entry.digest[:8], 16)
-        return BY_COLUMN[column % len(BY_COLUMN)]
+        return COLUMN_MUSIC[column % len(COLUMN_MUSIC)]
 
     @property
     def phase(self) -> Phase:
@@ -139,19 +137,19 @@ class LevelScreen(Screen):
         elif where is Navigation.NEXT_LEVEL:
             self.app.wipe_from(self)
             self._start_level()
-        elif where is Navigation.BACK and isinstance(self.context, EpisodeSession):
+        elif where is Navigation.BACK and isinstance(self.context, EpisodePlaythrough):
             self._skip_the_last(self.context)
         else:
             self._leave_to(where)
 
-    def _skip_the_last(self, run: EpisodeSession) -> None:
+    def _skip_the_last(self, run: EpisodePlaythrough) -> None:
         """Skipping the last level of an episode leads to the next episode."""
         following = run.data.catalogue.following(run.episode)
         if following is None:
             self._leave_to(Navigation.BACK)
             self.app.notify("That was the last episode")
             return
-        afresh = EpisodeSession(run.data, following, practice_mode=run.practice_mode)
+        afresh = EpisodePlaythrough(run.data, following, practice_mode=run.practice_mode)
         self.app.replace(LevelScreen(self.app, afresh))
         self.app.notify(f"Skipped. Now episode {following.code}: {following.name}")
 
@@ -176,7 +174,7 @@ class LevelScreen(Screen):
             self.play.pause()
 
         hint = "Restarts the level. No records until you turn it off here"
-        slow = f"Slow down to {SLOWER}%", partial(self._play_at, SLOWER), hint
+        slow = f"Slow down to {_SLOWER}%", partial(self._play_at, _SLOWER), hint
         full = "Full speed", partial(self._play_at, 100), "Back to normal: records count again"
         watch_it = partial(self._watch, run), "See the author of the level do it"
         why = f"after {STUCK_AFTER} failed tries" if run else "no run recorded"
@@ -185,9 +183,9 @@ class LevelScreen(Screen):
             ("Try again", self.retry, ""),
             ("Watch how", *watch_it) if run and seen else (f"Watch how ({why})", None, ""),
             full if app.settings.game_speed < 100 else slow,
-            (SKIP, *(skip_it if context.has_next else (None, "No level comes after this one"))),
+            (_SKIP, *(skip_it if context.has_next else (None, "No level comes after this one"))),
         ]
-        app.push(Menu(app, HELP, rows, back))
+        app.push(Menu(app, _HELP, rows, back))
 
     def _watch(self, run: Replay | None) -> None:
         """Watch a run; then the level waits at its start and shows its messages again."""
@@ -208,7 +206,7 @@ class LevelScreen(Screen):
 
     def _leave_to(self, where: Navigation) -> None:
         app = self.app
-        if where is Navigation.EPISODE_END and isinstance(self.context, EpisodeSession):
+        if where is Navigation.EPISODE_END and isinstance(self.context, EpisodePlaythrough):
             app.replace(EpisodePassed(app, self.context, lambda run: app.replace(LevelScreen(app, run))))
         else:
             app.pop()
@@ -323,7 +321,7 @@ def play_level(
     app: App, entry: Entry, *, practice: bool = False, following: Sequence[Entry] = (), player: PlayerData | None = None
 ) -> str:
     """Play a level, then those that follow it in a list; the reason if it cannot be played, or ''."""
-    run = LevelSession(
+    run = LevelPlaythrough(
         player or app.player, entry, practice_mode=practice or app.settings.practice, following=following
     )
     try:
@@ -374,7 +372,7 @@ class PausePanel(Panel):
     def rows(self) -> list[MenuRow]:
         playing = self.playing
         practice = playing.context.practice_mode
-        skip, helped = (SKIP, playing.skip) if practice else (HELP, partial(playing.ask_for_help, paused=True))
+        skip, helped = (_SKIP, playing.skip) if practice else (_HELP, partial(playing.ask_for_help, paused=True))
         return [
             ("Resume", self.back, ""),
             ("Retry", lambda: self._leave(self.playing.retry), ""),

@@ -34,10 +34,10 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget
 
-ROW = 54
-PICTURE = 60
-SIDE, SIDE_WIDTH, TEXT_HIGH = 436, 320, 85
-SORT_ORDERS: list[tuple[str, object]] = [
+_ROW = 54
+_PICTURE = 60
+_SIDE, _SIDE_WIDTH, _TEXT_HIGH = 436, 320, 85
+_SORT_ORDERS: list[tuple[str, object]] = [
     ("Mine first", "listed"),
     ("Name", "name"),
     ("Author", "author"),
@@ -66,16 +66,18 @@ class Browser(ThumbnailScreen):
         self.bests: dict[str, SavedReplay] = {}
         self.marks: dict[str, Mark] = {}
         self._count = ""
-        self.list = ListView((44, 112, 376, 8 * ROW), ROW, self._draw_row, self.play, selected=self._select, opens=True)
-        self.list.empty, self.list.hint = "No level matches", "Enter to play, Right for more, Up to search"
-        self.play_it = Button((SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
-        self.practice = Button(
-            (SIDE + 166, 470, 154, 32), "Practice", lambda: self.play(self.list.index, practice=True)
+        self.list = ListView(
+            (44, 112, 376, 8 * _ROW), _ROW, self._draw_row, self.play, selected=self._select, opens=True
         )
-        self.watch_best = Button((SIDE, 510, 98, 32), "Watch best", self._watch)
-        self.watch_author = Button((SIDE + 104, 510, 98, 32), "Author's run", self._watch_author)
-        self.change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change)
-        self.link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link)
+        self.list.empty, self.list.hint = "No level matches", "Enter to play, Right for more, Up to search"
+        self.play_it = Button((_SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
+        self.practice = Button(
+            (_SIDE + 166, 470, 154, 32), "Practice", lambda: self.play(self.list.index, practice=True)
+        )
+        self.watch_best = Button((_SIDE, 510, 98, 32), "Watch best", self._watch)
+        self.watch_author = Button((_SIDE + 104, 510, 98, 32), "Author's run", self._watch_author)
+        self.change = Button((_SIDE + 208, 510, 46, 32), "Edit", self._change)
+        self.link = Button((_SIDE + 260, 510, 60, 32), "Link", self._copy_link)
         self.entry_field = TextEntry((44, 66, 194, 32), "Search name or author", "", lambda _: self._arrange())
         self.search = self.entry_field
 
@@ -95,7 +97,7 @@ class Browser(ThumbnailScreen):
         self.redraw = True
 
     def choosers(self) -> list[Widget]:
-        sort = Choice((244, 66, 118, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="Sort the list")
+        sort = Choice((244, 66, 118, 32), "", _SORT_ORDERS, lambda: self.sort, self._sort, hint="Sort the list")
         problems = problems_button(self.app, (150, 546, 270, 18), lambda: self.problems)
         return [self.list, self.entry_field, sort, *problems]
 
@@ -233,25 +235,25 @@ class Browser(ThumbnailScreen):
         theme.text(surface, self._count, 44, 549, size=9.5, colour=palette.faint)
         word = "" if self.watch_author.enabled or entry is None else f"Author's run: {self.watch_author.hint}"
         colour = palette.bad if self.message else palette.faint
-        theme.text(surface, self.message or word, SIDE, 548, size=10, colour=colour, width=SIDE_WIDTH)
+        theme.text(surface, self.message or word, _SIDE, 548, size=10, colour=colour, width=_SIDE_WIDTH)
         if entry is None:
             return
-        self.thumbnails.draw(surface, entry, SIDE + 28, 66, SIDE_WIDTH - 56)
-        theme.text(surface, entry.title, SIDE, 278, size=17, bold=True, width=SIDE_WIDTH - 44)
+        self.thumbnails.draw(surface, entry, _SIDE + 28, 66, _SIDE_WIDTH - 56)
+        theme.text(surface, entry.title, _SIDE, 278, size=17, bold=True, width=_SIDE_WIDTH - 44)
         unsigned = "yours" if entry.source == YOURS else "author unknown"
         by = f"by {author_name(entry.named.author)}" if entry.named.author else unsigned
         about = "    ".join(filter(None, (by, where_from(entry))))
-        theme.text(surface, about, SIDE, 303, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
+        theme.text(surface, about, _SIDE, 303, size=10.5, colour=palette.faint, width=_SIDE_WIDTH)
         teaches = [f"Teaches: {entry.named.teaches}"] if entry.named.teaches else []
-        theme.paragraph(surface, [entry.named.comment, *teaches], (SIDE, 321, SIDE_WIDTH, TEXT_HIGH), 10.5, 13.5)
+        theme.paragraph(surface, [entry.named.comment, *teaches], (_SIDE, 321, _SIDE_WIDTH, _TEXT_HIGH), 10.5, 13.5)
         mark = self.marks.get(entry.digest)
         colour = palette.good if mark else palette.faint
-        theme.text(surface, self.player.reached(entry, mark), SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH)
+        theme.text(surface, self.player.reached(entry, mark), _SIDE, 408, size=12, colour=colour, width=_SIDE_WIDTH)
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
-            theme.text(surface, tries_text(played), SIDE, 425, size=10.5, colour=palette.faint)
-        all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, 288)
-        draw_pars(surface, theme, entry.pars, mark and mark.fastest, SIDE, 443)
+            theme.text(surface, tries_text(played), _SIDE, 425, size=10.5, colour=palette.faint)
+        all_gold_and_medal(surface, theme, entry, mark, _SIDE + _SIDE_WIDTH - 10, 288)
+        draw_pars(surface, theme, entry.pars, mark and mark.fastest, _SIDE, 443)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         entry = self.shown[index]
@@ -259,14 +261,14 @@ class Browser(ThumbnailScreen):
         x, y, w, h = area
         chosen = index == self.list.index
         theme.row(surface, (x, y + 1, w, h - 2), chosen=chosen, focused=focused)
-        self.thumbnails.draw(surface, entry, x + 4, y + 4, PICTURE)
-        left = x + PICTURE + 14
+        self.thumbnails.draw(surface, entry, x + 4, y + 4, _PICTURE)
+        left = x + _PICTURE + 14
         theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=186)
         if self.player.lock_of(entry):
-            draw_look(surface, theme, "locked", (x + 4 + PICTURE / 2 - 11, y + 16, 22, 22))
+            draw_look(surface, theme, "locked", (x + 4 + _PICTURE / 2 - 11, y + 16, 22, 22))
         by = author_name(entry.named.author) if entry.source == YOURS else ""
         source = "    ".join(filter(None, (by, where_from(entry))))
-        theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=w - PICTURE - 64)
+        theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=w - _PICTURE - 64)
         mark = self.marks.get(entry.digest)
         if mark:
             time = f"{seconds_text(mark.fastest)} s"
@@ -283,7 +285,7 @@ class LevelChoice(Browser):
         super().__init__(app)
         self._choose = choose
         self.list.hint = "Enter opens the level in the editor"
-        self.change = Button((SIDE, 470, SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))
+        self.change = Button((_SIDE, 470, _SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))
 
     def build(self) -> Sequence[Widget]:
         return [*self.choosers(), self.change]

@@ -26,11 +26,10 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.ui.theme import Theme, wrapped
 from ninja_game.ui.widgets import Button, Widget
 
-LEFT, TOP, WIDE = 44, 74, 480
-SIDE, SIDE_WIDTH, WEEK = 548, 200, 272
+_LEFT, _TOP, _WIDE = 44, 74, 480
+_SIDE, _SIDE_WIDTH, _WEEK = 548, 200, 272
 
-DIG_MS = 60
-"""ms per cell of the cave that is drawn while a level is made."""
+DIG_MS = 60  # ms per cell of the cave that is drawn while a level is made
 
 
 class _Maker:
@@ -70,8 +69,8 @@ class DailyScreen(ThumbnailScreen):
         self._shown = ""
         self._rng = Random(self.day.toordinal())  # noqa: S311 - a picture
         self._dug, self._way, self._dig_ms = [(16, 12)], (1, 0), 0
-        self.play = Button((SIDE, 390, SIDE_WIDTH, 36), "Play", self._play)
-        self.practice = Button((SIDE, 436, SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True))
+        self.play = Button((_SIDE, 390, _SIDE_WIDTH, 36), "Play", self._play)
+        self.practice = Button((_SIDE, 436, _SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True))
         self.practice.hint = PRACTICE_HINT
 
     @property
@@ -151,27 +150,27 @@ class DailyScreen(ThumbnailScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme, palette, entry = self.app.theme, self.app.theme.palette, self.entry
-        theme.text(surface, f"{self.day:%A}, {self.day.isoformat()}", SIDE, TOP, size=12, colour=palette.faint)
+        theme.text(surface, f"{self.day:%A}, {self.day.isoformat()}", _SIDE, _TOP, size=12, colour=palette.faint)
         if entry is None:
-            canvas, middle, cell = self.app.canvas, LEFT + WIDE / 2, WIDE / (COLUMNS + 2)
-            canvas.fill_rect(surface, palette.tile, LEFT, TOP, WIDE, WIDE * 25 / 33, 4)
+            canvas, middle, cell = self.app.canvas, _LEFT + _WIDE / 2, _WIDE / (COLUMNS + 2)
+            canvas.fill_rect(surface, palette.tile, _LEFT, _TOP, _WIDE, _WIDE * 25 / 33, 4)
             for column, row in set(self._dug):
-                canvas.fill_rect(surface, palette.background, LEFT + cell * column, TOP + cell * row, cell, cell)
+                canvas.fill_rect(surface, palette.background, _LEFT + cell * column, _TOP + cell * row, cell, cell)
             if self._maker:
-                theme.panel(surface, LEFT + 20, TOP + 140, WIDE - 40, 64)
+                theme.panel(surface, _LEFT + 20, _TOP + 140, _WIDE - 40, 64)
                 for down, size, text in ((150, 16, "Building today's level"), (180, 11, self._maker.progress)):
-                    theme.text(surface, text, middle, TOP + down, size=size, align="centre", width=WIDE - 60)
+                    theme.text(surface, text, middle, _TOP + down, size=size, align="centre", width=_WIDE - 60)
         else:
             self._draw_entry(surface, entry)
         if self.message:
             colour = palette.bad if entry else palette.on_tile
-            for number, line in enumerate(wrapped(theme, self.message, WIDE - 40, 11)):
-                theme.text(surface, line, LEFT + 20, TOP + 150 + 18 * number, size=11, colour=colour)
+            for number, line in enumerate(wrapped(theme, self.message, _WIDE - 40, 11)):
+                theme.text(surface, line, _LEFT + 20, _TOP + 150 + 18 * number, size=11, colour=colour)
 
     def _draw_entry(self, surface: pygame.Surface, entry: Entry) -> None:
         theme = self.app.theme
-        self.thumbnails.draw(surface, entry, LEFT, TOP, WIDE)
-        theme.text(surface, entry.title, SIDE, TOP + 24, size=17, bold=True, width=SIDE_WIDTH)
+        self.thumbnails.draw(surface, entry, _LEFT, _TOP, _WIDE)
+        theme.text(surface, entry.title, _SIDE, _TOP + 24, size=17, bold=True, width=_SIDE_WIDTH)
         mark = self.player.marks.of(entry.digest)
         played = self.player.statistics.played(entry.digest)
         streak = self.streak
@@ -185,8 +184,8 @@ class DailyScreen(ThumbnailScreen):
             lines.append(tries_text(played))
         self._draw_week(surface, theme)
         for number, line in enumerate(lines):
-            theme.text(surface, line, SIDE, TOP + 60 + 20 * number, size=11, width=SIDE_WIDTH)
-        draw_pars(surface, theme, entry.pars, mark and mark.fastest, LEFT, TOP + WIDE * 25 / 33 + 12)
+            theme.text(surface, line, _SIDE, _TOP + 60 + 20 * number, size=11, width=_SIDE_WIDTH)
+        draw_pars(surface, theme, entry.pars, mark and mark.fastest, _LEFT, _TOP + _WIDE * 25 / 33 + 12)
 
     def _draw_week(self, surface: pygame.Surface, theme: Theme) -> None:
         for place in range(7):
@@ -197,9 +196,9 @@ class DailyScreen(ThumbnailScreen):
             text = "not passed" if entry else ""
             if passed:
                 text = f"{seconds_text(mark.fastest)} s" if mark else "with help"
-            y = WEEK + 16 * place
+            y = _WEEK + 16 * place
             colour = theme.palette.good if passed else theme.palette.faint
-            theme.text(surface, f"{day:%a}", SIDE, y, size=10, bold=day == self.day, width=40)
-            theme.text(surface, text, SIDE + 44, y, size=10, colour=colour, width=SIDE_WIDTH - 70)
+            theme.text(surface, f"{day:%a}", _SIDE, y, size=10, bold=day == self.day, width=40)
+            theme.text(surface, text, _SIDE + 44, y, size=10, colour=colour, width=_SIDE_WIDTH - 70)
             if entry:
-                all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, y + 5)
+                all_gold_and_medal(surface, theme, entry, mark, _SIDE + _SIDE_WIDTH - 10, y + 5)

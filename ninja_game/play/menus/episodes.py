@@ -18,20 +18,19 @@ from ninja_game.play.menus.problems import of_files, problems_button
 from ninja_game.play.panels.settings import PRACTICE_HINT, setting_choice
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.playthrough import EpisodeSession, unfinished_run
+from ninja_game.player.playthrough import EpisodePlaythrough, unfinished_run
 from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, tally, worst_medal
 from ninja_game.ui.input.bindings import InputEvent
-from ninja_game.ui.list_view import BAR, ListView
-from ninja_game.ui.medals import MEDALS, draw_all_gold, draw_medal
+from ninja_game.ui.list_view import BAR_WIDTH, ListView
+from ninja_game.ui.medals import MEDALS_FROM_BRONZE, draw_all_gold, draw_medal
 from ninja_game.ui.theme import Area, Theme, mixed
 from ninja_game.ui.widgets import Button, Choice, Widget
 
-LEFT, TOP, WIDE, MAX_HEIGHT = 44, 116, 318, 286
+_LEFT, _TOP, _WIDE, _MAX_HEIGHT = 44, 116, 318, 286
 """Place and greatest height of the grid, px; cells are up to MAX_CELL px large."""
 
 MAX_CELL = 62
-NAMED = 48
-"""Least width of a cell under its column's name, px."""
+_NAMED = 48  # least width of a cell under its column's name, px
 
 LOOKS = (("beaten", "passed"), ("open", "open"), ("cheated", "seen in practice"), ("locked", "locked"))
 
@@ -50,8 +49,8 @@ class Cells(ListView):
         self.heads = sorted({number // EPISODES_PER_COLUMN for number in numbers})
         lines = max((number % EPISODES_PER_COLUMN for number in numbers), default=0) + 1
         self.columns = max(1, len(self.heads))
-        self.cell_height = min(MAX_CELL, WIDE / self.columns, MAX_HEIGHT / lines)
-        self.area = LEFT, TOP, self.cell_height * self.columns + BAR + 4, self.cell_height * lines
+        self.cell_height = min(MAX_CELL, _WIDE / self.columns, _MAX_HEIGHT / lines)
+        self.area = _LEFT, _TOP, self.cell_height * self.columns + BAR_WIDTH + 4, self.cell_height * lines
         places = [column * EPISODES_PER_COLUMN + line for line in range(lines) for column in self.heads]
         self.numbers = [number if number in numbers else -1 for number in places]
         self.index = self.first = 0
@@ -66,12 +65,12 @@ class Cells(ListView):
         for place, column in enumerate(self.heads):
             name = names[column] if column < len(names) else ""
             chosen = place == self.index % self.columns
-            if size >= NAMED:
+            if size >= _NAMED:
                 colour = theme.palette.text if chosen else faint
-                middle = LEFT + (place + 0.5) * size
-                theme.text(surface, name, middle, TOP - 15, size=9, colour=colour, align="centre", width=size - 2)
+                middle = _LEFT + (place + 0.5) * size
+                theme.text(surface, name, middle, _TOP - 15, size=9, colour=colour, align="centre", width=size - 2)
             elif chosen:
-                theme.text(surface, name, LEFT, TOP - 15, size=10, colour=faint, width=WIDE)
+                theme.text(surface, name, _LEFT, _TOP - 15, size=10, colour=faint, width=_WIDE)
 
     def nudge(self, action: str) -> bool:
         """Move the selection; beyond the last episode the focus moves on instead."""
@@ -117,8 +116,8 @@ _OPENS = (
     "Each column has a theme of its own. The left one is easiest.",
 )
 
-SIDE = 392
-ROW = 84
+_SIDE = 392
+_ROW = 84
 SMALL_PICTURE = 96
 
 
@@ -139,10 +138,10 @@ class EpisodeGrid(ThumbnailScreen):
         self.pack = self.player.catalogue.ours
         self.marks: dict[str, Mark] = {}
         self.passed: set[str] = set()
-        self.grid = Cells((LEFT, TOP, WIDE, MAX_HEIGHT), 1, self._draw_cell, self._play, opens=True)
+        self.grid = Cells((_LEFT, _TOP, _WIDE, _MAX_HEIGHT), 1, self._draw_cell, self._play, opens=True)
         self.grid.selected = self._selected
-        self.play = Button((SIDE + 274, 64, 90, 30), "Play", lambda: self._play(self.grid.index))
-        self.rows = ListView((SIDE, 132, 364, ROW * 5), ROW, self._draw_row, self._trial, opens=True)
+        self.play = Button((_SIDE + 274, 64, 90, 30), "Play", lambda: self._play(self.grid.index))
+        self.rows = ListView((_SIDE, 132, 364, _ROW * 5), _ROW, self._draw_row, self._trial, opens=True)
         self.rows.hint = "Enter, or click twice: play just this level"
         self._look_for_packs(pack)
         self.grid.arrange(self.pack.episodes)
@@ -183,7 +182,7 @@ class EpisodeGrid(ThumbnailScreen):
 
     @property
     def _below(self) -> float:
-        return TOP + self.grid.area[3] + 14
+        return _TOP + self.grid.area[3] + 14
 
     def build(self) -> Sequence[Widget]:
         before, number = self.pack, self.number
@@ -194,14 +193,14 @@ class EpisodeGrid(ThumbnailScreen):
         self.marks = self.player.marks.all()
         self.passed = self.marks.keys() | self.player.marks.all(WITH_HELP).keys()
         self._selected(self.grid.index)
-        area = LEFT, self._below, WIDE, 30
+        area = _LEFT, self._below, _WIDE, 30
         self.practice = setting_choice(self.app, area, "Practice mode", "practice", hint=PRACTICE_HINT)
-        problems = problems_button(self.app, (LEFT, 546, WIDE, 18), lambda: self.problems)
+        problems = problems_button(self.app, (_LEFT, 546, _WIDE, 18), lambda: self.problems)
         if len(self.packs) < 2:
             practice = [] if self.previews else [self.practice]
             return [self.grid, self.play, *practice, self.rows, *problems]
         names = [("This game's levels" if not pack.key else pack.name, pack.key) for pack in self.packs]
-        choice = Choice((LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack)
+        choice = Choice((_LEFT, 62, _WIDE, 26), "", names, lambda: self.pack.key, self._set_pack)
         choice.hint = "Level pack. Levels > Packs > Paste link takes in more, as does the folder in Settings > Play"
         return [self.grid, self.play, choice, self.practice, self.rows, *problems]
 
@@ -212,7 +211,7 @@ class EpisodeGrid(ThumbnailScreen):
     def _set_pack(self, key: object) -> None:
         self._look_for_packs(str(key))
         self.grid.arrange(self.pack.episodes)
-        self.practice.area = LEFT, self._below, WIDE, 30
+        self.practice.area = _LEFT, self._below, _WIDE, 30
 
     def handle(self, event: InputEvent) -> None:
         if "link" in event.pressed and self.pack.files:
@@ -225,7 +224,7 @@ class EpisodeGrid(ThumbnailScreen):
         if self.episode is None or self._state(self.number) == LOCKED:
             return
         practice_mode = self.player.settings.practice
-        afresh = EpisodeSession(self.player, self.episode, practice_mode=practice_mode)
+        afresh = EpisodePlaythrough(self.player, self.episode, practice_mode=practice_mode)
         left = None if practice_mode else unfinished_run(self.player, self.episode)
         if left is None or not left.position:
             self.app.push(LevelScreen(self.app, afresh))
@@ -248,13 +247,13 @@ class EpisodeGrid(ThumbnailScreen):
         theme, palette = self.app.theme, self.app.theme.palette
         if len(self.packs) < 2 and not self.previews:
             for line, text in enumerate(_OPENS):
-                theme.text(surface, text, LEFT, 64 + 14 * line, size=10, colour=palette.faint, width=WIDE)
+                theme.text(surface, text, _LEFT, 64 + 14 * line, size=10, colour=palette.faint, width=_WIDE)
         self.grid.draw_names(surface, theme, self.pack.columns)
         if self.previews:
             self._draw_preview(surface, theme)
         else:
             for place, (look, text) in enumerate(LOOKS):
-                x, y = LEFT + 160 * (place % 2), self._below + 40 + 23 * (place // 2)
+                x, y = _LEFT + 160 * (place % 2), self._below + 40 + 23 * (place // 2)
                 draw_look(surface, theme, look, (x, y, 18, 18))
                 theme.text(surface, text, x + 25, y + 4, size=9.5)
             self._draw_total(surface, theme, self._below + 92)
@@ -262,48 +261,48 @@ class EpisodeGrid(ThumbnailScreen):
             index = self.pack.pack.index
             subtitle = f"{index.title}. {index.comment}" if index.comment else index.title
             self._draw_picture(surface, self._below + 150, 200.0)
-            theme.text(surface, shown_text(subtitle, 200), SIDE, 114, size=10, colour=palette.faint, width=364)
+            theme.text(surface, shown_text(subtitle, 200), _SIDE, 114, size=10, colour=palette.faint, width=364)
         episode = self.episode
         if episode is None:
-            theme.text(surface, "No episodes", SIDE, 66, size=16, colour=palette.faint, bold=True)
+            theme.text(surface, "No episodes", _SIDE, 66, size=16, colour=palette.faint, bold=True)
             return
         head = f"{episode.code}  {episode.name}"
-        theme.text(surface, head, SIDE, 66, size=16, bold=True, width=264)
+        theme.text(surface, head, _SIDE, 66, size=16, bold=True, width=264)
         best = self.player.records.episode_best(episode.key)
         clock = f"Your best: {seconds_text(best.score)} s left on the clock" if best else ""
         count = len(episode.levels)
         text = clock or _how_far(sum(level.digest in self.passed for level in episode.levels), count)
         text = self._hint() if self._state(episode.number) == LOCKED else text
-        theme.text(surface, text, SIDE, 96, size=11, colour=palette.good if best else palette.faint)
+        theme.text(surface, text, _SIDE, 96, size=11, colour=palette.good if best else palette.faint)
 
     def _draw_preview(self, surface: pygame.Surface, theme: Theme) -> None:
         """The pack as its maker presents it: name, author, comment, picture."""
         faint, index = theme.palette.faint, self.pack.pack.index if self.pack.pack else None
         name, by = (index.name, index.title.removeprefix(index.name).strip(" ,")) if index else (self.pack.name, "")
-        theme.text(surface, shown_text(name), LEFT, 58, size=20, bold=True, width=WIDE)
-        theme.text(surface, shown_text(by), LEFT, 84, size=11, width=WIDE)
-        theme.text(surface, _PREVIEWED, SIDE, 114, size=10, colour=faint, width=364)
+        theme.text(surface, shown_text(name), _LEFT, 58, size=20, bold=True, width=_WIDE)
+        theme.text(surface, shown_text(by), _LEFT, 84, size=11, width=_WIDE)
+        theme.text(surface, _PREVIEWED, _SIDE, 114, size=10, colour=faint, width=364)
         comment = shown_text(index.comment, 200) if index else ""
-        theme.paragraph(surface, [comment], (LEFT, self._below, WIDE, 44), 11, 14)
+        theme.paragraph(surface, [comment], (_LEFT, self._below, _WIDE, 44), 11, 14)
         top = self._below + (50 if comment else 0)
         self._draw_total(surface, theme, top)
-        self._draw_picture(surface, top + 52, float(WIDE))
+        self._draw_picture(surface, top + 52, float(_WIDE))
 
     def _draw_picture(self, surface: pygame.Surface, top: float, widest: float) -> None:
         """The pack's picture, where there is room for it above the foot."""
         width = min(widest, (540 - top) * 33 / 25)
         if width >= 80:
-            self.thumbnails.draw_pack(surface, self.pack.levels, LEFT, top, width)
+            self.thumbnails.draw_pack(surface, self.pack.levels, _LEFT, top, width)
 
     def _draw_total(self, surface: pygame.Surface, theme: Theme, y: float) -> None:
         levels = self.pack.levels
         total = tally(levels, self.marks, self.passed)
         by = f" by {shown_text(self.player.settings.name)}" if self.player.settings.name else ""
         passed = f"{total.passed} of {total.levels} levels passed{by}"
-        theme.text(surface, passed, LEFT, y, size=11, bold=True, width=WIDE)
-        x = LEFT + 8.0
+        theme.text(surface, passed, _LEFT, y, size=11, bold=True, width=_WIDE)
+        x = _LEFT + 8.0
         if any(entry.pars for entry in levels):
-            for medal in MEDALS:
+            for medal in MEDALS_FROM_BRONZE:
                 draw_medal(surface, theme, medal, x, y + 27, 16, reached=total.medals[medal] > 0)
                 theme.text(surface, str(total.medals[medal]), x + 13, y + 22, size=10)
                 x += 58
@@ -360,6 +359,6 @@ class EpisodeGrid(ThumbnailScreen):
         played = self.player.statistics.played(entry.digest)
         colour = theme.palette.good if mark else theme.palette.faint
         theme.text(surface, self.player.reached(entry, mark), left, y + 32, size=11, colour=colour, width=room)
-        draw_pars(surface, theme, entry.pars, mark and mark.fastest, left, y + 45, MEDALS[1:])
+        draw_pars(surface, theme, entry.pars, mark and mark.fastest, left, y + 45, MEDALS_FROM_BRONZE[1:])
         if played.attempts:
             theme.text(surface, tries_text(played), left, y + 65, size=10, colour=theme.palette.faint)

@@ -20,14 +20,12 @@ from ninja_game.ui.widgets import Button, Widget
 
 FILE = "good-levels.toml"
 
-PICTURE: Area = (212, 66, 540, 540 * 25 / 33)
-"""Where the level is shown."""
-AWAY = 24
-"""Distance of a number from its place, across and down, px."""
+_PICTURE: Area = (212, 66, 540, 540 * 25 / 33)  # where the level is shown
+_AWAY = 24  # distance of a number from its place, across and down, px
 
 
 class GoodLevel(NamedTuple):
-    """``about``: what makes the level good. ``notes``: column and row of a cell, and a text about it."""
+    """A good level. ``about``: what makes it good. ``notes``: column and row of a cell, and a text about it."""
 
     entry: Entry
     about: str
@@ -46,7 +44,7 @@ def read_good_levels() -> list[GoodLevel]:
 
 
 class GoodLevelsScreen(ThumbnailScreen):
-    """``edit``: opens a copy of the selected level in the editor."""
+    """Good levels, with notes on their pictures. ``edit``: opens a copy of the selected one in the editor."""
 
     title = "Ten good levels, and why"
 
@@ -74,14 +72,14 @@ class GoodLevelsScreen(ThumbnailScreen):
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
-        theme, palette, (left, top, width, height) = self.theme, self.theme.palette, PICTURE
+        theme, palette, (left, top, width, height) = self.theme, self.theme.palette, _PICTURE
         self.thumbnails.draw(surface, self.level.entry, left, top, width)
         for number, (column, row, _) in enumerate(self.level.notes, 1):
             # Beside its place, so that the place is visible.
             px = width / 792
             x, y = middle_of((column, row))
             at = left + x * px, top + y * px
-            x, y = at[0] + (AWAY if column < 3 else -AWAY), at[1] + (AWAY if row < 2 else -AWAY)
+            x, y = at[0] + (_AWAY if column < 3 else -_AWAY), at[1] + (_AWAY if row < 2 else -_AWAY)
             theme.canvas.line(surface, palette.accent, (x, y), at, 1.5)
             theme.canvas.circle(surface, palette.accent, at, 2.5)
             theme.canvas.circle(surface, palette.accent, (x, y), 9)

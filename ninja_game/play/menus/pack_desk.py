@@ -21,7 +21,7 @@ from ninja_game.play.menu_screen import ask_received, ask_text
 from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Marks, PackCell, Rack, called
 from ninja_game.play.menus.packer import PackStatus, packer_of
 from ninja_game.play.thumbnails import ThumbnailScreen
-from ninja_game.ui.list_view import BAR
+from ninja_game.ui.list_view import BAR_WIDTH
 from ninja_game.ui.widgets import Widget
 
 Edit = Callable[[Entry, Finding | None], object]
@@ -50,7 +50,7 @@ class PackDesk(ThumbnailScreen):
         self.status = PackStatus(self.packer, self.player.catalogue)
         rack = partial(Rack, status=self.status, thumbnails=self.thumbnails, marked=self.marked, pull=self._pull)
         self.shelves = rack((36, 96, 0, 0), 6, choose=self.choose)
-        self.tray = rack((622, 126, WIDE + BAR + 24, 4 * HIGH - 28), 1, choose=self.choose)
+        self.tray = rack((622, 126, WIDE + BAR_WIDTH + 24, 4 * HIGH - 28), 1, choose=self.choose)
 
     @property
     def path(self) -> Path:
@@ -94,7 +94,7 @@ class PackDesk(ThumbnailScreen):
             entries = [entry for shelf in self.sets if shelf.key == self.tray_key for entry in shelf.levels]
         goals = {"none": "take it out of its episode", "yours": "put it into your folder"}
         self.tray.empty = f"Drag a level here to {goals.get(self.tray_key, 'put it into this pack')}"
-        self.shelves.area = (36, 96, 6 * WIDE + BAR + 4, HIGH * min(4, len(cells) // 6))
+        self.shelves.area = (36, 96, 6 * WIDE + BAR_WIDTH + 4, HIGH * min(4, len(cells) // 6))
         self.shelves.show(cells)
         self.tray.show([PackCell(None, entry) for entry in entries])
         self.marked &= {level.named.file for level in self.levels()}

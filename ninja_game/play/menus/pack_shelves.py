@@ -13,7 +13,7 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, EpisodeIndex
 from ninja_game.levels.episodes import Entry
 from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND, PackStatus
 from ninja_game.play.thumbnails import Thumbnails
-from ninja_game.ui.list_view import BAR, ListView
+from ninja_game.ui.list_view import BAR_WIDTH, ListView
 from ninja_game.ui.medals import draw_all_gold
 from ninja_game.ui.theme import Area, Theme, wrapped
 
@@ -69,7 +69,7 @@ class Rack(ListView):
 
     def drag(self, x: float, y: float) -> bool:
         index = self._index_at(*self._pressed)
-        if index is None or self._pressed[0] >= self.area[0] + self.area[2] - BAR - 4:
+        if index is None or self._pressed[0] >= self.area[0] + self.area[2] - BAR_WIDTH - 4:
             return super().drag(x, y)
         if dist((x, y), self._pressed) > PULL:
             self._again = False

@@ -14,10 +14,9 @@ from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Widget
 
-ROW = 33
-SEARCH = "Search for 5 minutes"
-MAX_TEXT = 900
-"""Most characters of a problem that are shown; no message of the program has more."""
+_ROW = 33
+_SEARCH = "Search for 5 minutes"
+_MAX_TEXT = 900  # most characters of a problem that are shown; no message of the program has more
 
 
 class Problem(NamedTuple):
@@ -33,7 +32,7 @@ class Problem(NamedTuple):
 
 
 class ProblemsScreen(MenuScreen):
-    """``find``: gives the present problems whenever the screen is entered, None while they are looked for.
+    """A list of problems. ``find``: gives those of now whenever the screen is entered, None while they are looked for.
 
     ``news``: whether they have been found since; asked before each picture.
     """
@@ -46,10 +45,10 @@ class ProblemsScreen(MenuScreen):
         super().__init__(app)
         self._find, self._news, self._looks = find, news, 0
         self.problems: Sequence[Problem] = ()
-        self.list = ListView((44, 66, 704, 10 * ROW), ROW, self._draw_row, lambda _: self._go(), opens=True)
+        self.list = ListView((44, 66, 704, 10 * _ROW), _ROW, self._draw_row, lambda _: self._go(), opens=True)
         self.list.selected = lambda _: self._offer()
         self.buttons = {
-            "search": Button((316, 530, 136, 28), SEARCH, self._search, size=10),
+            "search": Button((316, 530, 136, 28), _SEARCH, self._search, size=10),
             "go": Button((464, 530, 136, 28), "Go there", self._go),
             "accept": Button((612, 530, 136, 28), "Accept it...", self._accept),
         }
@@ -106,7 +105,7 @@ class ProblemsScreen(MenuScreen):
         super().draw_frame(surface)
         theme, problem = self.theme, self.selected
         theme.panel(surface, 44, 418, 704, 104)
-        texts = [f"{shown_text(problem.text, MAX_TEXT)}.", problem.hint] if problem.text else []
+        texts = [f"{shown_text(problem.text, _MAX_TEXT)}.", problem.hint] if problem.text else []
         theme.paragraph(surface, texts, (54, 426, 684, 90), 11, 14)
         accepted, steps = (sum(bool(getattr(other, kind)) for other in self.problems) for kind in ("accepted", "step"))
         count = counted(len(self.problems) - accepted - steps, "problem")
@@ -118,7 +117,7 @@ class ProblemsScreen(MenuScreen):
         x, y, w, h = area
         theme.row(surface, (x, y + 1, w, h - 2), chosen=index == self.list.index, focused=focused)
         problem = self.problems[index]
-        text, palette = shown_text(problem.text, MAX_TEXT), theme.palette
+        text, palette = shown_text(problem.text, _MAX_TEXT), theme.palette
         top = y + (h - 13 * min(2, len(wrapped(theme, text, w - 20, 10)))) / 2
         colour = palette.faint if problem.accepted or problem.step else palette.text
         theme.paragraph(surface, [text], (x + 10, top, w - 20, y + h - top), 10, 13, colour=colour)

@@ -17,7 +17,7 @@ from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.app import App
 from ninja_game.play.menu_screen import MenuScreen
 from ninja_game.play.replay.playback import Playback, RunClock
-from ninja_game.play.workspace import Command, key_text
+from ninja_game.play.workspace import KeyCommand, key_text
 from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
@@ -65,7 +65,7 @@ class HelpPage(MenuScreen):
 
     foot = "Esc goes back"
 
-    def __init__(self, app: App, title: str, words: str, commands: Sequence[Command]) -> None:
+    def __init__(self, app: App, title: str, words: str, commands: Sequence[KeyCommand]) -> None:
         super().__init__(app)
         self.title = title
         self._words = words
@@ -92,19 +92,15 @@ class HelpPage(MenuScreen):
             theme.text(surface, command.label, x + keys + pads + 4, y, size=10, width=356 - keys - pads)
 
 
-WINDOW: Area = (240, 66, 504, 288)
-"""The area of the demonstration: that part of the stage, at its own scale."""
+WINDOW: Area = (240, 66, 504, 288)  # the area of the demonstration: that part of the stage, at its own scale
 
-MARGIN = 12.0
-"""px of the stage left out at the left of a room, so that half of its wall is visible."""
+_MARGIN = 12.0  # px of the stage left out at the left of a room, so that half of its wall is visible
 
-REST_TICKS = 60
-"""Ticks for which a demonstration stands still after its last input (game.md §4.4)."""
+_REST_TICKS = 60  # ticks for which a demonstration stands still after its last input (game.md §4.4)
 
 KEYS_TITLE = "Keys"
 KEY_ROW = 22.0
-KEY_COLUMNS = (0, 152, 340)
-"""x of an action's name, its keys and its buttons in their table."""
+KEY_COLUMNS = (0, 152, 340)  # x of an action's name, its keys and its buttons in their table
 
 
 class HelpScreen(MenuScreen):
@@ -125,7 +121,7 @@ class HelpScreen(MenuScreen):
             (x, y + 54, w, 17 * KEY_ROW), KEY_ROW, self._draw_action, lambda _: None, selected=self._say_action
         )
         self.keys.fill(list(ACTIONS))
-        self.demonstration: Demonstration | None = None
+        self.demonstration: DemoRoom | None = None
         self.list.fill(self.topics)
 
     def build(self) -> Sequence[Widget]:
@@ -140,7 +136,7 @@ class HelpScreen(MenuScreen):
         page = self.pages[index] if index < len(self.pages) else None
         if page is None or self.demonstration is None or self.demonstration.page is not page:
             had_keys = self.demonstration is None
-            self.demonstration = Demonstration(self.app, page) if page is not None else None
+            self.demonstration = DemoRoom(self.app, page) if page is not None else None
             if self.widgets and had_keys != (page is None):
                 self.enter()
         self.redraw = True
@@ -221,7 +217,7 @@ class HelpScreen(MenuScreen):
         self.keys.hint = f"{ACTIONS[action].label}: {', '.join(filter(None, self.app.controls.all_names(action)))}"
 
 
-class Demonstration:
+class DemoRoom:
     """A page's room, whose inputs are repeated; drawn on its own sheet, part of which is shown."""
 
     def __init__(self, app: App, page: Page) -> None:
@@ -242,7 +238,7 @@ class Demonstration:
     def update(self, real_ms: int) -> None:
         for _ in range(self.clock.ticks_due(real_ms)):
             tick = self.playback.tick
-            if tick >= len(self.page.inputs) + REST_TICKS:
+            if tick >= len(self.page.inputs) + _REST_TICKS:
                 self._begin()
                 return
             self.keys = self.playback.keys_at(tick)
@@ -257,8 +253,8 @@ class Demonstration:
         self._whole = False
         x, y, w, h = WINDOW
         lowest = HEIGHT - 12 - h
-        top = min(max(MARGIN, self.simulation.world.ninja.y - h + 60), lowest)
+        top = min(max(_MARGIN, self.simulation.world.ninja.y - h + 60), lowest)
         target = canvas.rect(x, y, w, h)
-        surface.blit(self._sheet, target, pygame.Rect(canvas.point(MARGIN, top), target.size))
+        surface.blit(self._sheet, target, pygame.Rect(canvas.point(_MARGIN, top), target.size))
         canvas.frame_rect(surface, self.app.theme.palette.panel_edge, x, y, w, h, 1)
         return target

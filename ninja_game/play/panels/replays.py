@@ -36,17 +36,16 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Choice, Widget
 
-ROW = 34
+_ROW = 34
 FIRST_SECONDS, MORE_SECONDS = 0.05, 0.008
 """Seconds for reading files when the screen opens, and in each picture after that."""
-FILES_SHOWN = 300
-"""Most recordings read from the player's folder."""
+FILES_SHOWN = 300  # most recordings read from the player's folder
 
 
-OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}
+_OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}
 YOU = "you"
 OWNERS = [("All runs", "all"), ("Yours", "yours"), ("Others'", "others")]
-NONE_YET = "Your runs will show up here. Earn a gold medal and the author's run joins them"
+_NONE_YET = "Your runs will show up here. Earn a gold medal and the author's run joins them"
 NO_MATCH = "No replay matches"
 HINT = "Enter to watch, Delete to remove, E to save as a text file, C to copy a link"
 
@@ -68,7 +67,7 @@ class ReplaysScreen(MenuScreen):
     title = "Replays"
     heads = "Level", "Player", "Result, time", "From"
     hint = HINT
-    empty = NONE_YET
+    empty = _NONE_YET
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
@@ -82,7 +81,7 @@ class ReplaysScreen(MenuScreen):
         self.shown_owner = "all"
         self.filter = Choice((346, 62, 180, 28), "", OWNERS, lambda: self.shown_owner, self._show)
         self.field = TextEntry((44, 62, 290, 28), "Search level or player", "", self._search)
-        self.list = ListView((44, 120, 712, 12 * ROW), ROW, self._draw_row, self._choose, opens=True)
+        self.list = ListView((44, 120, 712, 12 * _ROW), _ROW, self._draw_row, self._choose, opens=True)
         self.list.hint = self.hint
         self.message = ""
 
@@ -268,7 +267,7 @@ def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
 def result_of(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:
     """The time of a passed run; of any other one its outcome and time."""
     taken = "all gold" if gold == all_gold > 0 else f"{gold} gold" if gold else "exit"
-    result = taken if outcome == "exit" else OUTCOMES[outcome]
+    result = taken if outcome == "exit" else _OUTCOMES[outcome]
     return f"{result}, {seconds_text(final_tick + (outcome == 'running'))} s"
 
 
@@ -289,7 +288,7 @@ def watch_recording(app: App, recording: Recording) -> None:
 
 
 RECORD_ROW = 30
-SIDE, SIDE_WIDTH = 528, 228
+_SIDE, _SIDE_WIDTH = 528, 228
 
 
 class RecordRow(NamedTuple):
@@ -371,17 +370,17 @@ class RecordsScreen(MenuScreen):
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         theme.text(surface, "Your best", 44, 68, size=14, bold=True)
-        theme.text(surface, "What killed you", SIDE, 68, size=14, bold=True)
+        theme.text(surface, "What killed you", _SIDE, 68, size=14, bold=True)
         deaths = {killer: times for killer, times in self.player.statistics.deaths().items() if times}
         most = max(deaths.values(), default=1)
         if not deaths:
-            theme.text(surface, "Nothing so far", SIDE, 98, size=11, colour=palette.faint)
+            theme.text(surface, "Nothing so far", _SIDE, 98, size=11, colour=palette.faint)
         for place, (killer, times) in enumerate(deaths.items()):
             y = 98 + 27 * place
-            theme.text(surface, _NAMES.get(killer, killer.capitalize()), SIDE, y, size=11)
-            theme.text(surface, str(times), SIDE + SIDE_WIDTH, y, size=11, align="right")
-            theme.canvas.fill_rect(surface, palette.panel, SIDE, y + 15, SIDE_WIDTH, 4, 2)
-            theme.canvas.fill_rect(surface, palette.bad, SIDE, y + 15, max(4, SIDE_WIDTH * times / most), 4, 2)
+            theme.text(surface, _NAMES.get(killer, killer.capitalize()), _SIDE, y, size=11)
+            theme.text(surface, str(times), _SIDE + _SIDE_WIDTH, y, size=11, align="right")
+            theme.canvas.fill_rect(surface, palette.panel, _SIDE, y + 15, _SIDE_WIDTH, 4, 2)
+            theme.canvas.fill_rect(surface, palette.bad, _SIDE, y + 15, max(4, _SIDE_WIDTH * times / most), 4, 2)
         played = self.player.statistics.played()
         hours, minutes = divmod(played.ticks * TICK_MS // 60_000, 60)
         lines = (
@@ -390,8 +389,8 @@ class RecordsScreen(MenuScreen):
         )  # fmt: skip
         for place, (name, number) in enumerate(lines):
             y = 364 + 22 * place
-            theme.text(surface, name, SIDE, y, size=11, colour=palette.faint)
-            theme.text(surface, number, SIDE + SIDE_WIDTH, y, size=11, align="right")
+            theme.text(surface, name, _SIDE, y, size=11, colour=palette.faint)
+            theme.text(surface, number, _SIDE + _SIDE_WIDTH, y, size=11, align="right")
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         row = self.rows[index]

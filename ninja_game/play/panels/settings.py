@@ -21,17 +21,17 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import NINJA_COLOURS, PALETTES, TEXT_SIZES, Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Label, Slider, Widget
 
-SWITCH = [("off", False), ("on", True)]
+_SWITCH = [("off", False), ("on", True)]
 RACED = [("your best run", "best"), ("your next medal", "next"), *((f"{medal} medal", medal) for medal in GHOSTS[2:])]
 RATES = [("same as display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
 PRACTICE_HINT = "No clock and no records, but you can save, rewind and slow down"
-LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
-WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
+_LEFT, _TOP, _STEP, _HEIGHT_OF_ROW = 216, 72, 42, 32
+WIDTH_OF_ROW = WIDTH - 36 - _LEFT - 12
 
 
 def setting_choice(
-    app: App, area: Area, text: str, name: str, options: Sequence[tuple[str, object]] = SWITCH, hint: str = ""
+    app: App, area: Area, text: str, name: str, options: Sequence[tuple[str, object]] = _SWITCH, hint: str = ""
 ) -> Choice[object]:
     """A choice of the values of a setting."""
 
@@ -55,7 +55,7 @@ class SettingsScreen(ThumbnailScreen):
         self.page = self.titles[0]
         self.tables: dict[str, BindingTable] = {}
         self.tabs = ListView(
-            (40, TOP - 4, 158, 40 * len(self.titles)), 40, self._draw_tab, self._go_in, selected=self._show
+            (40, _TOP - 4, 158, 40 * len(self.titles)), 40, self._draw_tab, self._go_in, selected=self._show
         )
         self.tabs.hint = "Up and down to choose a page, Right to open it"
         self.tabs.fill(self.titles)
@@ -82,10 +82,10 @@ class SettingsScreen(ThumbnailScreen):
 
     def _area(self) -> Area:
         """The area of the next row of the page."""
-        return LEFT, TOP + STEP * next(self._rows), WIDTH_OF_ROW, HEIGHT_OF_ROW
+        return _LEFT, _TOP + _STEP * next(self._rows), WIDTH_OF_ROW, _HEIGHT_OF_ROW
 
     def _choice(
-        self, text: str, name: str, options: Sequence[tuple[str, object]] = SWITCH, hint: str = ""
+        self, text: str, name: str, options: Sequence[tuple[str, object]] = _SWITCH, hint: str = ""
     ) -> Choice[object]:
         return setting_choice(self.app, self._area(), text, name, options, hint)
 
@@ -157,8 +157,8 @@ class SettingsScreen(ThumbnailScreen):
             )
         folder = short_path(self.player.folder / LEVELS)
         texts = ("Put level files into this folder, and they appear under Levels:", folder)
-        below = TOP + STEP * 9
-        return [*widgets, *(Label((LEFT, below + 20 * k, WIDTH_OF_ROW, 14), text) for k, text in enumerate(texts))]
+        below = _TOP + _STEP * 9
+        return [*widgets, *(Label((_LEFT, below + 20 * k, WIDTH_OF_ROW, 14), text) for k, text in enumerate(texts))]
 
     def _name_row(self) -> list[Widget]:
         x, y, w, h = self._area()
@@ -210,7 +210,7 @@ class SettingsScreen(ThumbnailScreen):
             for place, entry in enumerate(firsts[:5]):
                 if self.thumbnails.get(entry, 100) is None:
                     self.thumbnails.work()
-                self.thumbnails.draw(surface, entry, LEFT + 106 * place, TOP + STEP * 8 + 20, 100)
+                self.thumbnails.draw(surface, entry, _LEFT + 106 * place, _TOP + _STEP * 8 + 20, 100)
 
     def _draw_tab(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area

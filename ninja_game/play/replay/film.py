@@ -33,15 +33,13 @@ from ninja_game.view.sprites.light import EXIT_OPEN, STYLES
 if TYPE_CHECKING:
     from ninja_game.runs.compare import RunSplits
 
-_TAIL = TICKS_PER_SECOND
-"""Ticks that a film shows after the end."""
+_TAIL = TICKS_PER_SECOND  # ticks that a film shows after the end
 
-MAX_PICTURES = 20_000
-"""Most pictures of a film without a given last tick: more than eight minutes."""
+MAX_PICTURES = 20_000  # most pictures of a film without a given last tick: more than eight minutes
 
 
 SHOWN_SPLITS = 3  # the last ones of a run, at most
-LETTERS = 12.0  # least size of the letters above and below the level, px: films are small
+_LETTERS = 12.0  # least size of the letters above and below the level, px: films are small
 MAX_LETTER_SIZE = 18.0  # the greatest, for which the border has room, px of the level
 
 
@@ -130,7 +128,7 @@ class _Panel:
         self.playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
         self.view = LevelView(context, self.playback.simulation)
         self.hud = Hud(context.theme)
-        self.letters = min(MAX_LETTER_SIZE, LETTERS / context.canvas.scale)
+        self.letters = min(MAX_LETTER_SIZE, _LETTERS / context.canvas.scale)
         self.ghosts: list[Ghost] = []
 
     def step(self) -> None:
@@ -232,12 +230,9 @@ def write_film(
     return True
 
 
-_MIN_MS = 20
-"""Shortest time of a picture that players of GIFs respect."""
-_LONG_FILM = 600
-"""A GIF of more ticks has a picture only every second tick."""
-_MAX_PER_SECOND = 60
-"""Most pictures per second of a video; a faster one skips some."""
+_MIN_MS = 20  # shortest time of a picture that players of GIFs respect
+_LONG_FILM = 600  # a GIF of more ticks has a picture only every second tick
+_MAX_PER_SECOND = 60  # most pictures per second of a video; a faster one skips some
 _VIDEO: dict[str, tuple[str, dict[str, object]]] = {
     ".webm": ("libvpx-vp9", {"crf": "24", "b:v": "0", "deadline": "good", "cpu-used": "5"}),
     ".mp4": ("libx264", {"crf": "20"}),

@@ -14,14 +14,11 @@ from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.theme import Palette, Theme, run_colour
 from ninja_game.view.sprites.thumbnail import thumbnail
 
-Path = tuple[str, NDArray[np.float64]]
-"""A run's name and its positions, float64 (ticks, 2), px."""
+Path = tuple[str, NDArray[np.float64]]  # a run's name and its positions, float64 (ticks, 2), px
 
-PLOT_HEIGHT = 150
-"""Height of the plot of speeds, logical px."""
+PLOT_HEIGHT = 150  # height of the plot of speeds, logical px
 
-_LEFT, _TOP, _BOTTOM = 40.0, 26.0, 22.0
-"""Margins of the plot, logical px."""
+_LEFT, _TOP, _BOTTOM = 40.0, 26.0, 22.0  # margins of the plot, logical px
 
 
 def paths_picture(level: Level, paths: Sequence[Path], palette: Palette, width: int) -> pygame.Surface:

@@ -176,14 +176,14 @@ class Ghost:
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 
 
-MAX_NAME = 28  # most letters of a run's name among others
+_MAX_NAME = 28  # most letters of a run's name among others
 
 
 def names_of(runs: Sequence[Recording]) -> list[str]:
     """The label of each run: its player, or its file for several runs of one player."""
     names = [run.whose for run in runs]
     labels = [run.place or name if names.count(name) > 1 else name for run, name in zip(runs, names, strict=True)]
-    return [name if len(name) <= MAX_NAME else f"{name[: MAX_NAME - 3]}..." for name in labels]
+    return [name if len(name) <= _MAX_NAME else f"{name[: _MAX_NAME - 3]}..." for name in labels]
 
 
 def ghosts_of(runs: Sequence[Recording], numbers: Sequence[int] = (), *, alone: bool = True) -> list[Ghost]:
@@ -221,8 +221,7 @@ def draw_names(
     return covered
 
 
-MAX_MS = 2000
-"""A longer picture is a stall: it counts as one tick and is not caught up."""
+MAX_MS = 2000  # a longer picture is a stall: it counts as one tick and is not caught up
 
 
 class RunClock:

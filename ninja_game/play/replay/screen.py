@@ -31,13 +31,10 @@ if TYPE_CHECKING:
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 NORMAL_SPEED = SPEEDS.index(1.0)
-SHOWN_AFTER_END = 130
-"""Ticks shown after the end (game.md §2)."""
+SHOWN_AFTER_END = 130  # ticks shown after the end (game.md §2)
 MAX_GHOSTS = 8
-_WARM = 12
-"""Ticks played with animations before the sought one, so that it looks as if played."""
-_STILL_MS = 500
-"""ms before a replay starts (20 of the classic game's video frames)."""
+_WARM = 12  # ticks played with animations before the sought one, so that it looks as if played
+_STILL_MS = 500  # ms before a replay starts (20 of the classic game's video frames)
 
 
 class ReplayScreen(Screen):

@@ -21,7 +21,7 @@ from ninja_game.search.spans import SPAN_TICKS, SpanSearches, draw_settings
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.kinds import EXIT
 
-MAX_TICKS = 2_000_000
+MAX_LEG_TICKS = 2_000_000
 """Ticks of one search, doubled after every turn. Most searches end before: a span of 100 ticks has few states."""
 
 
@@ -45,7 +45,7 @@ class LegSearch:
             field = partial(heuristics.field_to, (float(place["x"]), float(place["y"])))
         until = UNBOUNDED if target else 0
         self._leg = Leg([root], until, root.mask, until, ROUTE_ENDS, 0, field, target=target)
-        self._seed, self._begun, self._most = seed * 10_000, 0, MAX_TICKS
+        self._seed, self._begun, self._most = seed * 10_000, 0, MAX_LEG_TICKS
         self._search.begin_leg(self._leg, ROUTE_LEGS[0][0], seed=0, bound=1)
         self._search.run(1)
 

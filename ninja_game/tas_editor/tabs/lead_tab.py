@@ -8,7 +8,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.notations import Marker
-from ninja_game.runs.compare import NEAR, LeadTable, lead_table
+from ninja_game.runs.compare import NEAR_DISTANCE, LeadTable, lead_table
 from ninja_game.runtime import NewestJob
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import TasEditor
@@ -128,7 +128,7 @@ class LeadTab(Tab):
         if last is not None:
             parts.append(f"{lead_text(last.ahead)} at {last.name}")
         if table.apart:
-            parts.append(f"{counted(table.apart, 'second')} not listed: over {NEAR:.0f} px apart")
+            parts.append(f"{counted(table.apart, 'second')} not listed: over {NEAR_DISTANCE:.0f} px apart")
         return "; ".join(parts)
 
     def render_key(self) -> tuple[object, ...]:

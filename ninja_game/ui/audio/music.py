@@ -18,17 +18,17 @@ from ninja_game.sim.schema.world_fields import World
 from ninja_game.ui.audio.table import warning_of
 
 MENU = "menu"
-BY_COLUMN = ("ground", "machines", "places", "trials", "hardest")
+COLUMN_MUSIC = ("ground", "machines", "places", "trials", "hardest")
 
 SILENCE = "silence"
 
 LAYERS = ("base", "danger", "speed", "exit")
-LAYERS_OF: dict[str, tuple[str, ...]] = {MENU: LAYERS[:1], **dict.fromkeys(BY_COLUMN, LAYERS)}
+LAYERS_OF: dict[str, tuple[str, ...]] = {MENU: LAYERS[:1], **dict.fromkeys(COLUMN_MUSIC, LAYERS)}
 
 FADE_MS = 350  # from one music to the next, each way
 FOLLOW_MS = 700  # until a layer has gone 63 % of the way to its level
-NEAR = 120.0  # px from a danger to the loudest layer
-FAR = 420.0  # px to where a danger is not heard
+_NEAR = 120.0  # px from a danger to the loudest layer
+_FAR = 420.0  # px to where a danger is not heard
 FAST = 3.2  # px/tick with the loudest layer of speed; silent at half of it
 
 
@@ -57,7 +57,7 @@ def music_levels(world: World, objects: Iterable[Object]) -> MusicLevels:
         if o.kind == EXIT:
             is_open = max(is_open, float(o.is_open))
         elif warning_of(o):
-            danger = max(danger, (FAR - hypot(o.x - ninja.x, o.y - ninja.y)) / (FAR - NEAR))
+            danger = max(danger, (_FAR - hypot(o.x - ninja.x, o.y - ninja.y)) / (_FAR - _NEAR))
     speed = 2 * hypot(ninja.x - ninja.prev_x, ninja.y - ninja.prev_y) / FAST - 1
     alive = world.outcome == states.OUTCOME_RUNNING
     return MusicLevels(1.0, min(1.0, danger) * alive, min(1.0, max(0.0, speed)) * alive, is_open)

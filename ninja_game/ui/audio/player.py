@@ -21,7 +21,7 @@ from ninja_game.sim.schema.object_fields import Object
 from ninja_game.sim.schema.world_fields import Ninja, World
 from ninja_game.sim.states import RUNNING
 from ninja_game.ui.audio.music import CALM, LAYERS, Music, affects_music, music_levels
-from ninja_game.ui.audio.table import CORPSE, GOLD, LOOPS, STEPS, Names, by_hardness, event_sound, has_loop, loop_levels
+from ninja_game.ui.audio.table import CORPSE, LOOPS, PING, STEPS, Names, by_hardness, event_sound, has_loop, loop_levels
 
 RATE = 44_100  # samples per second of our files
 BUFFER = 512  # samples in the mixer's buffer: 12 ms of delay
@@ -66,7 +66,7 @@ class AudioPlayer(AudioOutput):
         self.music_volume = 0
         self._music = Music(folder / "music", len(LOOPS))
         self._variants = Variants()
-        self._gold_pitches = GoldPitches(len(GOLD))
+        self._gold_pitches = GoldPitches(len(PING))
         self._steps = Footsteps()
         self._sounds: dict[str, pygame.mixer.Sound | None] = {}
         self._world: World | None = None
@@ -93,7 +93,7 @@ class AudioPlayer(AudioOutput):
             names, level = event_sound(event, world.ninja)
             if names and names not in heard:
                 heard.add(names)
-                name = GOLD[self._gold_pitches.next(world.tick)] if names is GOLD else self._variants.choose(names)
+                name = PING[self._gold_pitches.next(world.tick)] if names is PING else self._variants.choose(names)
                 self.play(name, x=event.x, level=level)
         if step := self._steps.loudness(world.ninja):
             self.play(self._variants.choose(STEPS), x=world.ninja.x, level=step)
@@ -204,7 +204,7 @@ def _open_mixer() -> bool:
 
 CHAIN_TICKS = 60  # between two pieces of gold of a chain, in which the pitch rises
 
-STRIDE = 32.4  # px between two footsteps: half a cycle of the drawn legs (view/ninja/figure.py)
+_STRIDE = 32.4  # px between two footsteps: half a cycle of the drawn legs (view/ninja/figure.py)
 
 
 class Variants:
@@ -239,16 +239,16 @@ class Footsteps:
     """Decides when a foot touches the floor. The first step of a run comes after half a stride."""
 
     def __init__(self) -> None:
-        self._way = STRIDE / 2
+        self._way = _STRIDE / 2
 
     def loudness(self, ninja: Ninja) -> float:
         """Loudness of the step of this tick, a share by speed; 0: no step. To be called every tick."""
         if ninja.state != RUNNING:
-            self._way = STRIDE / 2
+            self._way = _STRIDE / 2
             return 0.0
         speed = abs((ninja.x - ninja.prev_x) * -ninja.floor_y + (ninja.y - ninja.prev_y) * ninja.floor_x)
         self._way += speed
-        if self._way < STRIDE:
+        if self._way < _STRIDE:
             return 0.0
-        self._way -= STRIDE
+        self._way -= _STRIDE
         return min(1.0, 0.4 + speed / 6)

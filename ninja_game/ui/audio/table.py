@@ -18,7 +18,7 @@ def variants(name: str, count: int) -> Names:
     return tuple(f"{name}-{number}" for number in range(1, count + 1))
 
 
-GOLD = variants("gold", 12)  # from low to high
+PING = variants("gold", 12)  # of gold, from low to high
 
 STEPS = variants("step", 5)
 
@@ -32,7 +32,7 @@ BY_EVENT: dict[int, Names] = {
     events.LANDED: LANDING[-1][1],
     events.LAUNCHED: ("launch",),
     events.WON: ("passed",),
-    events.GOLD_TAKEN: GOLD,
+    events.GOLD_TAKEN: PING,
     events.MINE_EXPLODED: variants("mine", 2),
     events.EXIT_OPENED: ("exit-open",),
     events.DOOR_OPENED: ("door-open",),

@@ -170,9 +170,9 @@ def _jumps_and_chooses(inputs: Inputs, menu: Mapping[str, str]) -> set[str]:
 
 
 class KeyAction(NamedTuple):
-    """``where``: "level", "replay", "run" (either) or "everywhere", menus too; ``label``: for the settings screen.
+    """An action of the player. ``where``: "level", "replay", "run" (either) or "everywhere", menus too.
 
-    ``keys``, ``pad``: names of the default inputs.
+    ``label``: for the settings screen. ``keys``, ``pad``: names of the default inputs.
     """
 
     where: str

@@ -24,7 +24,7 @@ BUTTONS = (
 )  # fmt: skip
 AXES = ("leftx", "lefty", "rightx", "righty", "lefttrigger", "righttrigger")
 
-LABELS = {
+_LABELS = {
     "a": "A", "b": "B", "x": "X", "y": "Y", "back": "Back", "guide": "Guide", "start": "Start",
     "leftstick": "Left stick press", "rightstick": "Right stick press", "leftshoulder": "LB", "rightshoulder": "RB",
     "lefttrigger+": "LT", "righttrigger+": "RT", "dpad-up": "D-pad up", "dpad-down": "D-pad down",
@@ -124,4 +124,4 @@ class Gamepads:
 
 
 def pad_label(name: str) -> str:
-    return LABELS.get(name) or name[:-1].replace("-", " ").capitalize() + name[-1:]
+    return _LABELS.get(name) or name[:-1].replace("-", " ").capitalize() + name[-1:]

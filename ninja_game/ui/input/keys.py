@@ -32,7 +32,7 @@ SCANCODE_LIMIT = 512  # SDL's keys have smaller scancodes than this
 _NAMES = {code: name for name, code in sorted(SCANCODES.items(), key=lambda item: -len(item[0]))}
 _UNNAMED = re.compile(r"scancode-([0-9]{1,3})")
 
-LABELS = {
+_LABELS = {
     "lshift": "Shift", "rshift": "R Shift", "lctrl": "Ctrl", "rctrl": "R Ctrl", "lalt": "Alt",
     "ralt": "R Alt", "return": "Enter", "kp_enter": "Keypad Enter", "escape": "Esc", "backspace": "Backspace",
     "pageup": "Page Up", "pagedown": "Page Down", "left": "Left", "right": "Right", "up": "Up", "down": "Down",
@@ -74,7 +74,7 @@ def scancode_named(name: str) -> int | None:
 
 def learn_label(event: pygame.Event) -> None:
     scancode = scancode_of(event)
-    if key_name(scancode) not in LABELS and (label := pygame.key.name(event.key)):
+    if key_name(scancode) not in _LABELS and (label := pygame.key.name(event.key)):
         _learnt[scancode] = label.capitalize() if len(label) > 1 else label.upper()
 
 
@@ -87,8 +87,8 @@ def key_label(name: str) -> str:
     scancode = scancode_named(name)
     if scancode in _learnt:
         return _learnt[scancode]
-    if name in LABELS:
-        return LABELS[name]
+    if name in _LABELS:
+        return _LABELS[name]
     return name.replace("kp_", "keypad ").replace("kp", "keypad ").capitalize()
 
 
@@ -100,8 +100,7 @@ def key_label_of(name: str) -> str:
 
 T = TypeVar("T")
 
-MAX_STEP_MS = 50
-"""A longer picture is a stall and no long press: the release may wait in the queue."""
+MAX_STEP_MS = 50  # a longer picture is a stall and no long press: the release may wait in the queue
 
 
 class HeldKey(Generic[T]):

@@ -66,7 +66,7 @@ class Particles:
         for particle in layer:
             t = (now - particle.born) / particle.life
             if 0.0 <= t < 1.0:
-                PAINTERS[particle.kind](particle, target, t)
+                _PAINTERS[particle.kind](particle, target, t)
 
 
 # --- painters: (particle, target, t), t from 0 to 1 over its life ---
@@ -156,7 +156,7 @@ def _charge(p: Particle, target: DrawTarget, t: float) -> None:
     target.line(target.palette.weapon, x, y, x + p.dx * 0.12, y + p.dy * 0.12, 1.2)
 
 
-PAINTERS: dict[str, Callable[[Particle, DrawTarget, float], None]] = {
+_PAINTERS: dict[str, Callable[[Particle, DrawTarget, float], None]] = {
     "dust": _cloud("dust"),
     "smoke": _cloud("smoke"),
     "blood": _streak("blood", 1.4),

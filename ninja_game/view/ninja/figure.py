@@ -82,7 +82,7 @@ RISE = pose((1.2, -4.4), (-0.4, 1.0), (8.6, -7.0), (-5.6, -1.6), (4.8, 5.2), (-4
 FLOAT = pose((0.6, -4.0), (-0.4, 1.4), (7.2, -4.6), (-6.4, -3.6), (5.2, 6.4), (-4.6, 7.2))
 """At the top: knees drawn up, arms out."""
 
-FALL = pose((-0.2, -4.0), (0.2, 1.4), (6.4, -9.4), (-6.6, -8.6), (4.6, 9.6), (-2.6, 10.2))
+_FALL = pose((-0.2, -4.0), (0.2, 1.4), (6.4, -9.4), (-6.6, -8.6), (4.6, 9.6), (-2.6, 10.2))
 """Falling fast: arms up, legs reaching down."""
 
 
@@ -92,7 +92,7 @@ _LEAP_SPEED = 3.0  # greatest upward speed at the start of a jump from the floor
 def air_pose(vy: float) -> Pose:
     """The pose in the air for a vertical velocity in px/tick: 19 steps in the original, continuous here."""
     if vy >= 0:
-        return FLOAT.mixed(FALL, min(1.0, (vy / 2.5) ** 0.5))
+        return FLOAT.mixed(_FALL, min(1.0, (vy / 2.5) ** 0.5))
     k = min(1.0, -vy / _LEAP_SPEED) * 2
     return FLOAT.mixed(RISE, k) if k < 1 else RISE.mixed(LEAP, k - 1)
 
@@ -206,9 +206,9 @@ DANCES = (
 
 THIGH, SHIN = 5.0, 5.2
 UPPER_ARM, FOREARM = 4.0, 4.2
-HEAD = 2.5
-REACH = 17.0
-EDGE = 1.0  # width of the light or dark edge around the figure, px
+_HEAD = 2.5
+FIGURE_REACH = 17.0
+_EDGE = 1.0  # width of the light or dark edge around the figure, px
 
 
 def edge_of(colour: pygame.Color) -> pygame.Color:
@@ -256,7 +256,7 @@ def arm(shoulder: Point, hand: Point, facing: int) -> Limb:
 def paint_trunk(s: Sketch, colour: pygame.Color, head: Point, shoulder: Point, pelvis: Point) -> None:
     s.stroke(colour, shoulder, pelvis, 3.4, 2.5)
     s.stroke(colour, shoulder, head, 1.6)
-    s.disc(colour, *head, HEAD)
+    s.disc(colour, *head, _HEAD)
 
 
 def _paint_limbs(s: Sketch, colour: pygame.Color, far: pygame.Color, pose: Pose, limbs: Sequence[Limb]) -> None:
@@ -295,7 +295,7 @@ def ninja_sprite(
     colour: pygame.Color, offset: Point = (0.0, 0.0), alpha: float = 1.0, banded: bool = True,
 ) -> Sprite:  # fmt: skip
     """The figure in a pose about its centre. ``offset``: fraction of a px between it and its point."""
-    s = Sketch(scale, (-REACH, -REACH, REACH, REACH), fine=3)
+    s = Sketch(scale, (-FIGURE_REACH, -FIGURE_REACH, FIGURE_REACH, FIGURE_REACH), fine=3)
     shown = pose.moved(offset[0] / scale, offset[1] / scale)
     paint_figure(s, palette, shown, facing, velocity, colour=colour, banded=banded)
     return s.finish(alpha)
@@ -304,11 +304,11 @@ def ninja_sprite(
 def paint_figure(
     s: Sketch, palette: Palette, shown: Pose, facing: int, velocity: Point, *, colour: pygame.Color, banded: bool = True
 ) -> None:
-    """Draw the figure into a sketch, ``REACH`` px to all sides, with a contrasting edge."""
+    """Draw the figure into a sketch, ``FIGURE_REACH`` px to all sides, with a contrasting edge."""
     far = mixed(colour, palette.background, 0.12)
     edge = edge_of(colour)
     limbs = limbs_of(shown, facing)
-    s.grown = EDGE
+    s.grown = _EDGE
     _paint_limbs(s, edge, edge, shown, limbs)
     s.grown = 0.0
     if banded:

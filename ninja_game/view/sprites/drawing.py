@@ -41,7 +41,7 @@ class SpriteKey(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Drawing(Generic[P]):
-    """``paint(sketch, palette, *parameters)`` draws within ``extent``."""
+    """What a sprite shows: ``paint(sketch, palette, *parameters)`` draws it within ``extent``."""
 
     extent: Extent
     paint: Callable[Concatenate[Sketch, Palette, P], None]
@@ -135,8 +135,7 @@ class SpriteBook:
         return sketch.finish(key.alpha / 8)
 
 
-shared_book = lru_cache(maxsize=8)(SpriteBook)
-"""Shared by all levels that are shown at one scale in one palette."""
+shared_book = lru_cache(maxsize=8)(SpriteBook)  # shared by all levels that are shown at one scale in one palette
 
 
 def _turned(extent: Extent) -> Extent:

@@ -13,7 +13,7 @@ from ninja_game.ui.theme import Palette
 
 
 class LightStyle(NamedTuple):
-    """``role``: of the palette; ``reach``: logical px; ``strength``: opacity in its middle, 0…255."""
+    """A light. ``role``: of the palette; ``reach``: logical px; ``strength``: opacity in its middle, 0…255."""
 
     role: str
     reach: int

@@ -8,7 +8,7 @@ from ninja_game.ui.scenery import GRAINS, grain, scenery_sheet
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.tile_sheet import TileSheet
 
-EDGES = (("bright", 2, 0, 120), ("outline", -3, 0, 80), ("bright", 8, 30, 88))
+_EDGES = (("bright", 2, 0, 120), ("outline", -3, 0, 80), ("bright", 8, 30, 88))
 """Copies of the tiles in a colour, minus the tiles moved down or up and blurred by so much, logical px; their opacity.
 The last one also lights rock near its other edges, so that the inside of a mass is darker.
 """
@@ -32,7 +32,7 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
     shadow.fill((SHADOW,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
     share = sheet.canvas.scale * small.width / size[0]
     small.blit(shadow, [round(share * away) for away in SHADOW_AT], special_flags=pygame.BLEND_PREMULTIPLIED)
-    for role, depth, soft, strength in EDGES:
+    for role, depth, soft, strength in _EDGES:
         edge = taken = inks[role]
         step = round(depth * sheet.canvas.scale) or (1 if depth > 0 else -1)
         if soft:

@@ -14,7 +14,7 @@ import pygame
 from ninja_game.sim.grid import Point
 from ninja_game.ui.canvas import Colour, draw_limb
 
-FINE = 4  # how many times larger the shapes are drawn
+ENLARGED = 4  # how many times larger the shapes are drawn
 
 
 class Sprite(NamedTuple):
@@ -39,7 +39,7 @@ class Sketch:
     """
 
     def __init__(
-        self, scale: float, extent: tuple[float, float, float, float], *, turn: float = 0, fine: int = FINE
+        self, scale: float, extent: tuple[float, float, float, float], *, turn: float = 0, fine: int = ENLARGED
     ) -> None:
         left, top, right, bottom = extent
         self._ax, self._ay = ceil(-left * scale) + 1, ceil(-top * scale) + 1

@@ -200,8 +200,8 @@ PlacedSprite = tuple[SpriteKey, float, float]  # a drawing and the place of its 
 
 _EXIT_FRAMES, _PAD_FRAMES, _LOCK_FRAMES = 30, 18, 18
 _DOOR_OPENING, _DOOR_CLOSING, _AIM_FRAMES, _PREPARE_FRAMES = 15, 16, 15, 30
-MAX_FRAMES = 30
-SETTLED_TICKS = MAX_FRAMES / 3  # ticks without change after which a static sprite stays the same
+_MAX_FRAMES = 30
+SETTLED_TICKS = _MAX_FRAMES / 3  # ticks without change after which a static sprite stays the same
 
 
 def static_sprites_of(world: World, slot: int, animation: ObjectAnimation, fraction: float) -> list[PlacedSprite]:

@@ -13,13 +13,13 @@ from ninja_game.sim.collision.tiles import EMPTY, FULL, SHAPE
 from ninja_game.sim.grid import Point
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas
-from ninja_game.view.sprites.sketch import FINE
+from ninja_game.view.sprites.sketch import ENLARGED
 
 TileKey = tuple[int, int, int, float, float]  # tile, size, and offset from the px
 
 
 class TileSheet:
-    """``surface``: premultiplied; its px count from the upper left corner of the visible part of the stage."""
+    """All tiles. ``surface``: premultiplied; its px count from the upper left corner of the stage's visible part."""
 
     def __init__(self, canvas: Canvas, colour: pygame.Color) -> None:
         self.colour = colour
@@ -169,12 +169,14 @@ def tile_picture(
     ``shift``: px from the cell's px to its true corner, at ``scale`` px per logical px. Slopes are drawn at their true
     place, so that those of neighbouring cells form one line; other shapes fill the cell's px.
     """
-    fine = pygame.Surface((size[0] * FINE, size[1] * FINE), pygame.SRCALPHA)
+    fine = pygame.Surface((size[0] * ENLARGED, size[1] * ENLARGED), pygame.SRCALPHA)
     # Drawing includes the px of the last corner: half a fine px less keeps the shape inside its cell.
-    wide, high = size[0] * FINE, size[1] * FINE
+    wide, high = size[0] * ENLARGED, size[1] * ENLARGED
     if scale and tiles.SHAPE[tile] not in _FITTED:
-        zoom = scale * FINE
-        corners = [((x + H) * zoom + shift[0] * FINE, (y + H) * zoom + shift[1] * FINE) for x, y in _overlong(tile)]
+        zoom = scale * ENLARGED
+        corners = [
+            ((x + H) * zoom + shift[0] * ENLARGED, (y + H) * zoom + shift[1] * ENLARGED) for x, y in _overlong(tile)
+        ]
     else:
         exact = [((x + H) / 24 * wide, (y + H) / 24 * high) for x, y in outline(tile)]
         corners = [(min(x, wide - 0.5), min(y, high - 0.5)) for x, y in exact]

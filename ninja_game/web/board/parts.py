@@ -14,7 +14,7 @@ from ninja_game.board.runs import Run
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.levels.episodes import Entry
-from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, table, tag
+from ninja_game.web.pages.frame import GAME_PAGE, REPLAYS, Content, Markup, Pages, joined, page, table, tag
 from ninja_game.web.pages.gallery import (
     BOARD,
     PICTURE_HEIGHT,
@@ -53,7 +53,7 @@ class Parts:
 
     def __init__(self, out: Path, ranking: Ranking, memo: Memo | None = None, *, address: str = "") -> None:
         self.pages, self.ranking = Pages(out, BOARD, memo), ranking
-        self.game = f"../{GAME}"
+        self.game = f"../{GAME_PAGE}"
         self.site = address and f"{address}{BOARD}/"
         assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
         others = [link for link in LINKS[2:] if link != EPISODES or ranking.shown.levels.episodes]

@@ -28,16 +28,16 @@ from ninja_game.play.lab.screen import FIGURES, figure_picture
 from ninja_game.runtime import PACKAGE
 from ninja_game.ui.canvas import png_of
 from ninja_game.web.pages import frame
-from ninja_game.web.pages.frame import GAME, HOME, NAVIGATION, SEARCH, Content, Markup, joined, tag
+from ninja_game.web.pages.frame import GAME_PAGE, HOME_PAGE, NAVIGATION, SEARCH_PAGE, Content, Markup, joined, tag
 
 FILM = "pictures/ninja-game.webp"  # of the first page
-STILL = "pictures/ninja-game.png"  # for readers who want no motion
+_STILL = "pictures/ninja-game.png"  # for readers who want no motion
 
 FIGURES_SCRIPT = "app-folder/figures.js"  # where the build puts what makes figures move
 
 LAB = "lab-"  # the beginning of the name of a figure's picture
 
-LEFT_OUT = (".", "build/", "dist/")  # folders whose Markdown is not the project's, or not meant for readers
+_LEFT_OUT = (".", "build/", "dist/")  # folders whose Markdown is not the project's, or not meant for readers
 
 
 def slug(heading: str) -> str:
@@ -52,7 +52,7 @@ def slug(heading: str) -> str:
 def markdown_files() -> dict[str, Path]:
     root = data_folder("docs").parent
     files = {path.relative_to(root).as_posix(): path for path in root.rglob("*.md")}
-    return {name: path for name, path in sorted(files.items()) if not name.startswith(LEFT_OUT)}
+    return {name: path for name, path in sorted(files.items()) if not name.startswith(_LEFT_OUT)}
 
 
 def page_of(name: str) -> str:
@@ -62,7 +62,7 @@ def page_of(name: str) -> str:
     ['index.html', 'docs/about.html', 'learn/index.html', 'code/ninja_game/sim/grid.html']
     """
     if name in ("docs/home.md", "README.md"):
-        return HOME if name.startswith("docs") else "docs/about.html"
+        return HOME_PAGE if name.startswith("docs") else "docs/about.html"
     path = Path(name)
     if path.suffix != ".md":
         return f"code/{path.with_suffix('').as_posix()}.html" if path.suffix else f"code/{name}/index.html"
@@ -73,7 +73,10 @@ def page_of(name: str) -> str:
 
 
 class Documents:
-    """``files``: content by name in the site, once ``build`` was called. ``address``: the site's, if it is known."""
+    """The documents as pages. ``files``: content by name in the site, once ``build`` was called.
+
+    ``address``: the site's, if it is known.
+    """
 
     def __init__(self, address: str = "") -> None:
         self._address_of_site = address
@@ -98,7 +101,7 @@ class Documents:
         results = tag("ul", *self.searched, class_="results")
         words = tag("label", "Words ", tag("input", type="search", name="words", autocomplete="off"))
         form = tag("form", words, tag("p", role="status", class_="found"), class_="search", role="search", hidden=True)
-        self._write(SEARCH, "Search", [form, results])
+        self._write(SEARCH_PAGE, "Search", [form, results])
         light, dark = (HtmlFormatter(style=name).get_style_defs(".code") for name in ("default", "github-dark"))
         dark = f"@media (prefers-color-scheme: dark) {{ {dark} }}"
         style = [frame.colours(), (here / frame.STYLE).read_text("utf-8"), light, dark]
@@ -114,7 +117,7 @@ class Documents:
         up = "../" * name.count("/")
         links = [(up + address, text) for address, text in NAVIGATION]
         script = up + FIGURES_SCRIPT if figures else ""
-        picture = self._address_of_site + STILL if name == HOME else ""
+        picture = self._address_of_site + _STILL if name == HOME_PAGE else ""
         self.files[name] = frame.page(
             title, *contents, up=f"{up}docs/", links=links, current=up + name, figures=script, picture=picture
         ).encode()
@@ -126,8 +129,8 @@ class Documents:
         self._index_words(page_name, title, tokens)
         figures = self._rewrite_links(name, tokens)
         top: list[Content] = []
-        if page_name == HOME:
-            top = [tag("p", tag("a", "Play now", href=GAME, class_="button"))]
+        if page_name == HOME_PAGE:
+            top = [tag("p", tag("a", "Play now", href=GAME_PAGE, class_="button"))]
         elif len(headings) > 3 and not page_name.startswith("learn/"):
             entries = [tag("li", tag("a", text, href=f"#{anchor}")) for anchor, text in headings]
             top = [tag("nav", tag("ul", *entries), class_="contents", aria_label="On this page")]
@@ -220,9 +223,9 @@ class Documents:
             legend = [tag("span", tag("i", class_=role), words) for role, words in meanings]
             parts = tag("picture", source, img), tag("p", *legend, class_="legend"), start
             picture = tag("figure", *parts, class_="lab", data_figure=figure)
-        elif page_of(name) == HOME and path.endswith(".gif"):
+        elif page_of(name) == HOME_PAGE and path.endswith(".gif"):
             self.files |= _film(whole)
-            source = tag("source", srcset=STILL, media="(prefers-reduced-motion: reduce)")
+            source = tag("source", srcset=_STILL, media="(prefers-reduced-motion: reduce)")
             picture = tag("picture", source, tag("img", src=FILM, alt=alt, width=528, height=400))
         else:
             address = self._copy_picture(whole, path, name)
@@ -287,7 +290,7 @@ def _film(path: Path) -> dict[str, bytes]:
         pace = 2 * gif.info["duration"]
     first.save(film, "webp", save_all=True, append_images=others, duration=pace, loop=0, quality=30, method=4)
     others[len(others) // 2].quantize(64).save(still, "png")
-    return {FILM: film.getvalue(), STILL: still.getvalue()}
+    return {FILM: film.getvalue(), _STILL: still.getvalue()}
 
 
 def _replace_paragraph(

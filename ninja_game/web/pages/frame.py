@@ -17,11 +17,11 @@ from ninja_game.files.reading import stamp_of
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.tree import Tree, leads_below
 from ninja_game.ui.canvas import png_of
-from ninja_game.ui.lettering import CAP, SPACING, WEIGHTS, glyph
+from ninja_game.ui.lettering import CAP, LETTER_SPACING, WEIGHTS, glyph
 from ninja_game.ui.theme import PALETTES, Palette, mixed
 from ninja_game.view.ninja.figure import icon
 
-MAX_TEXT = 400  # characters of a text that are shown
+_MAX_TEXT = 400  # characters of a text that are shown
 
 _EMPTY = frozenset({"img", "input", "link", "meta", "source"})  # elements without an end tag
 
@@ -45,7 +45,7 @@ def joined(*contents: Content) -> Markup:
     'a &lt; b7'
     """
     present = filter(lambda content: content is not None, contents)
-    return Markup("".join(c if isinstance(c, Markup) else escape(shown_text(str(c), MAX_TEXT)) for c in present))
+    return Markup("".join(c if isinstance(c, Markup) else escape(shown_text(str(c), _MAX_TEXT)) for c in present))
 
 
 def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None) -> Markup:
@@ -65,7 +65,7 @@ def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None)
             parts.append(attribute)
         elif value is not None and value is not False:
             text = str(value)
-            shown = text if attribute in {"href", "src", "d", "content"} else shown_text(text, MAX_TEXT)
+            shown = text if attribute in {"href", "src", "d", "content"} else shown_text(text, _MAX_TEXT)
             parts.append(f'{attribute}="{escape(shown)}"')
     start = f"<{' '.join(parts)}>"
     return Markup(start if name in _EMPTY else f"{start}{joined(*contents)}</{name}>")
@@ -77,12 +77,12 @@ POLICY = "default-src 'none'; img-src 'self'; style-src 'self'; script-src 'self
 POLICY_OF_FIGURES = POLICY.replace("script-src 'self'", "connect-src 'self'; script-src 'self' 'wasm-unsafe-eval'")
 """The policy of pages with figures, which run Python."""
 
-HOME = "index.html"
-GAME = "play.html"
-SEARCH = "search.html"
+HOME_PAGE = "index.html"
+GAME_PAGE = "play.html"
+SEARCH_PAGE = "search.html"
 NAVIGATION = (
-    (HOME, "Home"), ("learn/index.html", "Learn"), (GAME, "Play"), ("docs/making-levels.html", "Make"),
-    ("gallery/index.html", "Compete"), ("docs/index.html", "Reference"), (SEARCH, "Search"),
+    (HOME_PAGE, "Home"), ("learn/index.html", "Learn"), (GAME_PAGE, "Play"), ("docs/making-levels.html", "Make"),
+    ("gallery/index.html", "Compete"), ("docs/index.html", "Reference"), (SEARCH_PAGE, "Search"),
 )  # fmt: skip
 """Pages in the folder of a site, and the names of their links."""
 
@@ -179,7 +179,7 @@ def page(
     ``current``: the address of the page's own link; ``figures``: of the script for figures; ``picture``: of the preview
     where somebody shares a link, complete if the site's own is known; ``description``: the text beside it.
     """
-    description = shown_text(description, MAX_TEXT) or DESCRIPTION
+    description = shown_text(description, _MAX_TEXT) or DESCRIPTION
     shown = {"og:title": shown_text(title), "og:description": description, "og:type": "website", "og:image": picture}
     head = tag(
         "head",
@@ -219,7 +219,7 @@ def heading(text: str) -> Markup:
         for line in letter.lines if letter else ():
             points = [f"{x + left:.2f} {top + 3:.2f}" for left, top in line]
             moves.append("M" + "L".join(points if len(points) > 1 else points * 2))
-        x += (letter.width if letter else 0.0) + SPACING + WEIGHTS[1]
+        x += (letter.width if letter else 0.0) + LETTER_SPACING + WEIGHTS[1]
     strokes = tag(
         "path",
         d="".join(moves),

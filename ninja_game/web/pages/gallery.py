@@ -23,7 +23,7 @@ from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
 from ninja_game.formats.replay.text import shared_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
-from ninja_game.levels.published import KINDS, PublishedLevels
+from ninja_game.levels.published import RUN_TITLES, PublishedLevels
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import Level, makes_object
 from ninja_game.ui.theme import CLASSIC
@@ -70,7 +70,7 @@ def watch_address(game: str, *stems: str) -> str:
 
 UP = "../"
 PICTURE_HEIGHT = PICTURE_WIDTH * 600 // 792
-FOLDER = "gallery"
+GALLERY = "gallery"
 BOARD = "board"
 
 Links = Sequence[tuple[str, str]]
@@ -148,7 +148,7 @@ def run_page(
 
 
 MAX_POINTS = 400  # of a drawn path
-NEAREST = 4.0  # least px between two of them
+_NEAREST = 4.0  # least px between two of them
 
 
 def path_data(positions: NDArray[np.float64]) -> str:
@@ -159,7 +159,7 @@ def path_data(positions: NDArray[np.float64]) -> str:
     """
     whole = positions.round().astype(int)
     length = float(np.hypot(*np.diff(positions, axis=0).T).sum())
-    apart = max(NEAREST, length / MAX_POINTS)
+    apart = max(_NEAREST, length / MAX_POINTS)
     first, *others = whole.tolist()
     kept = [first]
     for place in others:
@@ -209,9 +209,9 @@ def medal_mark(medal: str) -> Content:
     return tag("span", medal[0].upper(), class_=f"medal {medal}", title=medal) if medal in MEDALS else joined()
 
 
-SORT_ORDERS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
+_SORT_ORDERS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
 
-MAX_NAME = 60  # characters of a name in the list
+_MAX_NAME = 60  # characters of a name in the list
 
 
 def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Path:
@@ -219,20 +219,22 @@ def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Pa
 
     ``address``: of ``out``, if it is known. Raises FileError if ``out/gallery`` holds other files.
     """
-    pages = Pages(out, FOLDER)
-    whole = (out / frame.HOME).is_file()
-    links = [(f"../{address}", title) for address, title in (frame.NAVIGATION if whole else [(frame.GAME, "Play")])]
+    pages = Pages(out, GALLERY)
+    whole = (out / frame.HOME_PAGE).is_file()
+    links = [
+        (f"../{address}", title) for address, title in (frame.NAVIGATION if whole else [(frame.GAME_PAGE, "Play")])
+    ]
     if (out / BOARD / "index.html").is_file():
         links.append((f"../{BOARD}/index.html", "Board"))
-    site, game, near = address and f"{address}{FOLDER}/", f"../{frame.GAME}", (*links, ("index.html", "Levels"))
+    site, game, near = address and f"{address}{GALLERY}/", f"../{frame.GAME_PAGE}", (*links, ("index.html", "Levels"))
     deeper = [(f"../{address}", title) for address, title in near]
     for digest, entry in shown.entries.items():
         pages.write(picture_name(digest), picture(entry.named.level))
         certificates = {}
         for kind, recording in shown.runs.get(digest, {}).items():
             text, tick = shared_text(recording.replay, entry.named.level), recording.replay.final_tick
-            stem, title = sha256(text.encode()).hexdigest()[:16], f"{entry.title} {KINDS[kind].lower()}"
-            certificates[KINDS[kind]] = stem, tick
+            stem, title = sha256(text.encode()).hexdigest()[:16], f"{entry.title} {RUN_TITLES[kind].lower()}"
+            certificates[RUN_TITLES[kind]] = stem, tick
             facts = [("Time", f"{seconds_text(tick)} s"), ("Made", str(recording.replay.made))]
             pages.write(f"{stem}.txt", text, replay=True)
             run = run_page(entry, stem, title, facts, pages.folder.name, game, near, site)
@@ -261,7 +263,7 @@ def _episodes(shown: PublishedLevels) -> Mapping[str, str]:
 
 def search(episodes: Mapping[str, str]) -> Markup:
     """The search above a list; hidden without a script."""
-    options = [tag("option", name, value=value) for value, name in SORT_ORDERS]
+    options = [tag("option", name, value=value) for value, name in _SORT_ORDERS]
     chosen = [tag("option", name, value=value) for value, name in episodes.items()]
     select = tag("label", "Episode ", tag("select", tag("option", "all", value=""), *chosen, name="episode"))
     sort = tag("label", "Sort ", tag("select", *options, name="sort"))
@@ -279,7 +281,7 @@ def _card(entry: Entry, place: int) -> Markup:
     difficulty = f"{pars.difficulty:.1f}" if pars and pars.difficulty is not None else ""
     if pars and difficulty:
         facts.append(tag("span", f"difficulty {difficulty}, {pars.grade}"))
-    name = tag("a", shown_text(entry.title, MAX_NAME), href=page_name(entry.digest))
+    name = tag("a", shown_text(entry.title, _MAX_NAME), href=page_name(entry.digest))
     number = tag("span", entry.episode, class_="number") if entry.episode else None
     words = f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode}".casefold()
     head, below = tag("h2", number, joined(" ") if number else None, name), tag("p", *facts, class_="facts")

@@ -18,21 +18,21 @@ from ninja_game.files.tree import Tree, leads_below
 from ninja_game.levels.published import published_levels
 from ninja_game.runtime import PACKAGE
 from ninja_game.web.pages.documents import Documents
-from ninja_game.web.pages.frame import GAME, MARK as PAGES_MARK, REPLAYS
+from ninja_game.web.pages.frame import GAME_PAGE, MARK as PAGES_MARK, REPLAYS
 from ninja_game.web.pages.gallery import page_name, picture_name
 from ninja_game.web.site import game_archive as archive
 
-MARK = "ninja-game-site.json"  # marks a folder that the build wrote, with the names of the files in it
+_MARK = "ninja-game-site.json"  # marks a folder that the build wrote, with the names of the files in it
 
 ICONS = {"icons/64.png": (64, 1 / 6), "icons/192.png": (192, 1 / 6), "icons/512.png": (512, 1 / 6)}
 MASKABLE = "icons/maskable-512.png"  # an icon that systems crop to their own shape: its corners are empty
 
-LARGE = ("pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "game.tar.gz")
+_LARGE = ("pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "game.tar.gz")
 """Files that the page fetches with progress and caches itself; the service worker caches the rest."""
 
-TEMPLATES = (GAME, "sw.js")  # files of the page that name the version; they lie above the versioned folder
+TEMPLATES = (GAME_PAGE, "sw.js")  # files of the page that name the version; they lie above the versioned folder
 
-FOLDER = "app-folder"  # the name of the version's folder in templates and documents
+_FOLDER = "app-folder"  # the name of the version's folder in templates and documents
 
 _OF_PAGES = ("style.css", "search.js", "icon.png")
 PAGES = (
@@ -63,7 +63,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") 
     site = Tree(out)
     for name, content in files.items():
         site.write(name, content)
-    site.write(MARK, json.dumps({"version": __version__, "files": sorted(files)}, indent=1) + "\n")
+    site.write(_MARK, json.dumps({"version": __version__, "files": sorted(files)}, indent=1) + "\n")
     gone = before - set(files)
     for name in gone:
         site.remove(name)
@@ -79,7 +79,7 @@ def _own_files(out: Path) -> set[str]:
         return set()
     hint = "name a new folder, or remove that one yourself"
     try:
-        names = json.loads(read_utf8(out / MARK))["files"]
+        names = json.loads(read_utf8(out / _MARK))["files"]
     except (OSError, *DAMAGED):
         raise FileError(
             "this is not a site of ninja-game", str(out), expected="a new or empty folder", hint=hint
@@ -130,20 +130,20 @@ def _stamped(
     parts = sorted((app | above).items())
     known = digest_of(b"".join(f"{name} {len(content)}\n".encode() + content for name, content in parts))[:16]
     folder = f"app-{known}"
-    build = {"version": __version__, "id": known, "pyodide": about, "sizes": {name: len(app[name]) for name in LARGE}}
+    build = {"version": __version__, "id": known, "pyodide": about, "sizes": {name: len(app[name]) for name in _LARGE}}
     templates = {name: app.pop(name) for name in TEMPLATES} | documents
     app["build.js"] = f"export const build = {json.dumps(build)};\n".encode()
     files = {f"{folder}/{name}": content for name, content in app.items()} | above
-    small = sorted(name for name in files if not name.endswith(LARGE))
+    small = sorted(name for name in files if not name.endswith(_LARGE))
     # Without pyodide.asm.mjs: if that is loaded first, Chromium's start hangs.
     modules = [name for name in files if name.endswith((".js", "/pyodide.mjs")) and "figures" not in name]
     taught = sorted(name for name in documents if name.startswith(("learn/", "lab/")))
     large = sorted({*files} - {*small})
     levels = published_levels(data_folder("levels")).entries
     shown = [f"gallery/{name(digest)}" for digest in levels for name in (page_name, picture_name)]
-    kept = {"id": known, "small": [GAME, *small], "pages": [*PAGES, *taught, *shown], "large": large}
+    kept = {"id": known, "small": [GAME_PAGE, *small], "pages": [*PAGES, *taught, *shown], "large": large}
     stamps = {
-        FOLDER: folder,
+        _FOLDER: folder,
         "{{kept}}": json.dumps(kept),
         "{{address}}": address,
         "{{preloads}}": "\n".join(f'<link rel="modulepreload" href="{name}">' for name in modules),
@@ -162,7 +162,7 @@ def _manifest() -> dict[str, object]:
         "name": "ninja-game",
         "short_name": "ninja-game",
         "description": "A platform game in the style of N: run, jump, collect gold, reach the exit.",
-        "start_url": GAME,
+        "start_url": GAME_PAGE,
         "scope": "./",
         "display": "standalone",
         "orientation": "any",
@@ -173,7 +173,7 @@ def _manifest() -> dict[str, object]:
     }
 
 
-TYPES = {
+_TYPES = {
     ".wasm": "application/wasm",
     ".mjs": "text/javascript",
     ".js": "text/javascript",
@@ -188,7 +188,7 @@ class _Handler(SimpleHTTPRequestHandler):
     """Serves files, no lists of folders; a browser asks each time whether it has the newest."""
 
     protocol_version = "HTTP/1.1"
-    extensions_map = SimpleHTTPRequestHandler.extensions_map | TYPES
+    extensions_map = SimpleHTTPRequestHandler.extensions_map | _TYPES
 
     def end_headers(self) -> None:
         """Add the headers of all answers."""

@@ -9,8 +9,7 @@ from importlib.util import MAGIC_NUMBER
 from pathlib import Path
 from types import CodeType
 
-PLACES = {"library": "/lib/python314.zip", "game": "/game"}
-"""The place of each folder in the page, for tracebacks."""
+_PLACES = {"library": "/lib/python314.zip", "game": "/game"}  # the place of each folder in the page, for tracebacks
 
 DOCUMENTED = ("pyodide", "_pyodide")  # packages that need their docstrings when they run
 
@@ -29,11 +28,11 @@ def bytecode(path: Path, folder: str) -> bytes:
     """The content of a ``.pyc`` file."""
     name = path.relative_to(folder)
     optimize = 0 if name.parts[0] in DOCUMENTED else 2  # 2: without docstrings and assertions
-    code = compile(path.read_bytes(), f"{PLACES[folder]}/{name}", "exec", dont_inherit=True, optimize=optimize)
+    code = compile(path.read_bytes(), f"{_PLACES[folder]}/{name}", "exec", dont_inherit=True, optimize=optimize)
     return UNCHECKED + marshal.dumps(code if folder == "game" else without_lines(code))
 
 
 if __name__ == "__main__":
-    for place in PLACES:
+    for place in _PLACES:
         for text in Path(place).rglob("*.py"):
             text.with_suffix(".pyc").write_bytes(bytecode(text, place))

@@ -24,7 +24,7 @@ from ninja_game.files.reading import digest_of, read_bytes
 from ninja_game.files.writing import write_atomically
 from ninja_game.runtime import PACKAGE
 
-VERSION = "314.0.7"
+PYODIDE_VERSION = "314.0.7"
 
 DIGESTS = {
     "pyodide.mjs": "6f1d60f7bf529beb300f0f47983c921d3982363640ba20af0e38efdddbc66109",
@@ -63,7 +63,7 @@ def pyodide_files(folder: Path | None, cache: Path) -> dict[str, bytes]:
     """
     if folder is not None:
         return _checked(folder)
-    kept = cache / f"pyodide-{VERSION}"
+    kept = cache / f"pyodide-{PYODIDE_VERSION}"
     if not kept.is_dir():
         _fetch(kept)
     try:
@@ -83,12 +83,12 @@ def _checked(folder: Path) -> dict[str, bytes]:
         except OSError as error:
             raise NinjaGameError(f"{folder / name}: {error.strerror}; {_hint(folder)}") from None
         if digest_of(files[name]) != digest:
-            raise NinjaGameError(f"{folder / name}: not the file of Pyodide {VERSION}; {_hint(folder)}")
+            raise NinjaGameError(f"{folder / name}: not the file of Pyodide {PYODIDE_VERSION}; {_hint(folder)}")
     return files
 
 
 def _hint(folder: Path | None = None) -> str:
-    package = f"the npm package pyodide@{VERSION}"
+    package = f"the npm package pyodide@{PYODIDE_VERSION}"
     return f"expected the unpacked files of {package}" if folder else f"unpack {package} and give --pyodide FOLDER"
 
 
@@ -98,7 +98,7 @@ def _fetch(kept: Path) -> None:
     if npm is None:
         raise NinjaGameError(f"npm, which gets Pyodide, is not installed; install Node.js, or {_hint()}")
     with tempfile.TemporaryDirectory() as scratch:
-        words = [npm, "pack", f"pyodide@{VERSION}", "--silent", "--pack-destination", scratch]
+        words = [npm, "pack", f"pyodide@{PYODIDE_VERSION}", "--silent", "--pack-destination", scratch]
         try:
             done = subprocess.run(words, cwd=scratch, capture_output=True, text=True, check=False, timeout=_NPM_WAIT)  # noqa: S603 - our own words
         except (OSError, subprocess.TimeoutExpired) as error:
@@ -136,7 +136,7 @@ def library_zip(files: Mapping[str, bytes]) -> bytes:
     return out.getvalue()
 
 
-LEFT_OUT = {
+_LEFT_OUT = {
     "package": ("batch/", "board/", "cli/", "learn/", "search/", "tas", "web/board/", "web/page", "web/site/"),
     "levels": (),
     "assets": ("bench.", "generated.tsv.xz", "sounds/music/"),
@@ -159,14 +159,14 @@ def game_files() -> Iterator[tuple[str, bytes]]:
     """Name and content of every file of the package, its data, and the library for TOML."""
     for path in PACKAGE.rglob("*.py"):
         name = path.relative_to(PACKAGE).as_posix()
-        if not name.startswith(LEFT_OUT["package"]):
+        if not name.startswith(_LEFT_OUT["package"]):
             yield f"ninja_game/{name}", path.read_bytes()
     yield "boot.py", (PACKAGE / "web" / "page" / "boot.py").read_bytes()
     for folder in ("levels", "assets"):
         root = data_folder(folder)
         for path in root.rglob("*"):
             name = path.relative_to(root).as_posix()
-            if path.is_file() and path.suffix != ".md" and not name.startswith(LEFT_OUT[folder]):
+            if path.is_file() and path.suffix != ".md" and not name.startswith(_LEFT_OUT[folder]):
                 yield f"ninja_game/data/{folder}/{name}", path.read_bytes()
     root = Path(tomlkit.__file__).parent
     for path in root.rglob("*.py"):

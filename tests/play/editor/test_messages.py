@@ -22,7 +22,7 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.level.messages import MessageQueue, read_ticks
 from ninja_game.play.menu_screen import Menu
-from ninja_game.player.playthrough import LevelContext
+from ninja_game.player.playthrough import Playthrough
 from ninja_game.search.certificate import verified_run
 from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.inputs import with_press_bits
@@ -374,7 +374,7 @@ def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Mak
     session.certify_file()
     entry = session.entry
     assert entry
-    _, way = LevelContext(room.app.player, entry).beginning()
+    _, way = Playthrough(room.app.player, entry).beginning()
     assert way == session.way != b""
 
 

@@ -100,16 +100,16 @@ def test_the_days_that_come_with_the_game_need_no_compiler(driver: MenuDriver, m
 
 
 def test_a_hundred_weeks_of_days_come_with_the_game(tmp_path: Path) -> None:
-    last = daily.FIRST + timedelta(weeks=100, days=-1)
+    last = daily._FIRST + timedelta(weeks=100, days=-1)
     seen = set()
-    for day in (daily.FIRST, daily.FIRST + timedelta(1), daily.FIRST + timedelta(7), last):
+    for day in (daily._FIRST, daily._FIRST + timedelta(1), daily._FIRST + timedelta(7), last):
         assert daily.take_packed(tmp_path, day)
         found = certificate(Pack(tmp_path / DAILY), f"{day}.txt", "exit")
         assert found is not None
         assert found.problems == []
         seen.add(level_digest(found.level))
     assert len(seen) == 4
-    assert not daily.take_packed(tmp_path, daily.FIRST - timedelta(1))
+    assert not daily.take_packed(tmp_path, daily._FIRST - timedelta(1))
     assert not daily.take_packed(tmp_path, last + timedelta(1))
 
 

@@ -16,9 +16,9 @@ from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER, Phase
 from ninja_game.play.level.messages import (
+    _FADE_TICKS,
     CLIMB,
     CLIMBED,
-    FADE_TICKS,
     FALL_HELP,
     QUIET_TICKS,
     SHOWN_TICKS,
@@ -31,7 +31,7 @@ from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import Menu
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.playthrough import EpisodeSession, LevelSession
+from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
 from ninja_game.runs.deaths import SELF
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.grid import cell_of
@@ -42,7 +42,7 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import CLASSIC, Theme
 from ninja_game.ui.widgets import Button
-from ninja_game.view.hud import CLEAR, IN_BORDER, Hud, PlacedMessage
+from ninja_game.view.hud import _CLEAR, _IN_BORDER, Hud, PlacedMessage
 from ninja_game.view.places import MUST, away_from, solid_place, tag_top
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
@@ -128,7 +128,7 @@ def test_text_of_the_start_covers_what_is_solid_and_no_way() -> None:
 def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: MenuDriver) -> None:
     app, hidden, bands, texts = driver.app, [], 0, 0
     for each in app.player.catalogue.ours.levels:
-        play = LevelScreen(app, LevelSession(app.player, each)).play
+        play = LevelScreen(app, LevelPlaythrough(app.player, each)).play
         shown = hud_view(play).message
         run = app.player.catalogue.author_run(each)
         if shown is None or run is None:
@@ -303,7 +303,7 @@ def test_text_at_a_place_is_said_there_once() -> None:
     assert (near.text, far.text) == ("here", "")
 
 
-@pytest.mark.parametrize("away, ticks", [(0, SHOWN_TICKS), (110, SHOWN_TICKS), (130, read_ticks("Here") + FADE_TICKS)])
+@pytest.mark.parametrize("away, ticks", [(0, SHOWN_TICKS), (110, SHOWN_TICKS), (130, read_ticks("Here") + _FADE_TICKS)])
 def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, ticks: int) -> None:
     told = MessageQueue(parse_messages("at 3,22: Here"))
     ninja = (world := Simulation(room_level(["#@..#"], ())).world).ninja
@@ -315,8 +315,8 @@ def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, 
         solid.append(told.opacity)
         told.on_tick(world)
     assert len(solid) == pytest.approx(ticks, abs=2)
-    assert solid[:-FADE_TICKS] == [1.0] * (len(solid) - FADE_TICKS)
-    assert solid[-FADE_TICKS:] == sorted(solid[-FADE_TICKS:], reverse=True)
+    assert solid[:-_FADE_TICKS] == [1.0] * (len(solid) - _FADE_TICKS)
+    assert solid[-_FADE_TICKS:] == sorted(solid[-_FADE_TICKS:], reverse=True)
     assert solid[-1] < 0.1
 
 
@@ -336,7 +336,7 @@ def test_a_place_has_a_frame_of_its_size_and_a_wall_hides_it() -> None:
 
 
 def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
-    run = LevelSession(driver.player, entry(deadly_level()))
+    run = LevelPlaythrough(driver.player, entry(deadly_level()))
     driver.app.push(LevelScreen(driver.app, run))
     level = driver.shown(LevelScreen)
     texts = []
@@ -406,11 +406,11 @@ def test_texts_of_a_level_come_back_after_its_author_was_watched(driver: MenuDri
 
 
 def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
-    level = LevelScreen(driver.app, LevelSession(driver.player, entry(deadly_level())))
+    level = LevelScreen(driver.app, LevelPlaythrough(driver.player, entry(deadly_level())))
     level.play.killer = SELF
     assert cause_of_death(level.play) == ("You hit the ground too hard", FALL_HELP)
     driver.player.marks.passed(level.context.entry.digest, 100, 0)
-    level = LevelScreen(driver.app, LevelSession(driver.player, entry(deadly_level())))
+    level = LevelScreen(driver.app, LevelPlaythrough(driver.player, entry(deadly_level())))
     level.play.killer = SELF
     assert cause_of_death(level.play) == ("You hit the ground too hard", "")
 
@@ -495,7 +495,7 @@ def test_gold_medal_opens_the_authors_run(driver: MenuDriver) -> None:
 def test_level_without_its_certificate_races_the_best_run(driver: MenuDriver) -> None:
     driver.app.change_settings(ghost="gold")
     own = replace(entry(short_level()), source="yours")
-    assert LevelSession(driver.player, own).ghosts() == []
+    assert LevelPlaythrough(driver.player, own).ghosts() == []
 
 
 def stuck_level(driver: MenuDriver) -> LevelScreen:
@@ -524,7 +524,7 @@ def test_nobody_is_stopped_by_one_level(driver: MenuDriver) -> None:
     ]  # fmt: skip
     driver.choose("Skip this level")
     run = level.context
-    assert isinstance(run, EpisodeSession)
+    assert isinstance(run, EpisodePlaythrough)
     assert driver.top() is level
     assert run.position == 1
     assert not run.whole
@@ -610,7 +610,7 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     assert hud_view(level.play).message == PlacedMessage("Another one", tiles, things, (40, 500), covers=False)
     for about in ((40.0, 440.0), (750.0, 440.0)):
         lines, left, y, w, high, *_ = hud.box(PlacedMessage(text, tiles, things, about, covers=False))
-        assert y < IN_BORDER
+        assert y < _IN_BORDER
         cells = {(int(a // 24) - 1, int(b // 24) - 1) for a in (left, left + w) for b in (y, y + high * len(lines))}
         assert all(tiles[column * ROWS + row] == 1 for column, row in cells), "over rock only"
         far.append(left)
@@ -620,7 +620,7 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     assert shown.top < driver.app.canvas.px(120), "near the upper border, in the open too"
     assert not shown.collidepoint(driver.app.canvas.point(396, 60)), "but never over the ninja"
     everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
-    assert hud.box(PlacedMessage(text, (0,) * 713, everywhere, None, covers=False)).y == IN_BORDER
+    assert hud.box(PlacedMessage(text, (0,) * 713, everywhere, None, covers=False)).y == _IN_BORDER
 
 
 @pytest.mark.parametrize("place", [(204.0, 516.0), (36.0, 36.0), (756.0, 564.0), (396.0, 300.0), (756.0, 36.0)])
@@ -628,7 +628,10 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
 def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
     driver: MenuDriver, place: tuple[float, float], words: int
 ) -> None:
-    level, text = LevelScreen(driver.app, LevelSession(driver.player, entry(short_level()))), " ".join(["word"] * words)
+    level, text = (
+        LevelScreen(driver.app, LevelPlaythrough(driver.player, entry(short_level()))),
+        " ".join(["word"] * words),
+    )
     level.play.messages._say((text, 99, LevelMessage("at", text, cell=cell_of(*place))))
     level.play.message_spot = (10.0, 10.0)
     view = hud_view(level.play)
@@ -640,7 +643,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
         lines, x, y, w, high, margin, _ = hud.box(PlacedMessage(text, tiles, things, *view.message[3:]))
         h = high * len(lines) + 2 * margin - 1
         away = hypot(max(x - place[0], 0, place[0] - x - w), max(y - place[1], 0, place[1] - y - h))
-        assert CLEAR <= away <= 2.2 * CELL, "beside it, and solid while the ninja is there"
+        assert _CLEAR <= away <= 2.2 * CELL, "beside it, and solid while the ninja is there"
         assert 24 <= x < x + w <= 768
         assert 24 <= y < y + h <= 576
         surface.fill("black")
@@ -738,7 +741,7 @@ def test_text_of_the_start_covers_no_name_of_a_thing(driver: MenuDriver) -> None
 def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: MenuDriver) -> None:
     level = driver.open_level()
     run = level.context
-    assert isinstance(run, EpisodeSession)
+    assert isinstance(run, EpisodePlaythrough)
     count = len(run.episode.levels)
     for _ in range(count):
         driver.press("n")
@@ -746,7 +749,7 @@ def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: Men
     following = driver.player.catalogue.following(run.episode)
     assert following
     after = driver.shown(LevelScreen).context
-    assert isinstance(after, EpisodeSession)
+    assert isinstance(after, EpisodePlaythrough)
     assert (after.episode.key, after.position) == (following.key, 0)
     assert driver.app.notice == f"Skipped. Now episode {following.code}: {following.name}"
     last = driver.shown(LevelScreen)

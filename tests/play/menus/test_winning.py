@@ -14,11 +14,11 @@ from ninja_game.play.level.level_play import DEATH_PAUSE, STAMP_TICKS, TRIES_FRO
 from ninja_game.play.level.passed import FEAST_TICKS, EpisodePassed
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.window import WIPE_MS
-from ninja_game.player.playthrough import EpisodeSession, LevelSession
+from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from ninja_game.sim.kinds import EXIT
 from ninja_game.simulation import Simulation
-from ninja_game.view.hud import PRIZE, EndPanel, Hud, HudView, PlacedMessage
+from ninja_game.view.hud import _PRIZE, EndPanel, Hud, HudView, PlacedMessage
 from ninja_game.view.level_view import DANCE_TICKS, DOOR_STEP, ENTER_TICKS, LevelView
 from ninja_game.view.places import MUST
 from tests.support.draw_log import DrawLog
@@ -119,7 +119,7 @@ def test_an_episode_passed_is_a_feast_unless_motion_is_reduced(driver: MenuDrive
     for each in episode.levels:
         assert each.pars
         driver.player.marks.passed(each.digest, each.pars.par("silver"), 0)
-    run = EpisodeSession(driver.player, episode)
+    run = EpisodePlaythrough(driver.player, episode)
     screen = EpisodePassed(driver.app, run, lambda _: None)
     driver.app.push(screen)
     driver.frames(FEAST_TICKS + 2)
@@ -234,7 +234,7 @@ def test_wipe_shows_both_pictures_and_delays_no_key(driver: MenuDriver) -> None:
 
 
 def test_cause_of_death_stands_large_at_once(driver: MenuDriver) -> None:
-    driver.app.push(LevelScreen(driver.app, LevelSession(driver.player, entry(deadly_level()))))
+    driver.app.push(LevelScreen(driver.app, LevelPlaythrough(driver.player, entry(deadly_level()))))
     level = driver.shown(LevelScreen)
     level.begin()
     driver.keys.script = [2] * 60
@@ -260,7 +260,7 @@ def test_panel_of_an_end_fades_in_as_a_whole_and_its_medal_hides_no_word(driver:
     assert pygame.image.tobytes(drawn(1.0, 0.0)[0], "RGB") == pygame.image.tobytes(empty, "RGB")
     half = drawn(1.0, 0.5)[0]
     assert abs(2 * half.get_at(box.center).r - whole.get_at(box.center).r) <= 2
-    words = box.move(int(PRIZE) + 30, 0).clip(box)
+    words = box.move(int(_PRIZE) + 30, 0).clip(box)
     for k in range(1, 10):
         surface, same = drawn(k / 10, 1.0)
         assert same == box
@@ -291,7 +291,7 @@ def test_panel_of_an_end_leaves_free_where_the_run_ended(driver: MenuDriver, siz
 @pytest.mark.parametrize("shake", [0, 100])
 def test_explosion_shakes_the_picture_as_much_as_is_wished(driver: MenuDriver, shake: int) -> None:
     driver.app.change_settings(shake=shake)
-    driver.app.push(LevelScreen(driver.app, LevelSession(driver.player, entry(deadly_level()))))
+    driver.app.push(LevelScreen(driver.app, LevelPlaythrough(driver.player, entry(deadly_level()))))
     level = driver.shown(LevelScreen)
     level.begin()
     driver.keys.script = [2] * 60

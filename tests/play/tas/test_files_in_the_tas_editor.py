@@ -17,7 +17,7 @@ from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.inputs import KEY_LEFT
-from ninja_game.tas.journal import FOLDER, recovered
+from ninja_game.tas.journal import JOURNAL_FOLDER, recovered
 from ninja_game.tas_editor.commands import TABLE, RunCommands
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen
 from ninja_game.tas_editor.opening import open_tas_editor
@@ -38,7 +38,7 @@ def change(at: TasDriver, tick: int = 20) -> None:
 
 
 def journals(at: TasDriver) -> list[Path]:
-    return list((at.app.player.folder / FOLDER).glob("*"))
+    return list((at.app.player.folder / JOURNAL_FOLDER).glob("*"))
 
 
 def test_every_command_of_the_table_is_offered_by_some_part(at: TasDriver) -> None:

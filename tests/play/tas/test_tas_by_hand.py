@@ -17,7 +17,7 @@ from ninja_game.formats.n14.level_string import parse_level_string, write_level_
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import KEY_LEFT, Demo, with_press_bits
 from ninja_game.sim.level import Level
-from ninja_game.tas.journal import FOLDER, read_journal
+from ninja_game.tas.journal import JOURNAL_FOLDER, read_journal
 from ninja_game.tas.tracks import InputTrack
 from tests.play.tas.conftest import RUN
 from tests.support import reference
@@ -82,7 +82,7 @@ class Runner(Player):
 
     def track(self) -> InputTrack | None:
         """The run after the last edit; None before the first."""
-        for file in (self.home / FOLDER).glob("*.jsonl"):
+        for file in (self.home / JOURNAL_FOLDER).glob("*.jsonl"):
             found = read_journal(file)
             return (found.opened.track, *found.tracks)[-1]
         return None

@@ -1,0 +1,80 @@
+"""A public name of a module means one thing in the whole package."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+
+import ninja_game
+
+PACKAGE = Path(ninja_game.__path__[0])
+
+ELSEWHERE = ("web/shim/", "web/page/", "web/figures.py", "__main__.py")
+"""Modules of the page, which have the names of pygame, and the program itself."""
+
+TWO_MEANINGS = {
+    "UP": "a direction of the world; the folder above a page",
+    "LOCKED": "how a switch's door is; how an episode is",
+}
+"""Names that two modules share with a good reason: both are plain words that are read beside their module."""
+
+NOT_YET = {
+    "ACTIONS", "AHEAD", "AUTHOR", "BAR", "BEHIND", "COLUMNS", "COMPILING", "DOWN", "FAILED", "FAR", "FLOOR", "GAP",
+    "HEIGHT", "HELP", "IN_MENU", "KINDS", "LANDED", "LANES", "MARGIN", "MAX_BYTES", "MAX_COLUMNS", "MAX_ENDS",
+    "MAX_FORMULA", "MAX_LETTERS", "MAX_NAME", "MAX_ROWS", "MAX_SECONDS", "NAMES", "PICTURE", "PICTURE_WIDTH", "PREVIEW",
+    "RECORDS", "RIGHT", "ROW", "SIZE", "SPACING", "SPEEDS", "STEPS", "SWITCH", "TABLE", "TEXT", "TOP", "UNREACHABLE",
+    "USUAL", "WIDE", "WIDTH",
+}  # fmt: skip
+"""Names that two modules still share without a reason: none is added."""
+
+
+def modules() -> dict[str, ast.Module]:
+    """The modules of the package by their files, as syntax trees."""
+    files = {path.relative_to(PACKAGE).as_posix(): path for path in sorted(PACKAGE.rglob("*.py"))}
+    return {file: ast.parse(path.read_text("utf-8")) for file, path in files.items() if not file.startswith(ELSEWHERE)}
+
+
+def values(node: ast.stmt) -> Iterator[tuple[str, str]]:
+    """The public constants that a statement sets, and their values as they are written."""
+    if not isinstance(node, ast.Assign | ast.AnnAssign) or node.value is None:
+        return
+    written = ast.unparse(node.value)
+    for target in node.targets if isinstance(node, ast.Assign) else [node.target]:
+        if isinstance(target, ast.Name) and is_public(target.id) and not written.startswith("TypeVar("):
+            yield target.id, written
+        elif isinstance(target, ast.Tuple):
+            parts = getattr(node.value, "elts", None) or [written] * len(target.elts)
+            if numbered := re.fullmatch(r"range\((\d+)\)", written):
+                parts = range(int(numbered[1]))
+            for name, part in zip(map(ast.unparse, target.elts), parts, strict=True):
+                if is_public(name):
+                    yield name, ast.unparse(part) if isinstance(part, ast.AST) else str(part)
+
+
+def is_public(name: str) -> bool:
+    return name.isupper() and not name.startswith("_")
+
+
+def test_no_two_public_constants_of_one_name_have_different_values() -> None:
+    files: dict[str, dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
+    for file, tree in modules().items():
+        for name, value in (pair for node in tree.body for pair in values(node)):
+            files[name][value].append(file)
+    shared = {name: dict(by_value) for name, by_value in files.items() if len(by_value) > 1}
+    allowed = TWO_MEANINGS.keys() | NOT_YET
+    assert not {name: by_value for name, by_value in shared.items() if name not in allowed}, (
+        "say in the name what it is of (MAX_TRACE_TICKS), or begin it with _ if only its module uses it"
+    )
+    assert not allowed - shared.keys(), "they mean one thing now: strike them out"
+
+
+def test_no_two_public_classes_have_one_name() -> None:
+    files = defaultdict(list)
+    for file, tree in modules().items():
+        for node in tree.body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                files[node.name].append(file)
+    assert not {name: where for name, where in files.items() if len(where) > 1}
