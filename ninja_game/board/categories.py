@@ -139,22 +139,29 @@ USUAL = (FASTEST, HIGHEST)
 """The default categories: the time to the exit, and the score with gold (game.md §1.3)."""
 
 
-def read_categories(path: Path) -> tuple[Category, ...]:
-    """The categories of a text. Raises FormatError with the place and the problem, FileError, OSError."""
+def read_rules(path: Path) -> tuple[str, tuple[Category, ...]]:
+    """The board's name, "" for none, and the categories of a text.
+
+    Raises FormatError with the place and the problem, FileError, OSError.
+    """
     file = str(path)
     text = read_utf8(path, MAX_BYTES)
     try:
         table = parse_toml(text)
     except ValueError as error:
         raise FormatError(f"no TOML: {error}", file) from None
-    tables = table.get("category")
+    tables, title = table.get("category"), table.pop("name", "")
+    if not isinstance(title, str) or len(title) > MAX_NAME:
+        raise FormatError("not the name of a board", file, expected=f"a text of at most {MAX_NAME} characters")
     if set(table) != {"category"} or not isinstance(tables, list) or not 1 <= len(tables) <= MAX_CATEGORIES:
-        raise FormatError("no categories of a board", file, expected=f"1 to {MAX_CATEGORIES} tables [[category]] alone")
+        raise FormatError(
+            "no categories of a board", file, expected=f"1 to {MAX_CATEGORIES} tables [[category]], and a name"
+        )
     categories = tuple(_category(category, f"{file}: category {number}") for number, category in enumerate(tables, 1))
     names = [category.name.casefold() for category in categories]
     if len(set(names)) < len(names):
         raise FormatError("two categories have one name", file, found=next(n for n in names if names.count(n) > 1))
-    return categories
+    return title.strip(), categories
 
 
 def _category(table: Any, place: str) -> Category:

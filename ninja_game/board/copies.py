@@ -90,6 +90,8 @@ class Likeness(NamedTuple):
     player: str  #: the other one
     earlier: bool  #: whether the other run is of an earlier moment
     by_inputs: bool  #: as of Near
+    file: str = ""  #: of the other one
+    record: int = 0
 
 
 class Common:
@@ -276,7 +278,8 @@ def _marked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Iterato
                 mark = together.get(
                     run.key, f"{like.text}, of the same moment" if like.text and run.added else like.text
                 )
-            yield replace(run.marked(mark), near=near, derived=named) if mark else run
+            other = (like.file, like.record) if near else None
+            yield replace(run.marked(mark), near=near, near_to=other, derived=named) if mark else run
 
 
 class _Compared:
@@ -304,7 +307,7 @@ class _Compared:
     def likeness(self, run: Run) -> Likeness:
         """Returns what a run shares with the run by another player that it nearly copies, if it does."""
         noted = self._memo.recall(key := self._key_of(run))
-        if isinstance(noted, list) and [*map(type, noted)] == [str, str, bool, bool]:
+        if isinstance(noted, list) and [*map(type, noted)] == [str, str, bool, bool, str, int]:
             return Likeness(*noted)
         before = range(self._known, len(self._runs))
         for number in sorted(nsmallest(MAX_COMPARED, before, key=lambda number: self._runs[number].tick)):
@@ -316,7 +319,7 @@ class _Compared:
         if near:
             number, other = near.numbers[0], self._runs[near.numbers[0]]
             text = f"{near.shared} the run by {other.player} in {other.file}"
-            like = Likeness(text, other.player, number < self._earlier, near.by_inputs)
+            like = Likeness(text, other.player, number < self._earlier, near.by_inputs, *other.key)
         self._memo.note(key, [*like])
         return like
 

@@ -55,10 +55,12 @@ class Standing:
 
 
 class Ranking:
-    """All rankings for the pages of a folder."""
+    """All rankings for the pages of a folder. ``name``: of the board, "" for none."""
 
-    def __init__(self, judged: ValidatedRuns, shown: PublishedLevels, categories: Sequence[Category] = USUAL) -> None:
-        self.judged = judged
+    def __init__(
+        self, judged: ValidatedRuns, shown: PublishedLevels, categories: Sequence[Category] = USUAL, name: str = ""
+    ) -> None:
+        self.judged, self.name = judged, name
         self.shown = shown
         self.categories = tuple(categories)
         self.by_level: dict[str, list[Run]] = defaultdict(list)

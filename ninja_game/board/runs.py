@@ -123,6 +123,7 @@ class Run(Judged):
     folder: RunFolder = field(repr=False, compare=False)
     marks: tuple[str, ...] = ()  #: remarks for readers
     near: str = ""  #: the run that it nearly copies, a sentence
+    near_to: Key | None = None  #: that run, if it was compared now
     untrusted: str = ""  #: where its player's other runs are from, a sentence, if it is from another folder
     confirmed: bool = False  #: by the keeper, as no copy, and as by its player
     again: bool = False  #: it was withdrawn, and is the first of its moment

@@ -77,7 +77,7 @@ def ranking_of(
     ``same``: ``levels`` and ``rules`` that are not given are those of the folder's last board; so is ``ledger`` where
     nothing is decided.
     """
-    from ninja_game.board.categories import USUAL, read_categories
+    from ninja_game.board.categories import USUAL, read_rules
     from ninja_game.board.judge import judge
     from ninja_game.board.ranking import Ranking
     from ninja_game.board.report import dates_of, read_board, read_dates
@@ -94,7 +94,7 @@ def ranking_of(
         levels, rules = levels or last, rules or ruled
     if not decide:
         ledger = ledger or kept
-    categories = read_categories(rules) if rules else USUAL
+    name, categories = read_rules(rules) if rules else ("", USUAL)
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
     if decide:
         memo.note(LAST_LEVELS, str(levels.resolve()) if levels and levels.exists() else "")
@@ -113,7 +113,7 @@ def ranking_of(
     memo.save()
     if unknown := dates_by_file.keys() - present:
         raise FileError("a file that is not among the runs", str(dates), found=shown_text(min(unknown)))
-    return Ranking(judged, shown, categories), before
+    return Ranking(judged, shown, categories, name), before
 
 
 def _remembered(memo: Memo, key: str) -> Path | None:

@@ -55,6 +55,8 @@ def shown_text(text: str, longest: int = MAX_SHOWN) -> str:
     """
     if len(text) > longest:
         return shown_text(text[:longest]) + "..."
+    if text.isascii() and text.isprintable() and "  " not in text:
+        return text  # of most texts at once: pages have a million
     text = INVISIBLE.sub(lambda match: _escape(match[0]), _BLANKS.sub(" ", text))
     return text if text.isprintable() else "".join(map(shown_character, text))
 

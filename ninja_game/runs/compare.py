@@ -11,21 +11,27 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import register_run
-from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget, tick_cost
+from ninja_game.backend.memories import open_worlds
+from ninja_game.backend.worlds import Worlds
+from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.notations import Marker
 from ninja_game.runs.deaths import death_text
 from ninja_game.runs.recording_reader import named_errors
+from ninja_game.sim.events import EVENT_NAMES
+from ninja_game.sim.level import is_box
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
-from ninja_game.simulation import Simulation
+from ninja_game.sim.schema.world_fields import MAX_EVENTS
+from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT, OUTCOME_NAMES
 
 _NAMES = {
     "gold-taken": "gold", "exit-opened": "switch of exit", "lock-opened": "locked door", "trap-closed": "trap door",
     "door-opened": "door", "won": "exit", "died": "death",
 }  # fmt: skip
+BLOCK = 1024  # ticks that are looked ahead for events
+
 SPLIT_EVENTS = tuple(_NAMES)  # the events that are splits (`ninja_game/sim/events.py`)
 
 
@@ -103,36 +109,47 @@ def run_splits(
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
     when its ``budget`` of work is.
     """
-    if register_run(memory, recording.ticks * tick_cost(recording.level)):
-        memory = "plain"
     with named_errors(recording):
-        run = Simulation(recording.level, body=recording.body, memory=memory)
+        world = open_worlds(memory, recording.level, box=is_box(recording.body), at_once=True, ticks=recording.ticks)
+    inputs = recording.inputs[: affordable_ticks(recording.level, budget)]
     splits: list[Split] = []
-    positions: list[tuple[float, float]] = []
+    places: list[NDArray[np.float64]] = [np.empty(0)]
     counts: dict[tuple[str, int | None], int] = {}
-    for keys in recording.inputs[: affordable_ticks(recording.level, budget)]:
-        run.step_keys(keys)
-        ninja = run.ninja
-        positions.append((ninja.x, ninja.y))
-        for event in run.events:
-            # A ninja that dies in the tick in which it touches the exit has passed.
-            if event.name in events and not (event.name == "died" and run.outcome == "exit"):
-                number = counts.get((event.name, event.object_id), 0)
-                counts[event.name, event.object_id] = number + 1
-                # Only traces name the killer; runs that die share the split.
-                id_ = None if event.name == "died" else event.object_id
-                splits.append(Split(run.tick - 1, event.name, id_, number, event.x, event.y))
-        if run.outcome != "running":
-            break
-    if run.outcome == "running" and run.tick < recording.ticks:
+    while world.tick() < len(inputs) and not world.outcome():
+        for keys in _spans(world, inputs[world.tick() : world.tick() + BLOCK], events):
+            places.append(np.asarray(world.run(keys).places))
+            for event in world.events():
+                name, id_ = EVENT_NAMES[event.kind], event.slot - 1 if event.slot else None
+                # A ninja that dies in the tick in which it touches the exit has passed.
+                if name in events and not (name == "died" and world.outcome() == OUTCOME_EXIT):
+                    number = counts.get((name, id_), 0)
+                    counts[name, id_] = number + 1
+                    # Only traces name the killer; runs that die share the split.
+                    id_ = None if name == "died" else id_
+                    splits.append(Split(world.tick() - 1, name, id_, number, event.x, event.y))
+            if world.outcome():
+                break
+    if not world.outcome() and world.tick() < recording.ticks:
         with named_errors(recording):
             raise over_budget(recording.level, recording.ticks, budget)
-    places = np.array(positions, np.float64).reshape(-1, 2)
-    death = ""
-    if run.outcome == "dead":
-        w = run.world
-        death = death_text(w.events[: w.event_count], w.ninja, w.objects)
-    return RunSplits(recording, run.outcome, run.gold, tuple(splits), places, death)
+    dead = world.outcome() == OUTCOME_DEAD
+    death = death_text(world.events(), world.ninja(), world.objects()) if dead else ""
+    positions = np.concatenate(places).reshape(-1, 2)
+    return RunSplits(recording, OUTCOME_NAMES[world.outcome()], world.gold(), tuple(splits), positions, death)
+
+
+def _spans(world: Worlds, keys: bytes, events: Sequence[str]) -> list[bytes]:
+    """Inputs to run one after the other; each tick with one of these events is the last of its span.
+
+    On the plain memory each tick is one, as it would take twice the time to look ahead.
+    """
+    ends = list(range(1, len(keys)))
+    if world.name == "compiled":
+        state, numbers = world.save(), [number for number, name in enumerate(EVENT_NAMES, 1) if name in events]
+        happened = np.frombuffer(world.trace(keys, (), events=True).events, np.uint8).reshape(-1, MAX_EVENTS)
+        world.restore(state)
+        ends = (np.flatnonzero(np.isin(happened[:-1], numbers).any(axis=1)) + 1).tolist()
+    return [keys[first:last] for first, last in pairwise([0, *ends, len(keys)])]
 
 
 class SplitRow(NamedTuple):

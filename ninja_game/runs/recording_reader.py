@@ -11,13 +11,13 @@ from pathlib import Path
 
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.files.reading import Skipped, files_below
+from ninja_game.formats.ascii.writer import LEVELS_KEPT
 from ninja_game.formats.links import is_link
 from ninja_game.formats.load import texts_of
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.named_level import format_of, parse_levels
 from ninja_game.formats.recording import Recording, parse_replays, recording_of
-from ninja_game.formats.replay.headers import LEVELS_KEPT
 from ninja_game.formats.replay.text import is_replay
 from ninja_game.sim.level import Level
 

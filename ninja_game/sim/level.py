@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
+from hashlib import sha256
 from typing import Literal, NamedTuple
 
 from ninja_game.errors import ArgumentError, LevelError
@@ -73,6 +75,16 @@ class Level:
     def __reduce__(self) -> tuple[type[Level], tuple[tuple[int, ...], tuple[ObjectSpec, ...]]]:
         """Copy and unpickle by the constructor, so that ``__post_init__`` runs."""
         return type(self), (self.tiles, self.objects)
+
+    @cached_property
+    def digest(self) -> str:
+        """Sha256 (hex) over tiles and records that make an object; a board asks for it many times."""
+        records = "!".join(
+            f"{spec.kind}^" + ",".join(repr(value or 0.0) for value in spec.values)
+            for spec in self.objects
+            if makes_object(spec)
+        )
+        return sha256(f"{','.join(map(str, self.tiles))}|{records}".encode()).hexdigest()
 
     @property
     def gold(self) -> int:

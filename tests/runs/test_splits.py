@@ -56,6 +56,16 @@ def test_a_death_is_a_split_whoever_killed() -> None:
     assert found.death == "mine 1"
 
 
+@pytest.mark.parametrize("waiting", [0, 1000, 1024 - WALK_END - 1])
+def test_both_memories_note_the_same_splits_also_where_they_look_ahead_again(waiting: int) -> None:
+    for run in (walk(waiting), walk(waiting, level=SPIKED), walk(waiting, at=70)):
+        plain, compiled = (run_splits(run, memory=memory) for memory in ("plain", "compiled"))
+        assert plain.splits
+        assert (plain.splits, plain.outcome, plain.death) == (compiled.splits, compiled.outcome, compiled.death)
+        assert np.array_equal(plain.positions, compiled.positions)
+        assert np.array_equal(plain.positions, run_level(run.level, run.inputs).positions)
+
+
 def test_a_pass_that_kills_in_the_same_tick_has_no_death() -> None:
     on = parse_level("0" * 713 + "|5^100,40!11^100,584,100,60")
     fall = Recording(on, Replay.of_inputs(bytes(120), on, name="fall"))

@@ -572,6 +572,12 @@ def test_a_faster_near_copy_is_told_and_confirmed_by_a_command(runs: Path, level
     )
     assert (waits in level, ">Waiting for confirmation: 1 run<" in rejected) == (True, True)
     assert "<div>better.txt</div>" in waiting
+    for does in ("--confirm better.txt", "--reject better.txt --reason copied"):
+        assert f"<code>ninja-game board {runs.name} --json board.json {does}</code>" in waiting
+    both = re.search(r'<a href="../play.html#watch=(\w+),(\w+)"[^>]*>Watch with Ann</a>', waiting)
+    assert both, "a link shows it beside the run that it resembles"
+    authors = [(site.parent / "replays" / f"{stem}.txt").read_text("utf-8") for stem in both.groups()]
+    assert ["author: Bob" in authors[0], "author: Ann" in authors[1]] == [True, True]
     words = "board", str(runs), "--levels", str(levels), "--json", str(data), "--confirm", "nobody.txt"
     told = CliRunner().invoke(cli, words)
     assert (told.exit_code, "that waits; there are: better.txt" in told.stderr) == (2, True)

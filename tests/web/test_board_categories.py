@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.board.categories import FASTEST, MAX_CATEGORIES, NAMES, USUAL, Category, read_categories
+from ninja_game.board.categories import FASTEST, MAX_CATEGORIES, NAMES, USUAL, Category, read_rules
 from ninja_game.board.judge import judge
 from ninja_game.board.ranking import Ranking
 from ninja_game.board.runs import ASSISTED, PLAYED
@@ -17,6 +18,8 @@ from ninja_game.cli.main import cli
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.levels.published import published_levels
+from ninja_game.web.board.pages import BoardPages
+from ninja_game.web.board.parts import UNKNOWN
 from ninja_game.web.pages.gallery import path_data
 from tests.support.board import DIGEST, Tags, board, put, slow_walk
 from tests.support.forgeries import GOLD_LATER, WALKING, replay
@@ -63,7 +66,7 @@ def test_the_categories_of_the_template_rank_as_they_say(runs: Path, levels: Pat
     put(runs, "bea.txt", slow_walk(author="Bea"))
     put(runs, "cid.txt", replay(level=GOLD_LATER, author="Cid"))
     shown = published_levels(levels)
-    categories = read_categories(TEMPLATE)
+    _, categories = read_rules(TEMPLATE)
     assert [each.name for each in categories] == ["Any %", "Highest score", "All gold", "Low gold", "Fewest keys"]
     ranking = Ranking(judge(runs, shown, jobs=1), shown, categories)
     for (ladder, each), table in ranking.tables[DIGEST].items():
@@ -83,7 +86,7 @@ def test_a_run_is_in_a_category_only_where_its_formula_holds(runs: Path, levels:
     put(runs, "ann.txt", slow_walk(author="Ann"))
     put(runs, "bea.txt", replay(author="Bea"))
     others = category("B", rank=["-ticks"]) + category("C", rank=["1 / (gold - 1)"])
-    given = read_categories(filed(tmp_path, category(when=f"ticks > {WALK_END}") + others))
+    _, given = read_rules(filed(tmp_path, category(when=f"ticks > {WALK_END}") + others))
     shown = published_levels(levels)
     tables = Ranking(judge(runs, shown, jobs=1), shown, given).tables[DIGEST]
     players = {each.name: [ranked.run.player for ranked in table] for (_, each), table in tables.items()}
@@ -99,8 +102,50 @@ def test_the_first_of_a_table_holds_the_record_by_the_second_number_too(runs: Pa
     assert ranking.history[DIGEST, (PLAYED, keys)][-1].player == "Ann"
 
 
+def test_a_level_says_its_ladder_once_why_a_run_is_played_and_who_was_refused(
+    runs: Path, levels: Path, tmp_path: Path
+) -> None:
+    put(runs, "ann.txt", slow_walk(author="Ann"))
+    put(runs, "tas.txt", replay(author="Tas", made=SEARCHED, co_authors=("Eve",)))
+    put(runs, "wrong.txt", replay(author="Ann", gold=44))
+    put(runs, "other.txt", replay(author="Nobody", gold=44))
+    shown, site = published_levels(levels), tmp_path / "site"
+    BoardPages(site, ranking := Ranking(judge(runs, shown, jobs=1), shown)).write()
+    level, rejected = (
+        (site / "board" / name).read_text("utf-8") for name in (f"levels/{DIGEST[:16]}.html", "rejected.html")
+    )
+    assert "<h2>Fastest; Highest score, assisted</h2>" in level
+    assert UNKNOWN in level, "Ann's run does not say how it was made"
+    assert '<span class="with"> with Eve</span>' in level
+    assert [f"{name}</a>, The walk" in rejected or f">{name}</a>" in rejected for name in ("Ann", "Nobody")] == [
+        True, False,
+    ]  # fmt: skip
+    (assisted,) = (run for run in ranking.judged.runs if run.assisted)
+    pages = [path.read_text("utf-8") for path in (site / "replays").glob("*.html")]
+    assert ["<dt>With</dt><dd>Eve</dd>" in page for page in pages].count(True) == 1, assisted.co_authors
+
+
+def test_a_board_has_the_name_of_its_rules(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "ann.txt", replay(author="Ann"))
+    name, categories = read_rules(filed(tmp_path, 'name = "Friday <races>"\n' + category()))
+    shown = published_levels(levels)
+    now = "2026-01-31T12:00:00Z"
+    judged = judge(runs, shown, jobs=1, dates=lambda *_: now)
+    BoardPages(tmp_path / "named", Ranking(judged, shown, categories, name)).write()
+    BoardPages(tmp_path / "unnamed", Ranking(judged, shown, categories)).write()
+    named, plain = (tmp_path / folder / "board" for folder in ("named", "unnamed"))
+    assert "<title>Friday &lt;races&gt; - ninja-game</title>" in (named / "index.html").read_text("utf-8")
+    assert '"index.html">Friday &lt;races&gt;</a>' in (named / "players.html").read_text("utf-8")
+    assert "<title>New records: Friday &lt;races&gt;</title>" in (named / "feed.xml").read_text("utf-8")
+    assert '"index.html">Board</a>' in (plain / "players.html").read_text("utf-8")
+    ids = [re.findall("<id>(.*?)</id>", (folder / "feed.xml").read_text("utf-8")) for folder in (named, plain)]
+    assert ids[0] == ids[1], "a reader of feeds knows the entries again"
+
+
 BROKEN = {
-    "": "1 to 12 tables [[category]] alone", "category = 3": "no categories", "x = 1\n" + category(): "no categories",
+    "name = 3\n" + category(): "not the name of a board", f"name = '{'x' * 41}'\n" + category(): "not the name",
+    "": "1 to 12 tables [[category]], and a name", "category = 3": "no categories",
+    "x = 1\n" + category(): "no categories",
     "[[category": "no TOML", category() * (MAX_CATEGORIES + 1): "no categories", category() * 2: "two categories",
     category(rank=[]): "list of formulas", category(rank=[3]): "list of formulas", category(rank="ticks"): "wrong type",
     category(name=""): "empty or too long", category(name="x" * 41): "empty or too long",
@@ -116,7 +161,7 @@ BROKEN = {
 @pytest.mark.parametrize("text", BROKEN)
 def test_broken_categories_are_named(text: str, tmp_path: Path) -> None:
     with pytest.raises(NinjaGameError) as caught:
-        read_categories(filed(tmp_path, text))
+        read_rules(filed(tmp_path, text))
     assert BROKEN[text] in str(caught.value)
     assert "board.toml" in str(caught.value)
 

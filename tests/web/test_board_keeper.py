@@ -73,7 +73,7 @@ def test_a_run_is_moved_to_the_other_ladder(ledger: Path, runs: Path, levels: Pa
     words = "--json", str(ledger), "--site", str(site)
     board(runs, levels, *words, "--ladder", "ann.txt", "assisted", "--reason", "frame by frame")
     played, assisted = (
-        level_page(site).partition(f"<h2>Fastest, {ladder}; Highest score, {ladder}</h2>")[2].partition("</section>")[0]
+        level_page(site).partition(f"<h2>Fastest; Highest score, {ladder}</h2>")[2].partition("</section>")[0]
         for ladder in ("played", "assisted")
     )
     assert (">Ann<" in played, ">Ann<" in assisted, ">Bea<" in played) == (False, True, True)
@@ -82,7 +82,7 @@ def test_a_run_is_moved_to_the_other_ladder(ledger: Path, runs: Path, levels: Pa
     pages = [each.read_text("utf-8") for each in (site / "replays").glob("*.html")]
     assert [": frame by frame<" in each for each in pages if remark in each] == [True]
     board(runs, levels, *words, "--ladder", "ann.txt", "played")
-    assert ">Ann<" in level_page(site).partition("<h2>Fastest, played")[2].partition("</section>")[0]
+    assert ">Ann<" in level_page(site).partition("<h2>Fastest; Highest score, played")[2].partition("</section>")[0]
     assert len(json.loads(ledger.read_text("utf-8"))["decisions"]) == 1
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from ninja_game.errors import LevelError
@@ -41,6 +43,8 @@ ASCII_MAGIC = "ninja-game level"
 ASCII_VERSION = 1
 HEADER_KEYS = ("name", "author", "comment", "teaches", "says")
 
+LEVELS_KEPT = 512  # in memory, some 10 MB: most recordings in a row are of the same level
+
 RULER = (
     ";    " + "".join(str(column // 10) if column > 9 else " " for column in range(1, COLUMNS + 1)) + "\n"
     ";    " + "".join(str(column % 10) for column in range(1, COLUMNS + 1)) + "\n"
@@ -63,19 +67,34 @@ def write_ascii_level(
     Objects keep their ids: the picture alone draws the first ones as long as their order is right, the rest is listed,
     too. ``legend`` adds the meanings of all characters as comment lines.
     """
-    parts = [visible_glyphs(spec) for spec in level.objects]
-    drawn = drawn_only(level, parts)
-    rows = picture_rows(level, parts)
     fields = zip(HEADER_KEYS, (name, author, comment, teaches, says), strict=True)
     text = [f"{ASCII_MAGIC} {ASCII_VERSION}\n"]
     text += [f"{key}: {header_text(value)}".rstrip() + "\n" for key, value in fields if value or key in HEADER_KEYS[:2]]
-    text += ["\n", RULER]
-    text += [f" {row:2d} {FRAME}{chars}{FRAME}\n" for row, chars in enumerate(rows, 1)]
-    text.append(RULER)
-    lines = tile_lines(level) + write_object_lines(level.objects[drawn:])
-    text += ["\n", *(f"{line}\n" for line in lines)] if lines else []
-    text += ["\n", legend_text()] if legend else []
+    text += ["\n", _picture_and_lines(_Same(level)), *(["\n", legend_text()] if legend else [])]
     return "".join(text)
+
+
+@dataclass(frozen=True, eq=False)
+class _Same:
+    """A level that only equals itself: equal levels may still differ in the sign of zeros, so in their text."""
+
+    level: Level
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and self.level is other.level
+
+    def __hash__(self) -> int:
+        return id(self.level)
+
+
+@lru_cache(LEVELS_KEPT)
+def _picture_and_lines(same: _Same) -> str:
+    level = same.level
+    parts = [visible_glyphs(spec) for spec in level.objects]
+    drawn = drawn_only(level, parts)
+    rows = [f" {row:2d} {FRAME}{chars}{FRAME}\n" for row, chars in enumerate(picture_rows(level, parts), 1)]
+    lines = tile_lines(level) + write_object_lines(level.objects[drawn:])
+    return "".join([RULER, *rows, RULER, *(["\n", *(f"{line}\n" for line in lines)] if lines else [])])
 
 
 def headers_of(named: object) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from typing import NamedTuple, TypeVar
 
 from ninja_game.errors import LevelError, ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.formats.ascii.writer import LEVELS_KEPT
 from ninja_game.formats.lines import MAX_NAME, Line, read_quoted
 from ninja_game.formats.numbers import parse_number
 from ninja_game.formats.replay.provenance import Provenance, names_of_text, parse_provenance
@@ -30,9 +31,7 @@ _KEYS = (
 
 COUNT_LIMIT = 10**9
 
-# Most recordings in a row are of the same level.
-LEVELS_KEPT = 512  # levels in memory, some 10 MB
-MAX_KEPT_LENGTH = 2**15  # characters of their texts
+MAX_KEPT_LENGTH = 2**15  # characters of the text of a level that stays in memory
 
 _HEADER_LINE = re.compile(r"([a-z-]+):(.*)", re.DOTALL)
 _DIGEST = re.compile(r"[0-9a-f]{64}")

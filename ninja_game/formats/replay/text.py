@@ -9,7 +9,6 @@ import hashlib
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Any, Self
 
 from ninja_game.errors import ReplayError
@@ -18,7 +17,7 @@ from ninja_game.formats.lines import Line, header_text, numbered_lines
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import format_number
 from ninja_game.formats.pack.index import LEVELS_PER_EPISODE
-from ninja_game.formats.replay.headers import COUNT_LIMIT, LEVELS_KEPT, Headers, Waypoint, read_level, read_waypoints
+from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers, Waypoint, read_level, read_waypoints
 from ninja_game.formats.replay.input_text import include_reader, read_inputs
 from ninja_game.formats.replay.notations import Marker, is_marker_name, write_inputs
 from ninja_game.formats.replay.provenance import UNKNOWN, Provenance, can_be_written
@@ -258,7 +257,8 @@ def write_replay(replay: Replay) -> str:
     if replay.waypoints:
         lines += ["waypoints:", *(f"  {tick} {x!r} {y!r} {state}" for tick, x, y, state in replay.waypoints)]
     if replay.level is not None:
-        lines += ["level-data:", *_level_lines(_Same(replay.level), replay.level_name, replay.level_author)]
+        text = write_ascii_level(replay.level, name=replay.level_name, author=replay.level_author)
+        lines += ["level-data:", *(f"  {line}".rstrip() for line in text.splitlines())]
     lines += [] if replay.unclaimed else [LAST_LINE]
     return "\n".join(lines) + "\n"
 
@@ -268,25 +268,6 @@ def shared_text(replay: Replay, level: Level) -> str:
     return write_replay(
         replace(replay, level=level, level_path="", level_record=0, level_digest="", digest="", waypoints=())
     )
-
-
-@dataclass(frozen=True, eq=False)
-class _Same:
-    """A level that only equals itself: equal levels may still differ in the sign of zeros, so in their text."""
-
-    level: Level
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and self.level is other.level
-
-    def __hash__(self) -> int:
-        return id(self.level)
-
-
-@lru_cache(LEVELS_KEPT)
-def _level_lines(same: _Same, name: str, author: str) -> list[str]:
-    text = write_ascii_level(same.level, name=name, author=author)
-    return [f"  {line}".rstrip() for line in text.splitlines()]
 
 
 def _claims(replay: Replay) -> dict[str, str]:

@@ -8,8 +8,8 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from gymnasium.spaces import Box
 
-from ninja_game.learn.goal_distance import point_within
 from ninja_game.backend.worlds import InitialObject
+from ninja_game.learn.goal_distance import point_within
 from ninja_game.learn.observations.part import Part, PartContext, clamp, put
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y

@@ -26,7 +26,7 @@ from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, aligned, run_splits, split_table, sum_of_best
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.web.board.charts import PLACE, lead_chart, paths, signed, speed_and_keys, steps, swatch
-from ninja_game.web.board.parts import LESSER, NEAR, RUN_HEADS, Parts, player_page
+from ninja_game.web.board.parts import LESSER, NEAR, RUN_HEADS, UNKNOWN, Parts, player_page
 from ninja_game.web.pages.frame import Content, Markup, joined, on_this_page, section, table, tag
 from ninja_game.web.pages.gallery import BOARD, UP, level_page, page_name, path_data, picture, picture_name, run_page
 
@@ -81,7 +81,7 @@ class LevelPages:
         keys = f"{counted(run.presses, 'press', 'presses')}, {counted(run.jumps, 'jump')}"
         gold, made = f"{run.gold} of {run.entry.all_gold}", run.made or "unknown"
         facts = [("Time", FASTEST.measured(run.tick)), *ranks, ("Score", HIGHEST.measured(-run.score)), ("Gold", gold),
-                 ("Medal", run.medal), ("Keys", keys), ("Made", made), ("Date", run.day),
+                 ("Medal", run.medal), ("Keys", keys), ("With", run.co_authors), ("Made", made), ("Date", run.day),
                  ("Remark", run.remark)]  # fmt: skip
 
         def content() -> str:
@@ -185,6 +185,8 @@ class LevelPages:
         leads = [(name, name.capitalize()) for name, content in ((RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
         top = tag("ul", *(leaders[part] for part in tables), class_="cards"), on_this_page(leads) if leads else None
+        unknown = any(not row.run.made for same in merged.values() for ranks in same for row in ranks.rows)
+        shown.append(tag("p", UNKNOWN) if unknown else None)
         return joined(*top), drawn, joined(*shown, note, link, first, folded, beside)
 
     def _left_out(self, what: str, rows: Sequence[Ranked]) -> Content:
@@ -222,7 +224,8 @@ class LevelPages:
             rows.append((marked, *cells))
         lesser = LESSER.union(names[1:]) - {names[0]}
         best = table("Best run of each player", ("Place", "Player", *names, "Behind", *RUN_HEADS), rows, lesser)
-        title = "; ".join(self.ranking.leaderboard_name(ranks.leaderboard) for ranks in same)
+        last = self.ranking.leaderboard_name(same[-1].leaderboard)  # all are of one ladder
+        title = "; ".join([*(category.name for category in categories[:-1]), last])
         return section(title, best, anchor=anchor)
 
     def _progression(self, entry: Entry, leaderboard: Leaderboard, anchor: str) -> Content:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby, islice, product
 from operator import itemgetter
 from pathlib import Path
+from shlex import quote
 from statistics import mean, median
 from typing import Any
 from uuid import NAMESPACE_OID, uuid5
@@ -108,6 +109,7 @@ class BoardPages:
     def __init__(self, out: Path, ranking: Ranking, memo: Memo | None = None, *, address: str = "") -> None:
         self.parts, self.ranking = Parts(out, ranking, memo, address=address), ranking
         self.entries, self.main = ranking.shown.entries, ranking.categories[0]
+        self._players_with_runs = {run.player for run in ranking.judged.runs}
 
     def write(self) -> None:
         parts, levels = self.parts, LevelPages(self.parts)
@@ -152,7 +154,8 @@ class BoardPages:
         parts = [*self._week(), *news, *self._runs_and_how_to_send(), *self._contested(), *leaders]
         contents = [section(title, content, anchor=anchor) for anchor, title, content in parts]
         leads = on_this_page([part[:2] for part in parts])
-        return page(f"Board: {self._name}", lead, again, leads, *contents, links=self.parts.links, current="index.html")
+        title = self.ranking.name or f"Board: {self._name}"
+        return page(title, lead, again, leads, *contents, links=self.parts.links, current="index.html")
 
     @property
     def _name(self) -> str:
@@ -263,7 +266,7 @@ class BoardPages:
         """New records as Atom (RFC 4287); dates are those of the ledger."""
         news, name = list(islice(self._news(), NEWEST)), self.ranking.shown.name
         feed = ET.Element("feed", xmlns="http://www.w3.org/2005/Atom")
-        _about(feed, f"New records: {name}", name, news[0][2] if news else "")
+        _about(feed, f"New records: {self.ranking.name or name}", name, news[0][2] if news else "")
         ET.SubElement(feed, "link", rel="self", href=FEED)
         for title, known_by, date, author, leads_to in news:
             _about(entry := ET.SubElement(feed, "entry"), title, known_by, date)
@@ -443,7 +446,7 @@ class BoardPages:
                 stack(
                     tag("b", KINDS[item.kind][2]),
                     _file(item.file, item.record),
-                    f"{parts.shown_name(item.player)}, {item.level}".strip(", "),
+                    joined(self._known_player(item.player), f", {item.level}" if item.level else None),
                     item.added.partition("T")[0],
                 ),
                 tag("div", item.why, " ", self._first_run(item.first), class_="why"),
@@ -451,6 +454,7 @@ class BoardPages:
             for item in sorted(rejected, key=lambda item: order.index(item.kind))
         ]
         lead = f"None of them is ranked; {kinds}." if kinds else "Every file of the folder is a run that counts."
+        runs: dict[Key | None, Run] = {run.key: run for run in self.ranking.judged.runs}
         near = [
             (
                 parts.watch_link([run], ""),
@@ -460,9 +464,9 @@ class BoardPages:
                     joined(parts.run_link(run, "", seconds_text(run.tick)), f" with {run.gold} gold"),
                     run.day,
                 ),
-                tag("div", run.waits, class_="why"),
+                tag("div", run.waits, *self._decide(run, runs.get(run.near_to)), class_="why"),
             )
-            for run in self.ranking.judged.runs
+            for run in runs.values()
             if run.waits
         ]
         waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
@@ -474,6 +478,18 @@ class BoardPages:
             names = "Watch", "Run", "Why"
             about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs without a place"
             parts.write_table("waiting", "Waiting for confirmation", caption, names, near, *about)
+
+    def _decide(self, run: Run, other: Run | None) -> Iterator[Content]:
+        """Below the reason why a run waits: a link beside the run that it resembles, and the keeper's two commands."""
+        if other:
+            yield tag("p", self.parts.watch_link([run, other], "", f"Watch with {self.parts.shown_name(other.player)}"))
+        file, folder = quote(shown_text(run.file)), quote(shown_text(run.folder.folder.resolve().name))
+        for does in f"--confirm {file}", f"--reject {file} --reason copied":
+            yield tag("p", tag("code", f"ninja-game board {folder} --json board.json {does}"))
+
+    def _known_player(self, player: str) -> Content:
+        """A player's name, a link if some of the player's runs count."""
+        return self.parts.player_link(player) if player in self._players_with_runs else self.parts.shown_name(player)
 
     def _first_run(self, key: Key | None) -> Content:
         """A link to the page of a run that others have copied."""

@@ -42,7 +42,13 @@ NEAR = (
     "A run that is nearly somebody else's, or from another folder than the player's own, has no place until the keeper "
     "of the board confirms it. "
 )
-HOW_TO_CONFIRM = "The keeper confirms one with: ninja-game board FOLDER --json board.json --confirm FILE"
+HOW_TO_CONFIRM = (
+    "The commands in a row confirm or reject its run; the keeper runs them where the folder and the ledger lie."
+)
+UNKNOWN = (
+    "Made unknown: the run does not say how it was made, and nobody can check it. It is ranked among the played ones "
+    "until the keeper of the board moves it. "
+)
 
 
 class Parts:
@@ -57,7 +63,7 @@ class Parts:
         self.site = address and f"{address}{BOARD}/"
         assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
         others = [link for link in LINKS[2:] if link != EPISODES or ranking.shown.levels.episodes]
-        self.links = [(self.game, "Play"), *LINKS[:2], *assisted, *others]
+        self.links = [(self.game, "Play"), (LINKS[0][0], ranking.name or LINKS[0][1]), LINKS[1], *assisted, *others]
         self.deeper = [(UP + address, name) for address, name in self.links]
         self.around = values_digest([self.links, self.site])  #: of the text on every page
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
@@ -140,7 +146,7 @@ class Parts:
         """
         gold, medal = f"{run.gold} of {run.entry.all_gold}", medal_mark(run.medal if timed else "")
         about = made_text(run), gold, run.day, medal, self.run_link(run, UP)
-        others = f" with {shown_text(run.co_authors, MAX_NAME)}" if run.co_authors else None
+        others = tag("span", f" with {shown_text(run.co_authors, MAX_NAME)}", class_="with") if run.co_authors else None
         summary = tag("summary", "Waits" if run.waits else "Remark")
         note = tag("details", summary, run.remark, class_="note") if run.remark else None
         player, linked = self.player_link(run.player, UP), self.run_link(run, UP, str(results[0]))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable
+from functools import lru_cache
 from html import escape
 from itertools import compress, repeat
 from pathlib import Path
@@ -44,8 +45,8 @@ def joined(*contents: Content) -> Markup:
     >>> joined("a < b", None, 7)
     'a &lt; b7'
     """
-    present = filter(lambda content: content is not None, contents)
-    return Markup("".join(c if isinstance(c, Markup) else escape(shown_text(str(c), _MAX_TEXT)) for c in present))
+    present = [content for content in contents if content is not None]
+    return Markup("".join([c if isinstance(c, Markup) else escape(shown_text(str(c), _MAX_TEXT)) for c in present]))
 
 
 def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None) -> Markup:
@@ -58,12 +59,14 @@ def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None)
     """
     parts = [name]
     for key, value in attributes.items():
+        if value is None or value is False:
+            continue
         attribute = key.rstrip("_").replace("_", "-")
         if attribute in {"href", "src"} and not _ADDRESS.fullmatch(str(value)):
             raise ValueError(f"not an address of a page: {value!r}"[:100])
         if value is True:
             parts.append(attribute)
-        elif value is not None and value is not False:
+        else:
             text = str(value)
             shown = text if attribute in {"href", "src", "d", "content"} else shown_text(text, _MAX_TEXT)
             parts.append(f'{attribute}="{escape(shown)}"')
@@ -196,18 +199,27 @@ def page(
         tag("script", src=f"{up}{SCRIPT}", defer=True),
         tag("script", src=figures, type="module") if figures else None,
     )
-    entries = [
-        tag("li", tag("a", name, href=href, aria_current="page" if href == current else None)) for href, name in links
-    ]
+    links = tuple(links)
+    navigation = _navigation(links, current if current in dict(links) else "")
     body = tag(
         "body",
         tag("a", "To the content", href="#content", class_="skip"),
-        tag("header", tag("nav", tag("ul", *entries), aria_label="Pages"), heading(title)),
+        tag("header", navigation, heading(title)),
         tag("main", *contents, id="content", tabindex="-1"),
     )
     return f"<!doctype html>\n{tag('html', head, body, lang='en')}\n"
 
 
+@lru_cache(64)
+def _navigation(links: tuple[tuple[str, str], ...], current: str) -> Markup:
+    """The links at the top of many pages."""
+    entries = [
+        tag("li", tag("a", name, href=href, aria_current="page" if href == current else None)) for href, name in links
+    ]
+    return tag("nav", tag("ul", *entries), aria_label="Pages")
+
+
+@lru_cache(64)  # the pages of a player, one after the other, share it
 def heading(text: str) -> Markup:
     """The heading of a page in the game's own letters, or plain if letters are missing."""
     shown = shown_text(text)
