@@ -86,8 +86,9 @@ class OneTick(Figure):
 
     @property
     def phase(self) -> str:
+        """The rule that has begun the phase; "" before the first one."""
         names = [call.name for call in self.calls[: int(self.at) + 1]]
-        return next((PHASES[name] for name in reversed(names) if name in PHASES), "a tick begins")
+        return next((name for name in reversed(names) if name in PHASES), "")
 
     def numbers(self) -> list[tuple[str, str]]:
         first = max(0, int(self.at) - SHOWN + 4)
@@ -99,22 +100,22 @@ class OneTick(Figure):
             rows.append((f"{mark} {number + 1} of {len(self.calls)}", f"{'. ' * (call.depth - 1)}{call.name}{about}"))
         world = self.stage.world
         events = ", ".join(EVENT_NAMES[event.kind] for event in world.events[: world.event_count])
-        return [(f"tick {world.tick}", self.phase), *rows, ("events", events or "none")]
+        return [(f"tick {world.tick}", PHASES.get(self.phase, "a tick begins")), *rows, ("events", events or "none")]
 
     def draw(self, sheet: Sheet) -> None:
         p, w = sheet.palette, self.stage.world
         self.stage.draw(sheet)
         call = self.calls[min(int(self.at), len(self.calls) - 1)]
         n = w.ninja
-        if self.phase.startswith("4") and EXISTS[n.cell]:
+        if self.phase == "touch_objects" and EXISTS[n.cell]:
             for offset in NINE_CELLS:
                 sheet.shade(n.cell + offset, p.switch, 60)
-        elif self.phase.startswith("5"):
+        elif self.phase == "collide_circle":
             for cell in touched_cells(n.x, n.y, n.cell):
                 sheet.shade(cell, p.good, 90)
         sheet.grid()
         if "o" in call.arguments:
             o = w.objects[int(call.arguments["o"])]
             sheet.circle(p.accent, o.x, o.y, 15, 2.5)
-        elif self.phase[0] in "34567":
+        elif self.phase not in ("", "update_objects", "think"):
             sheet.circle(p.accent, n.x, n.y, 15, 2.5)
