@@ -144,7 +144,7 @@ def choose(items: Sequence[N], what: str, path: Path, record: int | None) -> N:
         if not items:
             raise click.UsageError(f"{path}: there is no record {record}")
     if len(items) > 1:
-        raise click.UsageError(f"{path} holds {len(items)} {what}; choose one with --record")
+        raise click.UsageError(f"{path} holds {len(items)} {what}; choose one with --record, 0 to {len(items) - 1}")
     return items[0]
 
 

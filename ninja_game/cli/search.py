@@ -263,7 +263,7 @@ def search(
     from ninja_game.formats.load import load_replays
     from ninja_game.runs.run import record_replay, run_level
     from ninja_game.search.formula.methods import search_span
-    from ninja_game.search.formula.task import SpanTask, score_text, tidied
+    from ninja_game.search.formula.task import SpanTask, own_tick, score_text, tidied
 
     if maximise and minimise:
         raise click.UsageError("--maximise and --minimise cannot be used together")
@@ -320,6 +320,10 @@ def search(
         click.echo(f"{what}; more time, a longer span or another --method may help")
     elif output:
         click.echo(f"{output}: the first of them")
+    own = own_tick(task) if goal and not (task.measure or rest) else None
+    if own is not None and (not results or first + results[0].ticks > own):
+        longer = f"; --to {own + 1} includes it" if own >= last else ""
+        click.echo(f"nothing sooner than RUN, which reaches the goal in tick {own}{longer}")
     return 0 if results else FAILED
 
 

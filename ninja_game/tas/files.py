@@ -71,7 +71,9 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
         return _begun_on(path, "".join(text for _, text in texts), record, level)
     recordings = [run for file, text in texts for run in parse_replays(text, file=file, level=level, changed=True)]
     if record is None and len(recordings) > 1:
-        raise ReplayError(f"{len(recordings)} recordings", str(path), hint="say which one with --record")
+        again = "; `ninja-game convert` puts the episode together again" * (recordings[0].form == "episode")
+        hint = f"edit one with --record, 0 to {len(recordings) - 1}{again}"
+        raise ReplayError(f"{len(recordings)} recordings", str(path), hint=hint)
     recording = next((other for other in recordings if other.record == (record or 0)), None)
     if recording is None:
         raise ReplayError(f"there is no record {record}", str(path), expected=f"0 to {len(recordings) - 1}")
@@ -94,7 +96,7 @@ def _begun_on(path: Path, text: str, record: int | None, level: Level | None) ->
         return new_run(NamedLevel(path.stem, "", "", level, str(path)), InputTrack(read.keys, read.markers))
     levels = load_levels(path)
     if record is None and len(levels) > 1:
-        raise LevelError(f"{len(levels)} levels", str(path), hint="say which one with --record")
+        raise LevelError(f"{len(levels)} levels", str(path), hint=f"say which one: --record, 0 to {len(levels) - 1}")
     chosen = next((other for other in levels if other.record == (record or 0)), None)
     if chosen is None:
         raise LevelError(f"there is no record {record}", str(path), expected=f"0 to {len(levels) - 1}")

@@ -89,7 +89,7 @@ class Timeline:
             **{name: np.zeros(0, np.int32) for name in TRACED_INTS},
         }
         self._objects = np.zeros((0, 0), _WATCHED_RECORD)
-        self._events: list[str] = []
+        self._events: dict[int, str] = {}  # of the ticks that have any
         self.inputs = b""
         self._death = b"", ""
         self.simulated_until = self._ticks_on_plain = 0
@@ -136,7 +136,7 @@ class Timeline:
         """Drop all simulated ticks from this one on."""
         self._states.forget_after(tick)
         self.simulated_until = min(self.simulated_until, tick)
-        del self._events[self.simulated_until :]
+        self._events = {at: names for at, names in self._events.items() if at < self.simulated_until}
 
     def simulate(self, ticks: int) -> bool:
         """Simulate up to a number of ticks more; whether all are simulated now."""
@@ -175,11 +175,12 @@ class Timeline:
         record = self._worlds.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
         for name, values in ninja_columns(record).items():
             self._columns[name][first:last] = values
-        watched, objects = self._objects[first:last], object_rows(record, len(self.watched))
-        for name in ("x", "y", "s"):
-            watched[name] = objects[name]
-        watched["switched"] = switched_doors(record, len(self.watched))
-        self._events[first:] = event_names(record)
+        if self.watched:
+            watched, objects = self._objects[first:last], object_rows(record, len(self.watched))
+            for name in ("x", "y", "s"):
+                watched[name] = objects[name]
+            watched["switched"] = switched_doors(record, len(self.watched))
+        self._events |= {first + at: names for at, names in enumerate(event_names(record)) if names}
         self.simulated_until = last
 
     def _reserve(self, rows: int) -> None:
@@ -202,11 +203,11 @@ class Timeline:
 
     def events(self, tick: int) -> str:
         """The names of the events of a simulated tick, with spaces between; of others ''."""
-        return self._events[tick] if 0 <= tick < len(self._events) else ""
+        return self._events.get(tick, "")
 
     @property
     def event_ticks(self) -> list[tuple[int, str]]:
-        return [(tick, names) for tick, names in enumerate(self._events) if names]
+        return [*self._events.items()]
 
     @property
     def objects(self) -> list[tuple[int, int, float, float]]:

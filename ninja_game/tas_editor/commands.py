@@ -130,7 +130,7 @@ class RunCommands(DocumentCommands):
             if player and player[0].strip():
                 self.app.know_author("", player[0])
                 self.session.name_player(self.app.settings.name)
-            path = folder / os.path.expanduser(text.strip())  # noqa: PTH111 - fails on no name
+            path = folder / os.path.expanduser(text.strip() or name)  # noqa: PTH111 - fails on no name
             if os.path.isdir(path.parent):  # noqa: PTH112 - likewise
                 stem = file_stem(path.name.removesuffix(REPLAY_SUFFIX), "run")
                 self.save_to(path.with_name(f"{stem}{REPLAY_SUFFIX}"), then)

@@ -362,6 +362,17 @@ def test_command_with_the_rest_finds_only_what_is_sooner_than_the_run(tmp_path: 
     assert result.stdout.startswith("nothing sooner was found; ")
 
 
+@pytest.mark.parametrize("last, text", [(40, "\n"), (0, "; --to {} includes it\n")])
+def test_command_says_that_nothing_is_sooner_than_the_run(tmp_path: Path, last: int, text: str) -> None:
+    run = tmp_path / "run.inputs.txt"
+    run.write_text(unclaimed_text(TEXT, "R*60"))
+    end = outcome_of(bytes([2] * 60))[1] - 1
+    result = called(run, "--from", 0, "--to", end + last, "--goal", "won", "--seconds", 0.5)
+    assert result.exit_code == (0 if last else 1)
+    line = f"nothing sooner than RUN, which reaches the goal in tick {end}{text.format(end + 1)}"
+    assert result.stdout.endswith(line)
+
+
 def test_command_keeps_the_end_of_a_span_exactly(run: Path, tmp_path: Path) -> None:
     out = tmp_path / "shorter.replay.txt"
     goal = "difference(19) == 0"

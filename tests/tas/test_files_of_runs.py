@@ -19,7 +19,7 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.provenance import Provenance
-from ninja_game.formats.replay.text import parse_replay, write_replay
+from ninja_game.formats.replay.text import parse_replay, write_episode, write_replay
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.verify import Verdict
 from ninja_game.sim.inputs import fit_inputs
@@ -48,6 +48,15 @@ def test_a_text_with_few_ticks_or_none_is_a_run_on_a_level_that_is_given(text: s
     opened = open_run(file, level=LEVEL)
     assert list(opened.track.inputs) == {".*1\n": [0], "R*3 RJ\n": [2, 2, 2, 14]}.get(text, [])
     assert opened.file == RunFile()
+
+
+def test_the_levels_of_an_episode_are_edited_one_by_one_and_it_says_how_they_are_put_together(tmp_path: Path) -> None:
+    run = load_replays(PACK / "certificates" / "00-0-first-steps.exit.replay.txt")[0].replay
+    file = tmp_path / "00.episode.txt"
+    file.write_text(write_episode([run, run]))
+    with pytest.raises(ReplayError, match="edit one with --record, 0 to 1; `ninja-game convert` puts the episode"):
+        open_run(file)
+    assert len(open_run(file, record=1).track) == run.ticks
 
 
 def test_a_level_is_opened_as_a_new_run_of_it(tmp_path: Path) -> None:

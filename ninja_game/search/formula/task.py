@@ -318,6 +318,14 @@ class SpanWorlds:
         trials.margins[:] = np.where(reached & ~passed, 0.0, trials.margins)
 
 
+def own_tick(task: SpanTask) -> int | None:
+    """The tick after which the run itself reaches the goal, in the span or behind it; None: it does not."""
+    last = min(task.first + MAX_SPAN, max(task.last, len(task.inputs)))
+    whole = replace(task, last=last, measure="", rest=False)
+    ticks = int(SpanWorlds(whole, 1, threads=1).try_all(whole.base[:, np.newaxis]).ticks[0])
+    return task.first + ticks - 1 if ticks else None
+
+
 ReportResults = Callable[[int, tuple[SpanResult, ...]], bool]
 """Gets the ticks run so far and the best results so far, best first; returning False ends the search."""
 

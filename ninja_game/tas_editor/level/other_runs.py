@@ -94,7 +94,7 @@ class OtherRuns:
             there = self._nearest(other, tick)
             keys = [other.track.keys_at(k) for k in range(there, len(other.track))]
             what = f"From tick {tick} on {other.name} from its tick {there} on"
-            self._join(lambda track: track.replaced(tick, max(tick, len(track)), keys), other, tick, there, what)
+            self._join(lambda track: track.replaced(tick, max(tick, len(track)), keys), other, tick, there, what, tick)
 
     def splice_start(self) -> None:
         """Replace all ticks before the cursor by the other run's, up to where its ninja was nearest to ours."""
@@ -105,26 +105,33 @@ class OtherRuns:
             there = self._nearest(other, tick)
             keys = [other.track.keys_at(k) for k in range(there)]
             what = f"Up to tick {there - 1} {other.name}, then this run from its tick {tick} on"
-            if self._join(lambda track: track.replaced(0, tick, keys), other, tick, there, what):
-                editor.go(there)
+            self._join(lambda track: track.replaced(0, tick, keys), other, tick, there, what, there)
 
     def _nearest(self, other: OtherRun, tick: int) -> int:
         return nearest_state(self.editor.session.timeline.trajectory().positions, tick, other.trajectory.positions)
 
     def _join(
-        self, make: Callable[[InputTrack], InputTrack], other: OtherRun, tick: int, there: int, what: str
-    ) -> bool:
-        """Make an edit that joins two runs, before ``tick`` of ours and ``there`` of the other one; tell the gap."""
+        self, make: Callable[[InputTrack], InputTrack], other: OtherRun, tick: int, there: int, what: str, at: int
+    ) -> None:
+        """Make an edit that joins two runs, before ``tick`` of ours and ``there`` of the other one; tell the gap.
+
+        ``at``: the joint in the new run; up to a death behind it the ticks are selected, to be searched.
+        """
         editor, timeline = self.editor, self.editor.session.timeline
         gap = "its start"
         if tick:
             beside = Timeline(timeline.level, other.track.inputs[:there], body=timeline.body, memory=timeline.memory)
             beside.ensure(there - 1)
             gap = apart_text(timeline.world(tick - 1), beside.world(there - 1))
-        if done := editor.edit_selected(make, other.made):
+        if editor.edit_selected(make, other.made):
             timeline.simulate(len(timeline))
-            editor.app.notify(f"{what}, {gap}. Now: {timeline.ending or 'no exit yet'}", ms=WARNING_MS)
-        return done
+            end, outcome = timeline.end
+            editor.go(at)
+            now = timeline.ending or "no exit yet"
+            if outcome == "dead" and end >= at:
+                editor.select(at, end + 1)
+                now += "; F searches other keys up to there"
+            editor.app.notify(f"{what}, {gap}. Now: {now}", ms=WARNING_MS)
 
 
 def other_run(editor: TasEditor, recording: Recording) -> OtherRun:

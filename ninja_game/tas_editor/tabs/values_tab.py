@@ -122,7 +122,7 @@ def draw_lane(
 
 def _thinned(ticks: Values, values: Values, columns: int) -> tuple[Values, Values]:
     """The least and the greatest value in each column of px."""
-    starts = np.unique(np.linspace(0, len(values), columns, endpoint=False).astype(np.intp))
+    starts = np.arange(columns) * len(values) // columns
     pairs = np.column_stack([np.fmin.reduceat(values, starts), np.fmax.reduceat(values, starts)])
     return np.repeat(ticks[starts], 2), pairs.ravel()
 
@@ -132,7 +132,8 @@ def _draw_line(surface: pygame.Surface, colour: pygame.Color, points: Values, wi
     known = np.isfinite(points[:, 1])
     for piece in np.split(points, np.flatnonzero(np.diff(known)) + 1):
         if len(piece) > 1 and np.isfinite(piece[0, 1]):
-            pygame.draw.lines(surface, colour, False, piece.tolist(), width)
+            x, y = piece.T.tolist()  # twice as quick as a list for each point
+            pygame.draw.lines(surface, colour, False, [*zip(x, y, strict=True)], width)
 
 
 WatchableObject = tuple[int, int, float, float]  # id, kind, x and y (px) of an object

@@ -34,7 +34,7 @@ from ninja_game.tas_editor.screen import TasScreen
 from ninja_game.tas_editor.tabs.tab import LitButton
 from ninja_game.tas_editor.tabs.values_tab import ValuesTab
 from tests.support.own_pack import PACK
-from tests.support.samples import WALK, WALK_END, running, write_records
+from tests.support.samples import SPIKED, WALK, WALK_END, running, write_records
 from tests.support.tas_driver import TasDriver
 
 RUN = PACK / "certificates" / "01-2-the-works.exit.replay.txt"
@@ -253,6 +253,21 @@ def test_the_beginning_of_another_run_before_the_rest_of_this_one(at: TasDriver)
     assert at.app.notice.endswith(f"Now: {at.session.timeline.ending or 'no exit yet'}")
     at.chord("z", pygame.KMOD_LCTRL)
     assert (editor.track, editor.cursor) == (mine, 120)
+
+
+def test_where_a_joined_run_dies_the_ticks_from_the_joint_on_are_selected_for_a_search(tmp_path: Path) -> None:
+    at = TasDriver(tmp_path / "player", write_records(tmp_path / "demos.txt", ("a run", SPIKED, running(300))))
+    at.screen.level.others.open([at.session.recording(at.editor.track, "into spikes")])
+    at.editor.edit(lambda track: track.replaced(0, len(track), bytes(300)))
+    at.editor.go(5)
+    at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
+    end, outcome = at.session.timeline.end
+    assert outcome == "dead"
+    assert at.editor.selection == (5, end + 1)
+    assert at.app.notice.endswith(f"Now: {at.session.timeline.ending}; F searches other keys up to there")
+    at.press("f")
+    assert at.screen.tabs[3].span == (5, end + 1)  # type: ignore[attr-defined]
+    at.close()
 
 
 def test_a_splice_says_whether_both_runs_are_in_the_same_state(at: TasDriver) -> None:
