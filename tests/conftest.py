@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import subprocess
@@ -31,11 +32,18 @@ os.environ["NINJA_GAME_BACKGROUND_COMPILER"] = "0"
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+gc.disable()  # until all is imported
 
 ROOT = Path(__file__).resolve().parent.parent
 
 COSTLY = ("chromium", "site", "screens", "warm_start")
 """Fixtures that take seconds to make, once for each worker that needs them."""
+
+
+def pytest_collection_finish() -> None:
+    """What was imported stays: the garbage collector does not look through it again and again."""
+    gc.freeze()
+    gc.enable()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -62,7 +62,7 @@ def compiler(monkeypatch: pytest.MonkeyPatch) -> Compiler:
     return Compiler(monkeypatch)
 
 
-@pytest.mark.parametrize("number", the_rest_is_slow(range(RUNS)[::-1], 4))
+@pytest.mark.parametrize("number", the_rest_is_slow(range(RUNS)[::-1], 2))
 def test_a_world_with_every_kind_of_object_goes_on_alike_from_every_tick(number: int) -> None:
     keys = known_keys(number)
     plain, end = (open_worlds("plain", ALL_KINDS, box=number == RUNS - 1) for _ in range(2))

@@ -237,7 +237,7 @@ def test_only_the_newest_files_are_kept(tmp_path: Path) -> None:
 
 
 @needs_numba
-@pytest.mark.parametrize("first", ["", "import numba; "])
+@pytest.mark.parametrize("first", the_rest_is_slow(["", "import numba; "], 1))
 def test_threads_may_ask_for_kernels_at_once_whoever_imported_numba(first: str) -> None:
     program = (
         f"{first}from concurrent.futures import ThreadPoolExecutor as Pool\n"

@@ -16,6 +16,7 @@ from ninja_game.runs import verify
 from ninja_game.sim.kinds import VALUE_COUNTS
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.ninja import tick
+from ninja_game.sim.schema.world_fields import CAPACITY
 from tests.support.memories import BOTH
 from tests.support.samples import WALK, WALK_END, running, write_records
 
@@ -85,4 +86,4 @@ def test_the_checked_and_the_quick_kernels_live_side_by_side() -> None:
     runs = [[bytes(memoryview(part)) for part in memory.run(keys)] for memory in (quick, checked, plain)]
     assert runs[0] == runs[1] == runs[2]
     with pytest.raises(IndexError):
-        checked.observe(10**6)
+        checked.observe(CAPACITY)

@@ -56,6 +56,8 @@ def test_film_has_the_size_and_the_speed_that_were_asked_for(replay: Path, tmp_p
     assert ms[1] == pytest.approx(25 * ticks, abs=30)
     assert ms[0.5] == pytest.approx(50 * ticks, abs=60)
     assert ms[4] == pytest.approx(25 / 4 * ticks, abs=60)
+    with Image.open(tmp_path / "0.5.gif") as slow:
+        assert getattr(slow, "n_frames", 0) > ticks / 2 + 9, "every tick is shown"
 
 
 def test_record_of_a_file_becomes_a_folder_of_pictures(tmp_path: Path) -> None:

@@ -104,6 +104,7 @@ def test_the_random_agent_plays_everything_and_the_same_by_the_same_seed() -> No
     assert 0.78 < kept < 0.88
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 def test_it_passes_levels_that_it_has_never_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("jax", "optax"):

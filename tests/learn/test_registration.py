@@ -18,14 +18,7 @@ def printed(code: str) -> str:
 
 
 @pytest.mark.parametrize(
-    "imports",
-    [
-        "import gymnasium",
-        "import gymnasium, ninja_game",
-        "import ninja_game, gymnasium",
-        "import gymnasium, ninja_game.learn",
-        "import ninja_game.learn, gymnasium",
-    ],
+    "imports", ["import gymnasium", "import ninja_game, gymnasium", "import ninja_game.learn, gymnasium"]
 )
 def test_an_id_with_its_module_needs_no_order_of_imports(imports: str) -> None:
     code = f"""

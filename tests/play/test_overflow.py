@@ -72,6 +72,7 @@ def test_nothing_leaves_its_place_on_any_screen(
     with (
         noted() as layouts,
         patch.object(LevelView, "draw", lambda *_, **__: []),
+        patch("ninja_game.view.level_view.Backdrop"),
         patch("tests.support.game_screens.instead_of_ours", lambda: patch.dict(CHECKOUT, levels=pack)),
     ):
         run_tour(tmp_path / "player", SIZES[1], show, steps)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from random import Random
 
 from ninja_game.sim.collision.rays import solid_at
+from ninja_game.sim.kinds import BOUNCE_BLOCK
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.states import BULLET, EXPLOSIVE
 from ninja_game.simulation import Simulation
 from ninja_game.view.ninja.figure import SKID, STAND
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation
-from ninja_game.view.ninja.ragdoll import STICKS, Ragdoll
+from ninja_game.view.ninja.ragdoll import STICKS, Ragdoll, VerletParticle, _square
 
 
 def cave(tile: int = 0) -> Simulation:
@@ -55,6 +56,12 @@ def test_it_stays_out_of_every_shape() -> None:
                 assert 24 <= particle.x <= 768
                 assert 24 <= particle.y <= 576
                 assert not solid_at(run.tiles, particle.x, particle.y), (tile, push)
+
+
+def test_a_joint_lies_on_a_block_and_not_in_it() -> None:
+    run = Simulation(Level(objects=(ObjectSpec(5, (60.0, 60.0)), ObjectSpec(BOUNCE_BLOCK, (396.0, 300.0)))))
+    joint = VerletParticle(396, 300 - 9.6 - 1.6, 0, 0, 2, 0)
+    assert list(_square(run.world.objects[2], joint)) == [(0, -1, 0)]
 
 
 def test_a_hand_that_was_in_the_wall_does_not_hold_it_there() -> None:

@@ -102,6 +102,9 @@ def test_speed_and_stillness_at_the_start() -> None:
         tap(app, "faster", pictures=11)
         assert SPEEDS[screen.speed] == 2.0
         assert 30 <= screen.tick <= 34
+        with patch.object(screen.view, "draw", wraps=screen.view.draw) as draw:
+            frames(app, 3, ms=7)
+        assert 0 < min(call.args[1] for call in draw.call_args_list) < 1
 
 
 def test_it_starts_again_after_the_end() -> None:

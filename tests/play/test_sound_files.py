@@ -49,6 +49,7 @@ def test_a_file_keeps_the_limits(name: str) -> None:
     assert -45 < found.loudness < -14
 
 
+@pytest.mark.slow
 def test_every_family_of_sounds_has_bright_ones() -> None:
     """Up to 16 kHz where it fits: dull thuds, and bells of a low pitch, end before."""
     dull = {name for name in RECIPES if measured(name).edge < 16_000}

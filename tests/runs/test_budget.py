@@ -60,12 +60,12 @@ def test_what_creates_nothing_costs_nothing() -> None:
 
 @pytest.mark.parametrize("memory", BOTH)
 def test_a_run_that_is_not_over_when_its_budget_is_gets_refused_on_both_memories(memory: str) -> None:
-    assert run_level(CROWD, bytes(50), memory=memory, budget=50 * 101).ticks == 50
+    assert run_level(CROWD, bytes(9), memory=memory, budget=9 * 101).ticks == 9
     with pytest.raises(BudgetError) as caught:
-        run_level(CROWD, bytes(51), memory=memory, budget=50 * 101)
+        run_level(CROWD, bytes(10), memory=memory, budget=9 * 101)
     assert str(caught.value) == (
-        "the run costs too much work; found 51 ticks of 101 each, not over after 50; expected at most 5,050; "
-        "shorten its inputs if they go on after its end; --budget 5151 lets it run"
+        "the run costs too much work; found 10 ticks of 101 each, not over after 9; expected at most 909; "
+        "shorten its inputs if they go on after its end; --budget 1010 lets it run"
     )
 
 
@@ -198,9 +198,10 @@ def test_runs_of_very_different_lengths_are_not_compared_place_by_place(monkeypa
         aligned(np.zeros((91, 2)), np.zeros((10, 2)))
 
 
-def test_a_page_judges_no_more_than_its_one_thread_can(tmp_path: Path) -> None:
+def test_a_page_judges_no_more_than_its_one_thread_can(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ninja_game.web.services.PAGE_BUDGET", PAGE_BUDGET // 20)
     crowd = heavy_level(3000)
-    ticks = PAGE_BUDGET // tick_cost(crowd) + 1
+    ticks = PAGE_BUDGET // 20 // tick_cost(crowd) + 1
     file = write_records(tmp_path / "runs.txt", ("one", write_level_string(crowd, exact=True), running(ticks)))
     services = PageServices.__new__(PageServices)
     (verdict,) = map(json.loads, filter(None, services.verdicts("runs.txt", file.read_bytes())))

@@ -105,13 +105,6 @@ def test_a_part_of_the_gold_will_do_where_that_is_asked_for() -> None:
     assert verified_run(LINES, run.inputs, gold=5).gold >= 5
 
 
-def test_the_same_seed_collects_gold_in_the_same_way() -> None:
-    first, again = (solve(Task(LINES, gold=-1, seed=7, work=2_000_000)) for _ in range(2))
-    assert first
-    assert again
-    assert first.inputs == again.inputs
-
-
 def test_a_front_keeps_the_earliest_moments_and_one_of_each_state_of_the_enemies() -> None:
     frontier = Frontier(0, 0)
     for tick in (5, 3, 9, 1, 7):

@@ -10,7 +10,7 @@ from ninja_game.backend.compiled import CompiledWorlds
 from ninja_game.backend.compiler import Compiler
 from ninja_game.backend.layout import _OBJECT, STATE_START, TILE_MAP, WORLD, bytes_of, dtype_of, new_worlds, used_bytes
 from ninja_game.backend.memories import compiled_available
-from ninja_game.backend.numba_import import import_numba, make_pipeline
+from ninja_game.backend.numba_import import import_numba
 from ninja_game.sim.events import emit
 from ninja_game.sim.schema.declare import KERNELS, REGISTERED, f8, fields_of, kernel, struct_base
 from ninja_game.sim.schema.object_fields import Header, Object
@@ -80,15 +80,6 @@ def test_no_index_is_ever_out_of_range() -> None:
     for seed in range(60):
         memory = CompiledWorlds(checked, [crowded_level(seed)], box=seed % 2 == 1)
         memory.trace(crowded_inputs(seed, 150), range(1, memory.number("id_count") + 1), events=True)
-
-
-@needs_numba
-def test_checked_kernels_refuse_an_index_out_of_range() -> None:
-    memory = CompiledWorlds(
-        Compiler(import_numba(), checked=True, pipeline=make_pipeline()), [crowded_level(0)], box=False
-    )
-    with pytest.raises(IndexError):
-        memory.observe(CAPACITY)
 
 
 def test_kernels_are_registered_rules_with_names_of_their_own() -> None:

@@ -6,7 +6,6 @@ import pytest
 
 from tests.support import reference
 from tests.support.comparing import digest_difference, run_difference, trace_of
-from tests.support.memories import BOTH
 from tests.support.slow import COMPILED_OR_SLOW
 
 PARTS = 8
@@ -15,7 +14,7 @@ PARTS = 8
 pytestmark = pytest.mark.parametrize("part", range(PARTS))
 
 
-@pytest.mark.parametrize("memory", BOTH)
+@pytest.mark.parametrize("memory", COMPILED_OR_SLOW)
 def test_recordings_are_exact_in_outcome_tick_gold_positions_and_states(part: int, memory: str) -> None:
     reference.require_reference()
     report([run_difference(row, memory) for row in reference.recordings()[part::PARTS]])

@@ -74,11 +74,6 @@ def test_run_installs_numba_for_whatever_may_need_it(installed: list[tuple[str, 
     assert installed
 
 
-def test_play_installs_no_tools_of_development(installed: list[tuple[str, ...]]) -> None:
-    dev.main(["play", "--help"])
-    assert installed == [()]
-
-
 def test_what_is_installed_is_installed_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[list[str]] = []
 
@@ -96,14 +91,12 @@ def test_what_is_installed_is_installed_once(tmp_path: Path, monkeypatch: pytest
     assert calls == [["cluster"], ["cluster", "fast"]]
 
 
-def test_run_installs_what_its_command_uses(installed: list[tuple[str, ...]]) -> None:
+def test_play_and_run_install_what_their_command_uses(installed: list[tuple[str, ...]]) -> None:
+    dev.main(["play", "--help"])
     dev.main(["run", "demonstrations", "--help"])
-    assert installed == [("fast", "learn", "minari")]
-    assert {extra for command in COMMANDS.values() for extra in command.extras} <= set(dev.DEVELOPMENT)
-
-
-def test_a_command_that_compiles_gets_numba() -> None:
+    assert installed == [(), ("fast", "learn", "minari")]
     assert all("fast" in command.extras for command in COMMANDS.values() if command.compiles)
+    assert {extra for command in COMMANDS.values() for extra in command.extras} <= set(dev.DEVELOPMENT)
 
 
 def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(

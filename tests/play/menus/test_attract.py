@@ -8,14 +8,17 @@ from tests.support.menu_driver import MenuDriver
 
 def test_one_replay_follows_another(driver: MenuDriver) -> None:
     menu = driver.shown(MainMenu)
-    names = set()
+    names, ended = set(), set()
     for _ in range(3000):
         menu.attract.update(500)
         names.add(menu.attract.name)
+        if menu.attract.view and menu.attract.view.simulation.outcome == "exit":
+            ended.add(menu.attract.shown)
         if menu.attract.shown > 4:
             break
     assert menu.attract.shown > 4
     assert len(names) > 3
+    assert ended >= {1, 2, 3, 4}, "each is shown to its end"
     assert not driver.player.records.replays()
 
 

@@ -128,6 +128,8 @@ def test_a_click_below_the_last_whole_line_chooses_nothing(driver: MenuDriver) -
     assert rows.click(10, 70)
     assert not rows.click(10, 80)
     assert chosen == [3]
+    rows.fill(range(rows.visible_lines))
+    assert not rows.drag(99, 40), "no bar"
 
 
 def test_all_of_a_cell_is_clicked_and_only_a_drag_at_the_bar_scrolls() -> None:
