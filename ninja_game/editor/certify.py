@@ -29,7 +29,7 @@ from ninja_game.sim.events import LOCK_OPENED
 from ninja_game.sim.grid import Cell, cell_of, is_inside, middle_of
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import DOOR, MOVING_ENEMIES, NINJA
-from ninja_game.sim.level import Level, ObjectSpec, makes_object
+from ninja_game.sim.level import Body, Level, ObjectSpec, makes_object
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND, TOP_SPEED, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import FALLING, JUMPING, OUTCOME_DEAD
 from ninja_game.simulation import Simulation
@@ -136,7 +136,7 @@ class Certification:
             self.run, self.route = run, route_of(self.level, run.inputs)
         if run.gold >= self.level.gold and (self.full is None or run.end_tick < self.full.end_tick):
             self.full = run
-        self.obstacles = passed_by(self.level, [known.inputs for known in (self.run, self.full) if known])
+        self.obstacles = passed_by(self.level, [known for known in (self.run, self.full) if known])
 
     @property
     def share(self) -> float:
@@ -144,9 +144,9 @@ class Certification:
 
 
 @lru_cache(maxsize=300)
-def _unlocked(level: Level, inputs: bytes) -> set[tuple[float, float]]:
+def _unlocked(level: Level, inputs: bytes, body: Body) -> set[tuple[float, float]]:
     """The places of the switches by which these inputs open doors, px. Cached, since the window's thread asks again."""
-    run, opened = Simulation(level), set[tuple[float, float]]()
+    run, opened = Simulation(level, body=body), set[tuple[float, float]]()
     for keys in inputs:
         run.step_keys(keys)
         events = run.world.events[: run.world.event_count]
@@ -154,11 +154,12 @@ def _unlocked(level: Level, inputs: bytes) -> set[tuple[float, float]]:
     return opened
 
 
-def passed_by(level: Level, runs: Sequence[bytes]) -> tuple[Finding, ...]:
+def passed_by(level: Level, runs: Sequence[Replay]) -> tuple[Finding, ...]:
     """The locked doors whose switches none of these runs touches."""
     made = [number for number, spec in enumerate(level.objects) if makes_object(spec)]
     names = [object_type_name(level.objects[number]) for number in made]
-    opened = {place for inputs in (runs if "locked door" in names else ()) for place in _unlocked(level, inputs)}
+    played = runs if "locked door" in names else ()
+    opened = {place for run in played for place in _unlocked(level, run.inputs, run.body)}
     findings = []
     for id_, (number, name) in enumerate(zip(made, names, strict=True)):
         spec = level.objects[number]

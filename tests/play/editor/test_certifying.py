@@ -175,7 +175,7 @@ def test_a_door_that_the_certified_run_passes_by_is_told_of() -> None:
     (found,) = search_of(level, run).obstacles
     assert (found.code, found.records) == ("unneeded-door", (3,)), "the other switch lies on its way"
     assert found.sentence.startswith("locked door at 13,22"), "and it is named"
-    assert passed_by(ROOM.level, [run.inputs]) == ()
+    assert passed_by(ROOM.level, [run]) == ()
     with patch("ninja_game.editor.certify.Simulation") as played:
         search_of(level, run).take(run)
     assert not played.called, "the window takes up a run that is known by now, and waits for no play"
