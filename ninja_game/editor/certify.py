@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 
 COMPILING = "Compiling the solver, the first time on a machine a minute or more"
 
-SECONDS, STOPPED = 20.0, "Stopped"
-"""How long the solver looks for better runs; the end of a cancelled search."""
+SECONDS = 20.0
+"""How long the solver looks for better runs."""
 
 
 PathPoints = tuple[tuple[float, float], ...]
@@ -187,7 +187,7 @@ class Solver:
     def __init__(self) -> None:
         self.left: list[Certification] = []
         self.stopped: set[Level] = set()
-        self.at_work = Certification(end=STOPPED)
+        self.at_work = Certification(end="Stopped")
         self.job: NewestJob[Certification, None] = NewestJob(self._work, every=True)
 
     def _work(self, search: Certification) -> None:
@@ -207,7 +207,7 @@ class Solver:
             raise
         nothing = f"No run in {search.seconds:.0f} s: the first problem says why. F7 looks twice as long"
         search.end = search.end or ("Done" if search.run else nothing)
-        if search.then and search.end != STOPPED:
+        if search.then and not search.stopping.is_set():
             search.then(search)
 
 
@@ -229,7 +229,7 @@ class Certifier:
             gold = f", {search.run.gold} gold" if search.run.gold else ""
             shortening = ", shortening" if self.busy else ""
             return f"Certified: {seconds_text(search.run.end_tick)} s{gold}{shortening}"
-        if search.end == STOPPED and search.progress:
+        if search.stopping.is_set() and search.progress:
             return f"Stopped: no exit found in {search.progress.seconds:.0f} s"
         if search.end or search.level is None:
             return search.end
@@ -297,7 +297,7 @@ class Certifier:
     def stop(self) -> None:
         """Cancel the search; its results stay. It does not wait: kernels being compiled are finished first."""
         if self.busy:
-            self.search.end = STOPPED
+            self.search.end = "Stopped"
             self.solver.stopped |= {self.search.level} if self.search.level and not self.search.run else set()
             self.search.stopping.set()
 

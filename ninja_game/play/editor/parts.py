@@ -430,7 +430,7 @@ class FilePart(EditorPart):
         stale, run = certifier.is_stale(session.draft.level), certifier.search.run
         text = certifier.text or "Not certified yet: F7 looks for a way through it"
         if stale and certifier.busy:
-            text = "The solver looks at the level before the last change. F7: at this one"
+            text = "The level has changed: the search starts again once you pause, or now by F7"
         elif stale:
             text = f"{'Certified before' if run else 'Not certified since'} the last change: F7 again"
         elif run and not certifier.busy:
