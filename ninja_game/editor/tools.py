@@ -281,11 +281,16 @@ class EditorTools:
         if not self.objects:
             tile, cells = 0 if erasing else self.tile, stamps.covered("line", before, self.cell, 0.0)
             cells += stamps.steps(cells) if self.slopes and tile in (brush.EMPTY, brush.FULL) else []
-            self._change(stamps.Stamp(dict.fromkeys(cells, tile)))
+            self._change(stamps.Stamp(self._lined(cells, tile, self.draft)))
         elif erasing:
             self.delete_nearest()
         else:
             self._change(stamps.Stamp({}, (self.placed(*self.pointer),)))
+
+    def _lined(self, cells: list[Cell], tile: int, draft: Draft) -> Tiles:
+        """The tiles of a line; with automatic slopes full ones fill its notches, those on the solid side of slopes."""
+        notches = stamps.behind(cells, tile) if self.slopes else []
+        return {cell: brush.FULL for cell in notches if draft.tile(cell) == brush.EMPTY} | dict.fromkeys(cells, tile)
 
     def _draw_shape(self) -> None:
         """Tiles that fill it, or objects: they fill a box, and lie along a line or an ellipse."""
@@ -294,7 +299,10 @@ class EditorTools:
             if self.slopes and self._gesture == Gesture.LINE and self.tile in (brush.EMPTY, brush.FULL):
                 cells = stamps.joined(cells)
             tiles = dict.fromkeys(cells, self.tile)
-            if self.slopes and self._gesture == Gesture.ELLIPSE and self.tile == brush.FULL:
+            if self._gesture == Gesture.LINE:
+                ramp = self.slopes and self.tile in (brush.EMPTY, brush.FULL)
+                tiles = self._lined(stamps.joined(cells) if ramp else cells, self.tile, self.history.began)
+            elif self.slopes and self._gesture == Gesture.ELLIPSE and self.tile == brush.FULL:
                 column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
                 tiles = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
                 # Slopes of the shape remove no tiles.
