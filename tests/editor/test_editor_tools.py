@@ -257,7 +257,7 @@ def test_pick_takes_objects_before_tiles(tools: EditorTools) -> None:
     tools.delete()
     assert forms(tools) == []
     drag(tools, (303, 300), pick=True)
-    assert (tools.objects, tools.tile) == (False, 7)
+    assert (tools.draws_objects, tools.tile) == (False, 7)
 
 
 def test_a_symmetric_stroke_is_erased_symmetrically(tools: EditorTools) -> None:

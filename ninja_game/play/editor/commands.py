@@ -54,8 +54,8 @@ it begins; take the exit, click where it is, then where its switch is. Test play
 look for a run, Save (in File) puts it into the menu Levels.
 The right button erases, the middle one picks; the wheel zooms, then the middle one drags the level. \
 Doors go to the nearest side of a cell, or to the one chosen; then click where the switch is. \
-Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette shows, \
-+6 is Shift and 6; W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move \
+Tiles: 1 to 8 choose a shape, Q W A S its solid corner, 9 is full, 0 empty. Objects: Shift and the letter that the \
+palette shows; W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move \
 what is selected."""
 
 
@@ -108,7 +108,7 @@ class EditorCommands(DocumentCommands):
             "takes": lambda: tools.take(following(TAKES, tools.takes)),
             "choose_all": tools.choose_all, "delete": tools.delete,
             "next_tool": lambda: self.run(following(TOOLS, tools.tool)),
-            "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
+            "swap": lambda: tools.pick_up(tools.tile if tools.draws_objects else tools.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
             "turn": lambda: view.turn(CLOCKWISE),
             "symmetry": lambda: self.mirror(following(list(SYMMETRIES), tools.symmetry)),
@@ -231,7 +231,7 @@ class EditorCommands(DocumentCommands):
             level = with_ninja_at(session.draft, at) if at else session.draft.level
             screen = TryScreen(self.app, session, level, session.draft.says if says is None else says, entry)
         except LevelError as error:
-            self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
+            self.app.notify(f"{error.what}: Shift+N and a click places a ninja, F6 tests with one at the pointer")
             return
         self.app.push(screen)
 

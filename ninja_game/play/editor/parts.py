@@ -37,8 +37,8 @@ ROW = 22.5
 
 FIRST_STEPS = (
     "First draw a floor; put the ninja",
-    "(9) on it, and the exit (]) with",
-    "its switch. F5 plays the level",
+    "(Shift+N) on it, and the exit",
+    "(Shift+E) with its switch. F5 plays",
 )
 """The panel's text for an empty level."""
 
@@ -57,8 +57,8 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
             kind,
             spec and tuple(points(spec).items()),
         )
-    drawn = object_type_name(tools.spec) if tools.objects else tools.tile
-    return tools.draft.level == Level(), tools.objects, drawn, tools.effective_tool in CURVES, _taking(tools)
+    drawn = object_type_name(tools.spec) if tools.draws_objects else tools.tile
+    return tools.draft.level == Level(), tools.draws_objects, drawn, tools.effective_tool in CURVES, _taking(tools)
 
 
 def _taking(tools: EditorTools) -> str:
@@ -98,7 +98,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
             ("Delete", tools.delete, TABLE.hint("delete")),
         ]
         rows.append(_row(last))
-    elif tools.selection or tools.objects:
+    elif tools.selection or tools.draws_objects:
         spec = tools.chosen or tools.spec
         title = f"{'Selected' if tools.selection else _taking(tools)}: {object_type_name(spec)}"
         rows += [_choice(tools, name) for name in properties(spec)]
@@ -116,7 +116,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         title = f"{_taking(tools)}: {tile_name(tools.tile)}"
         first = FIRST_STEPS if tools.draft.level == Level() else ()
         rows += [partial(Label, text=text, size=9.5) for text in first]
-        texts = ["1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn"]
+        texts = ["1 to 8: shape", "Q W A S: its solid corner", "9: full    0: empty", "H, J, U: mirror, flip, turn"]
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
         modes, set_slopes = [("slopes: by hand", False), ("slopes: by themselves", True)], view.session.set_slopes
         rows.append(lambda area: Choice(area, "", modes, lambda: tools.slopes, set_slopes, hint=TABLE.hint("slopes")))
@@ -314,7 +314,7 @@ class PalettePart(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return tools.about_objects, live_changes(tools), tools.tile, tools.spec, self._palette.hovered, tools.objects
+        return tools.tile, tools.spec, self._palette.hovered, tools.draws_objects
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
@@ -531,7 +531,7 @@ class ObjectList(EditorPart):
         super().__init__(view)
         x, y, w, h = self.area
         self.shown: list[int] = []
-        self._level = self.session.tools.history
+        self._history = self.session.tools.history
         self._state: tuple[object, ...] = ()
         hint = "A click selects it, with Shift too; what comes first is made first, and moves first"
         self.list = ListView((x + 2, y + 26, w - 6, h - 50), 15, self._draw_row, self._choose, empty="None", hint=hint)
@@ -552,8 +552,8 @@ class ObjectList(EditorPart):
 
     def update(self, real_ms: int) -> None:
         tools = self.session.tools
-        if tools.history is not self._level:
-            self._level = tools.history
+        if tools.history is not self._history:
+            self._history = tools.history
             self._find.show("")
         state = self._find.text, tools.draft.objects, tools.selection
         if len(state) == len(self._state) and all(a is b for a, b in zip(state, self._state, strict=True)):

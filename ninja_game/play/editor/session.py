@@ -222,7 +222,7 @@ class EditorSession:
     def _follow_drone(self) -> None:
         """Look for the round of the drone that is selected, or in hand over the level."""
         tools = self.tools
-        in_hand = tools.objects and not tools.selection and tools.effective_tool not in ("select", "pick")
+        in_hand = tools.draws_objects and not tools.selection and tools.effective_tool not in ("select", "pick")
         spec = tools.chosen or (tools.placed(*tools.pointer) if in_hand and is_inside(tools.cell) else None)
         now = self.draft.level, spec if spec and spec.kind == DRONE and well_formed(spec) else None
         if now != self._drone:
