@@ -26,6 +26,7 @@ from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow, ask_text
 from ninja_game.play.workspace import Pane
 from ninja_game.sim.grid import cell_of
+from ninja_game.sim.kinds import DOOR, EXIT
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.rules import CELL
 from ninja_game.ui.list_view import ListView
@@ -454,7 +455,8 @@ class StatusLine(EditorPart):
     def _text(self) -> str:
         tools = self.session.tools
         if tools.placing_switch:
-            return "Click where the switch is; Esc gives up"
+            what = object_type_name(tools.spec)
+            return f"Now the switch of the {what}: click where it is. Esc puts the {what} away"
         if tools.ghost:
             return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc gives up"
         messages = messages_at(tools.draft.says, tools.cell) if self.view.hovering else ()
@@ -463,9 +465,15 @@ class StatusLine(EditorPart):
         slopes = "Slopes by themselves. " if tools.sets_slopes else ""
         if tools.tool == "select" and tools.takes != TAKES[0]:
             slopes = f"Takes only {tools.takes}: Shift+V. "
-        start = self.session.start
-        shown = slopes + _TOOL_HINTS[tools.effective_tool] if start == "off" else _REACH.format(start)
-        return self.view.hint or (shown if start == "off" or self.session.reach else _NO_REACH)
+        start, shown = self.session.start, slopes + _TOOL_HINTS[tools.effective_tool]
+        if tools.draws_objects and tools.effective_tool == "brush" and tools.spec.kind in (DOOR, EXIT):
+            what, two = object_type_name(tools.spec), has_switch(tools.spec)
+            shown = (
+                f"Click where the {what} is{', then where its switch is' if two else ': it has no switch'}. F1: help"
+            )
+        if start != "off" and self.view.hovering:
+            shown = _REACH.format(start) if self.session.reach else _NO_REACH
+        return self.view.hint or shown
 
     def render_key(self) -> tuple[object, ...]:
         return self.session.tools.pointer, self.session.tools.framed, self._text(), self.view.camera.zoom

@@ -381,7 +381,8 @@ class EditorView(Pane):
             surface.blit(self.sheet.surface, self.overlay.area)
         else:
             changed = self.overlay.restore(surface, dirty)
-        return [*changed, *self.overlay.draw(surface, tools, self.session.reach, hovering=self.hovering)]
+        reach = self.session.reach if self.hovering else None
+        return [*changed, *self.overlay.draw(surface, tools, reach, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
         session, palette = self.session, self.app.theme.palette
