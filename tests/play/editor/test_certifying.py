@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from math import ceil, dist, inf
 from pathlib import Path
 from threading import Event
@@ -207,6 +208,9 @@ def test_a_door_that_the_certified_run_passes_by_is_told_of() -> None:
     with patch("ninja_game.editor.certify.Simulation") as played:
         search_of(level, run).take(run)
     assert not played.called, "the window takes up a run that is known by now, and waits for no play"
+    with patch("ninja_game.editor.certify.Simulation") as played:
+        passed_by(level, [replace(run, body="box")])
+    played.assert_called_once_with(level, body="box")
 
 
 def test_a_search_of_what_no_file_holds_ends_with_the_level(room: Maker) -> None:
