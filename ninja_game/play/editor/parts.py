@@ -254,7 +254,7 @@ class ToolButton(Button):
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         tools, (x, y, w, h) = self.view.session.tools, self.area
-        lit = self.name == tools.tool or (self.name == "symmetry" and tools.symmetry != "off")
+        lit = self.name == tools.effective_tool or (self.name == "symmetry" and tools.symmetry != "off")
         theme.row(surface, self.area, chosen=lit, focused=lit, radius=3)
         self.enabled = {"undo": tools.history.can_undo, "redo": tools.history.can_redo}.get(self.name, True)
         grid, certify = self.view.grid.name, self.view.session.certify_text
@@ -299,7 +299,7 @@ class Toolbar(EditorPart):
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
         history = tools.history.can_undo, tools.history.can_redo
-        return tools.tool, tools.symmetry, self.view.grid, tools.snap, history, self.session.certify_text
+        return tools.effective_tool, tools.symmetry, self.view.grid, tools.snap, history, self.session.certify_text
 
 
 class PalettePart(EditorPart):

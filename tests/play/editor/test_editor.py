@@ -47,6 +47,7 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import Choice, Label
 from tests.support.draw_log import drawn, noted_texts
+from tests.support.layout import Layout, noted
 from tests.support.level_maker import ROOM, Maker
 from tests.support.waiting import LONGEST
 
@@ -907,6 +908,19 @@ def test_all_rows_about_several_drones_have_room_in_their_panel(room: Maker) -> 
     widgets = room.editor.properties.widgets
     assert any(getattr(each, "text", "") == "Kind..." for each in widgets)
     assert max(each.area[1] + each.area[3] for each in widgets) <= y + h - 7
+    with noted() as layouts:
+        layouts.append(Layout())
+        room.app._lay_out()
+        room.app.draw()
+    assert not layouts[0].shortened
+
+
+def test_the_tool_that_a_press_uses_is_lit(room: Maker) -> None:
+    room.press("i")
+    for key, lit in (("shift+k", "Brush"), ("shift+g", "Line"), ("shift+n", "Brush"), ("9", "Line")):
+        room.press(key)
+        bold = {tool for tool in ("Brush", "Line") if re.search(f"text '{tool}' .*bold", drawn(room.app))}
+        assert bold == {lit}, "doors and the ninja are placed one at a time"
 
 
 def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) -> None:
