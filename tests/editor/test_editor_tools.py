@@ -386,7 +386,8 @@ def test_a_quick_freehand_diagonal_is_one_band_with_slopes(
         (5, {(2, 5), (3, 4), (4, 3)}),
         (7, {(3, 6), (4, 5), (5, 4)}),
         (2, set()),
-        (15, set()),
+        (15, {(3, 6), (4, 5), (5, 4)}),
+        (31, set()),
     ],
 )
 def test_slopes_drawn_along_their_line_have_no_notch_behind_them(
