@@ -21,8 +21,6 @@ from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.files.writing import check_output
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.sim.kinds import DOOR
-from ninja_game.sim.level import makes_object, well_formed
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -190,19 +188,8 @@ def _facts(level: NamedLevel, by_goal: Mapping[str, Certified], files: Mapping[s
 
 def _warnings(level: NamedLevel, run: Replay | None) -> list[str]:
     """The findings of a level, and the locked doors that its run does not open."""
-    from ninja_game.levels.lint import level_warnings, object_name
-    from ninja_game.sim.arithmetic import is_set
-    from ninja_game.simulation import Simulation
+    from ninja_game.editor.certify import passed_by
+    from ninja_game.levels.lint import level_warnings
 
-    warnings = level_warnings(level.level, level.says)
-    specs = enumerate(filter(makes_object, level.level.objects))
-    locked = {id_: spec for id_, spec in specs if spec.kind == DOOR and well_formed(spec) and is_set(spec.values[6])}
-    if run and locked:
-        simulation = Simulation(level.level, body=run.body, memory="plain")
-        for keys in run.inputs:
-            simulation.step_keys(keys)
-            for event in simulation.events:
-                if event.name == "lock-opened" and event.object_id is not None:
-                    locked.pop(event.object_id, None)
-        warnings += [f"{object_name(spec, id_)}: the run does not open it" for id_, spec in locked.items()]
-    return warnings
+    unneeded = passed_by(level.level, [run]) if run else ()
+    return [*level_warnings(level.level, level.says), *(finding.sentence for finding in unneeded)]

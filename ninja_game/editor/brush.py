@@ -50,12 +50,12 @@ def tile_name(tile: int) -> str:
 
 def tile_key(tile: int) -> str:
     if tile in (EMPTY, FULL):
-        return "DE"[tile]
+        return "09"[tile]
     return next((f"{f.key} {QUARTERS[f.tiles.index(tile)].upper()}" for f in FAMILIES if tile in f.tiles), "")
 
 
 class ObjectType(NamedTuple):
-    """A type of object in the palette. ``key``: the name of its key; ``line``: its first properties."""
+    """A type of object in the palette. ``key``: its letter, pressed with Shift; ``line``: its first properties."""
 
     name: str
     key: str
@@ -71,26 +71,26 @@ class ObjectType(NamedTuple):
 OBJECT_TYPES = tuple(
     ObjectType(name, key, f"{name} {rest}")
     for name, key, rest in (
-        ("ninja", "9", "1,1"),
-        ("exit", "rightbracket", "1,1 switch 1,1"),
-        ("gold", "0", "1,1"),
-        ("mine", "3", "1,1"),
-        ("locked door", "o", "1,1 right switch 1,1"),
-        ("trap door", "p", "1,1 right switch 1,1"),
-        ("automatic door", "i", "1,1 right"),
-        ("one-way", "leftbracket", "1,1 up"),
-        ("launch pad", "equals", "1,1 up"),
-        ("bounce block", "minus", "1,1"),
-        ("thwump", "5", "1,1 down"),
-        ("floor guard", "4", "1,1"),
-        ("zap drone", "6", "1,1 surface-cw right"),
-        ("laser drone", "7", "1,1 alternating right"),
-        ("chaingun drone", "8", "1,1 alternating right"),
-        ("gauss turret", "1", "1,1"),
-        ("homing launcher", "2", "1,1"),
+        ("ninja", "n", "1,1"),
+        ("exit", "e", "1,1 switch 1,1"),
+        ("gold", "g", "1,1"),
+        ("mine", "i", "1,1"),
+        ("locked door", "k", "1,1 right switch 1,1"),
+        ("trap door", "r", "1,1 right switch 1,1"),
+        ("automatic door", "a", "1,1 right"),
+        ("one-way", "o", "1,1 up"),
+        ("launch pad", "p", "1,1 up"),
+        ("bounce block", "b", "1,1"),
+        ("thwump", "t", "1,1 down"),
+        ("floor guard", "f", "1,1"),
+        ("zap drone", "z", "1,1 surface-cw right"),
+        ("laser drone", "l", "1,1 alternating right"),
+        ("chaingun drone", "c", "1,1 alternating right"),
+        ("gauss turret", "u", "1,1"),
+        ("homing launcher", "h", "1,1"),
     )
 )
-"""All objects; the keys are Ned's (game.md §6)."""
+"""All objects; each key is a letter of the name, and no command's."""
 
 OBJECT_TYPE_NAMES = tuple(object_type.name for object_type in OBJECT_TYPES)
 

@@ -29,7 +29,7 @@ from ninja_game.sim.events import LOCK_OPENED
 from ninja_game.sim.grid import Cell, cell_of, is_inside, middle_of
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import DOOR, MOVING_ENEMIES, NINJA
-from ninja_game.sim.level import Level, ObjectSpec, makes_object
+from ninja_game.sim.level import Body, Level, ObjectSpec, makes_object
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND, TOP_SPEED, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import FALLING, JUMPING, OUTCOME_DEAD
 from ninja_game.simulation import Simulation
@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 
 COMPILING = "Compiling the solver, the first time on a machine a minute or more"
 
-SECONDS, STOPPED = 20.0, "Stopped"
-"""How long the solver looks for better runs; the end of a cancelled search."""
+SECONDS = 20.0
+"""How long the solver looks for better runs."""
 
 
 PathPoints = tuple[tuple[float, float], ...]
@@ -136,7 +136,7 @@ class Certification:
             self.run, self.route = run, route_of(self.level, run.inputs)
         if run.gold >= self.level.gold and (self.full is None or run.end_tick < self.full.end_tick):
             self.full = run
-        self.obstacles = passed_by(self.level, [known.inputs for known in (self.run, self.full) if known])
+        self.obstacles = passed_by(self.level, [known for known in (self.run, self.full) if known])
 
     @property
     def share(self) -> float:
@@ -144,9 +144,9 @@ class Certification:
 
 
 @lru_cache(maxsize=300)
-def _unlocked(level: Level, inputs: bytes) -> set[tuple[float, float]]:
+def _unlocked(level: Level, inputs: bytes, body: Body) -> set[tuple[float, float]]:
     """The places of the switches by which these inputs open doors, px. Cached, since the window's thread asks again."""
-    run, opened = Simulation(level), set[tuple[float, float]]()
+    run, opened = Simulation(level, body=body), set[tuple[float, float]]()
     for keys in inputs:
         run.step_keys(keys)
         events = run.world.events[: run.world.event_count]
@@ -154,11 +154,12 @@ def _unlocked(level: Level, inputs: bytes) -> set[tuple[float, float]]:
     return opened
 
 
-def passed_by(level: Level, runs: Sequence[bytes]) -> tuple[Finding, ...]:
+def passed_by(level: Level, runs: Sequence[Replay]) -> tuple[Finding, ...]:
     """The locked doors whose switches none of these runs touches."""
     made = [number for number, spec in enumerate(level.objects) if makes_object(spec)]
     names = [object_type_name(level.objects[number]) for number in made]
-    opened = {place for inputs in (runs if "locked door" in names else ()) for place in _unlocked(level, inputs)}
+    played = runs if "locked door" in names else ()
+    opened = {place for run in played for place in _unlocked(level, run.inputs, run.body)}
     findings = []
     for id_, (number, name) in enumerate(zip(made, names, strict=True)):
         spec = level.objects[number]
@@ -186,7 +187,7 @@ class Solver:
     def __init__(self) -> None:
         self.left: list[Certification] = []
         self.stopped: set[Level] = set()
-        self.at_work = Certification(end=STOPPED)
+        self.at_work = Certification(end="Stopped")
         self.job: NewestJob[Certification, None] = NewestJob(self._work, every=True)
 
     def _work(self, search: Certification) -> None:
@@ -206,7 +207,7 @@ class Solver:
             raise
         nothing = f"No run in {search.seconds:.0f} s: the first problem says why. F7 looks twice as long"
         search.end = search.end or ("Done" if search.run else nothing)
-        if search.then and search.end != STOPPED:
+        if search.then and not search.stopping.is_set():
             search.then(search)
 
 
@@ -228,7 +229,7 @@ class Certifier:
             gold = f", {search.run.gold} gold" if search.run.gold else ""
             shortening = ", shortening" if self.busy else ""
             return f"Certified: {seconds_text(search.run.end_tick)} s{gold}{shortening}"
-        if search.end == STOPPED and search.progress:
+        if search.stopping.is_set() and search.progress:
             return f"Stopped: no exit found in {search.progress.seconds:.0f} s"
         if search.end or search.level is None:
             return search.end
@@ -296,7 +297,7 @@ class Certifier:
     def stop(self) -> None:
         """Cancel the search; its results stay. It does not wait: kernels being compiled are finished first."""
         if self.busy:
-            self.search.end = STOPPED
+            self.search.end = "Stopped"
             self.solver.stopped |= {self.search.level} if self.search.level and not self.search.run else set()
             self.search.stopping.set()
 

@@ -318,6 +318,19 @@ def steps(cells: list[Cell]) -> list[Cell]:
     return [(min(a, b, key=lambda cell: cell[1])[0], max(a[1], b[1])) for a, b in pairwise(cells) if dist(a, b) > 1]
 
 
+def behind(cells: list[Cell], tile: int) -> list[Cell]:
+    """Of a line of slopes or curves, the cells on their solid side where two touch only at a corner."""
+    filling = (family.tiles for family in FAMILIES if family.key != "5")
+    quarter = next((tiles.index(tile) for tiles in filling if tile in tiles), -1)
+    return [
+        corner
+        for (dx, dy), of in _AIR.items()
+        for (ax, ay), (bx, by) in pairwise(cells if of == quarter else [])
+        if (ax, ay) != (bx, by)
+        for corner in {(ax - dx, ay), (ax, ay - dy)} & {(bx - dx, by), (bx, by - dy)}
+    ]
+
+
 def sloped(before: Draft, after: Draft) -> Draft:
     """The draft after a stroke of full or empty tiles, with slopes at the corners of rock that it touched.
 

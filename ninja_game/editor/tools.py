@@ -98,7 +98,7 @@ class EditorTools:
         self.tool, self.symmetry = "brush", "off"  #: one of TOOLS; a name
         self.nearest = True  #: whether doors go to the side of a cell nearest to the pointer, not to their own
         self.takes = TAKES[0]
-        self.objects, self.tile = False, brush.FULL  #: whether the brush draws the spec, not the tile
+        self.draws_objects, self.tile = False, brush.FULL  #: whether the brush draws the spec, not the tile
         self.spec: ObjectSpec = brush.object_of_type("gold")
 
     @property
@@ -117,12 +117,12 @@ class EditorTools:
     @property
     def about_objects(self) -> bool:
         """Whether keys are about objects: drawn, or selected."""
-        return self.objects or bool(self.selection.parts)
+        return self.draws_objects or bool(self.selection.parts)
 
     @property
     def effective_tool(self) -> str:
         """The tool that a press uses: a ninja, and an object with a switch to place, are placed one at a time."""
-        draws_one = self.objects and (self.spec.kind == NINJA or has_switch(self.spec))
+        draws_one = self.draws_objects and (self.spec.kind == NINJA or has_switch(self.spec))
         return "brush" if draws_one and self.tool not in ("select", "pick") else self.tool
 
     @property
@@ -188,11 +188,11 @@ class EditorTools:
     def _begin_to_draw(self, *, erase: bool) -> None:
         if self.effective_tool == "fill" and not erase:
             cells = stamps.filled(self.draft, self.cell)
-            middles = [middle_of(cell) for cell in cells if self.objects]
+            middles = [middle_of(cell) for cell in cells if self.draws_objects]
             objects = tuple(self.placed(*middle, "cell") for middle in middles)
-            self._change(stamps.Stamp({} if self.objects else dict.fromkeys(cells, self.tile), objects))
+            self._change(stamps.Stamp({} if self.draws_objects else dict.fromkeys(cells, self.tile), objects))
             return
-        many = not self.objects or self.spec.kind in (GOLD, MINE)
+        many = not self.draws_objects or self.spec.kind in (GOLD, MINE)
         drawn = Gesture(self.tool) if self.effective_tool in SHAPES else Gesture.DRAW if many else Gesture.DROP
         self._gesture = Gesture.ERASE if erase else drawn
         self.move(*self.pointer)
@@ -237,9 +237,9 @@ class EditorTools:
     def pick_up(self, what: int | ObjectSpec) -> None:
         self.finish()
         if isinstance(what, int):
-            self.tile, self.objects = what, False
+            self.tile, self.draws_objects = what, False
         elif brush.object_type_of(what) in brush.OBJECT_TYPE_NAMES:
-            self.spec, self.objects = what, True
+            self.spec, self.draws_objects = what, True
         if self.tool in ("select", "pick"):
             self.tool = "brush"
 
@@ -265,7 +265,7 @@ class EditorTools:
     @property
     def sets_slopes(self) -> bool:
         """Whether slopes set themselves where the tool draws: a box has the corners that it is given."""
-        return self.slopes and not self.objects and self.tool not in ("rectangle", "select", "pick")
+        return self.slopes and not self.draws_objects and self.tool not in ("rectangle", "select", "pick")
 
     @property
     def preview(self) -> Tiles:
@@ -278,23 +278,29 @@ class EditorTools:
         return self._previewed[1]
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
-        if not self.objects:
+        if not self.draws_objects:
             tile, cells = 0 if erasing else self.tile, stamps.covered("line", before, self.cell, 0.0)
             cells += stamps.steps(cells) if self.slopes and tile in (brush.EMPTY, brush.FULL) else []
-            self._change(stamps.Stamp(dict.fromkeys(cells, tile)))
+            self._change(stamps.Stamp(self._lined(cells, tile, self.draft)))
         elif erasing:
             self.delete_nearest()
         else:
             self._change(stamps.Stamp({}, (self.placed(*self.pointer),)))
 
+    def _lined(self, cells: list[Cell], tile: int, draft: Draft) -> Tiles:
+        """The tiles of a line; with automatic slopes full ones fill its notches, those on the solid side of slopes."""
+        notches = stamps.behind(cells, tile) if self.slopes else []
+        return {cell: brush.FULL for cell in notches if draft.tile(cell) == brush.EMPTY} | dict.fromkeys(cells, tile)
+
     def _draw_shape(self) -> None:
         """Tiles that fill it, or objects: they fill a box, and lie along a line or an ellipse."""
-        if not self.objects:
+        if not self.draws_objects:
             cells = stamps.covered(self._gesture, cell_of(*self._pressed_at), self.cell, self._bend)
-            if self.slopes and self._gesture == Gesture.LINE and self.tile in (brush.EMPTY, brush.FULL):
-                cells = stamps.joined(cells)
             tiles = dict.fromkeys(cells, self.tile)
-            if self.slopes and self._gesture == Gesture.ELLIPSE and self.tile == brush.FULL:
+            if self._gesture == Gesture.LINE:
+                ramp = self.slopes and self.tile in (brush.EMPTY, brush.FULL)
+                tiles = self._lined(stamps.joined(cells) if ramp else cells, self.tile, self.history.began)
+            elif self.slopes and self._gesture == Gesture.ELLIPSE and self.tile == brush.FULL:
                 column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
                 tiles = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
                 # Slopes of the shape remove no tiles.
@@ -447,7 +453,7 @@ class EditorTools:
         if self.selection:
             about = motion.about(*stamps.middle_of(self.draft, self.selection, quarter=bool(motion.xy)))
             return self._carry(self.selection, about)
-        elif self.objects:
+        elif self.draws_objects:
             self.spec = stamps.Stamp({}, (self.spec,)).carried(motion.about(36.0, 36.0)).objects[0]
             self.nearest = self.nearest and self.spec.kind != DOOR
         else:

@@ -423,7 +423,8 @@ class DropDown(Menu):
     @property
     def _box(self) -> Area:
         x, y, w, h = self._button
-        return x, y + h + 1, max(w, 110.0), 4 + self.row_height * len(self.rows())
+        wide = max(self.theme.width(text, self.size, bold=True) + 16 for text, _, _ in self.rows())
+        return x, y + h + 1, max(w, 110.0, wide), 4 + self.row_height * len(self.rows())
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN and not self._at(*self.theme.canvas.logical(event.pos)):

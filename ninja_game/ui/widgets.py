@@ -129,7 +129,7 @@ class Button(Widget):
         self.draw_base(surface, theme, focused=focused)
         colour = theme.palette.text if self.enabled else theme.palette.faint
         (x, y), height = self.centre, self.area[3]
-        write = partial(theme.text, surface, x=x, align="centre", width=self.area[2] - 2 * PAD)
+        write = partial(theme.text, surface, x=x, align="centre", width=self.area[2] - self.size)
         if self.detail:
             y, height = y - 9, height / 2
             write(text=self.detail, y=y + 14, size=10.5, colour=theme.palette.faint, height=height)

@@ -257,7 +257,7 @@ def test_pick_takes_objects_before_tiles(tools: EditorTools) -> None:
     tools.delete()
     assert forms(tools) == []
     drag(tools, (303, 300), pick=True)
-    assert (tools.objects, tools.tile) == (False, 7)
+    assert (tools.draws_objects, tools.tile) == (False, 7)
 
 
 def test_a_symmetric_stroke_is_erased_symmetrically(tools: EditorTools) -> None:
@@ -376,10 +376,34 @@ def test_a_quick_freehand_diagonal_is_one_band_with_slopes(
     # At every move of the mouse a cell on and a cell up or down.
     drag(tools, *((ax + (bx - ax) * k / 4, ay + (by - ay) * k / 4) for k in range(5)))
     assert picture(tools, range(2, 7), range(2, 7)) == rows
-    tools.undo()
-    before, tools.tile = tools.draft, 6
-    drag(tools, *((ax + (bx - ax) * k / 4, ay + (by - ay) * k / 4) for k in range(5)))
-    assert len(changed_cells(before, tools.draft)) == 5, "a slope in hand has no step that slopes join"
+
+
+@pytest.mark.parametrize("tool", ["brush", "line"])
+@pytest.mark.parametrize(
+    "tile, full",
+    [
+        (3, {(3, 6), (4, 5), (5, 4)}),
+        (5, {(2, 5), (3, 4), (4, 3)}),
+        (7, {(3, 6), (4, 5), (5, 4)}),
+        (2, set()),
+        (15, {(3, 6), (4, 5), (5, 4)}),
+        (31, set()),
+    ],
+)
+def test_slopes_drawn_along_their_line_have_no_notch_behind_them(
+    tools: EditorTools, tool: str, tile: int, full: set[tuple[int, int]]
+) -> None:
+    before = tools.draft
+    for slopes, notches in ((True, full), (False, set())):
+        tools.slopes, tools.tile, tools.tool = slopes, tile, tool
+        drag(tools, *((24 * k + 12, 24 * (8 - k) + 12) for k in range(2, 6)))
+        drawn = {cell: tools.draft.tile(cell) for cell in changed_cells(before, tools.draft)}
+        assert drawn == dict.fromkeys(notches, 1) | {(k, 8 - k): tile for k in range(2, 6)}
+        tools.undo()
+    tools.history.change(before.with_tiles(dict.fromkeys(full, 9)))
+    tools.slopes = True
+    drag(tools, *((24 * k + 12, 24 * (8 - k) + 12) for k in range(2, 6)))
+    assert {tools.draft.tile(cell) for cell in full} <= {9}, "what is there stays"
 
 
 def test_slopes_that_nobody_touched_stay_as_they_are(root: Path) -> None:

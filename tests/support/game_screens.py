@@ -323,7 +323,7 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
     examine(screen)
     driver.frames(3)
     yield "editor"
-    driver.press("grave", "o", "m")
+    driver.press("shift+k", "m")
     driver.mouse(500, 300)
     driver.mouse(520, 330, click=False)
     yield "editor-placing-a-switch"

@@ -86,10 +86,11 @@ class MenuDriver:
                 self.app.frame(ms)
 
     def press(self, *names: str) -> None:
-        """Press and release keys, named by their places, a picture after each."""
+        """Press and release keys, named by their places, perhaps with ``shift+``; a picture after each."""
         for name in names:
+            mod, code = pygame.KMOD_LSHIFT * ("shift+" in name), SCANCODES[name.removeprefix("shift+")]
             for kind in (pygame.KEYDOWN, pygame.KEYUP):
-                pygame.event.post(pygame.Event(kind, key=0, scancode=SCANCODES[name], mod=0, unicode=""))
+                pygame.event.post(pygame.Event(kind, key=0, scancode=code, mod=mod, unicode=""))
             self.frames(1)
 
     def type(self, text: str) -> None:

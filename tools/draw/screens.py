@@ -40,7 +40,7 @@ def editor_picture(folder: Path) -> pygame.Surface:
     run = load_replays(PACK / "certificates" / "00-4-locksmith.exit.replay.txt")[0]
     editor.session.tried(run.level, run.inputs)
     maker.frames()
-    maker.press("grave", "6")
+    maker.press("shift+z")
     maker.mouse(*maker.at(132, 204))
     maker.press("m")
     examine(editor)

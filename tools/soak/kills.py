@@ -130,7 +130,7 @@ def draw_level(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
         maker.choose("Recover")
     session = maker.editor.session
     while True:
-        maker.press(rng.choice(("e", "d", "1", "grave", "3", "m")))
+        maker.press(rng.choice(("9", "0", "1", "shift+g", "shift+i", "m")))
         maker.drag(*((rng.uniform(30, 760), rng.uniform(30, 570)) for _ in range(rng.randrange(1, 4))))
         session.tools.finish()
         digest = level_digest(session.draft.level)

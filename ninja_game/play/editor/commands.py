@@ -30,7 +30,7 @@ from ninja_game.play.editor.session import UNREACHABLE, EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, ask_text, nothing
+from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, Question, ask_text, nothing
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.panels.help import HelpPage
@@ -54,8 +54,8 @@ it begins; take the exit, click where it is, then where its switch is. Test play
 look for a run, Save (in File) puts it into the menu Levels.
 The right button erases, the middle one picks; the wheel zooms, then the middle one drags the level. \
 Doors go to the nearest side of a cell, or to the one chosen; then click where the switch is. \
-Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette shows, \
-+6 is Shift and 6; W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move \
+Tiles: 1 to 8 choose a shape, Q W A S its solid corner, 9 is full, 0 empty. Objects: Shift and the letter that the \
+palette shows; W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move \
 what is selected."""
 
 
@@ -66,8 +66,17 @@ IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certi
 
 IN_MORE = ("reach", "tests", "paths", "lines", "list", "slopes", "next_finding")
 
-STAMPS_SHOWN = 12
+STAMPS_SHOWN = 10
 """The most stamps in their menu, the newest."""
+
+_MIRRORS = {
+    "off": "off",
+    "left-right": "left-right: what you draw comes again on the other side",
+    "up-down": "up-down: what you draw comes again above or below",
+    "both": "both: what you draw comes again in all four quarters",
+    "point": "point: what you draw comes again, turned half round the middle",
+}
+"""The symmetries, and what they do."""
 
 _AGAIN = "Esc again opens the File menu, where Leave is too"
 
@@ -108,7 +117,7 @@ class EditorCommands(DocumentCommands):
             "takes": lambda: tools.take(following(TAKES, tools.takes)),
             "choose_all": tools.choose_all, "delete": tools.delete,
             "next_tool": lambda: self.run(following(TOOLS, tools.tool)),
-            "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
+            "swap": lambda: tools.pick_up(tools.tile if tools.draws_objects else tools.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
             "turn": lambda: view.turn(CLOCKWISE),
             "symmetry": lambda: self.mirror(following(list(SYMMETRIES), tools.symmetry)),
@@ -143,7 +152,31 @@ class EditorCommands(DocumentCommands):
         rows: list[MenuRow] = [("Keep as a stamp...", keep, "What is selected; without that, what was copied last")]
         files = sorted(self._stamps.glob(f"*{SUFFIX}"), key=lambda path: -path.stat().st_mtime)[:STAMPS_SHOWN]
         rows += [(path.stem, partial(self._load, partial(self._take_stamp, path)), short_path(path)) for path in files]
+        change: list[MenuRow] = [(path.stem, partial(self._change_stamp, path), short_path(path)) for path in files]
+        if files:
+            ask = partial(self.app.push, Menu(self.app, "Rename or delete which stamp?", [*change, CANCEL]))
+            rows.append(("Rename or delete...", ask, ""))
         self.app.push(Menu(self.app, "Stamps", [*rows, CANCEL]))
+
+    def _change_stamp(self, path: Path) -> None:
+        def rename(name: str) -> None:
+            if (stem := file_stem(name.strip(), path.stem)) != path.stem:
+                path.rename(free_path(self._stamps, stem, SUFFIX))
+
+        app, load = self.app, self._load
+        ask = partial(ask_text, app, f"Rename {path.stem}", "Name", path.stem, "Rename")
+        delete = Question(
+            app,
+            f"Delete the stamp {path.stem}?",
+            "Delete it",
+            partial(load, partial(path.unlink, missing_ok=True)),
+            short_path(path),
+        )
+        rows: list[MenuRow] = [
+            ("Rename...", lambda: ask(lambda name: load(partial(rename, name)), 40), ""),
+            ("Delete...", partial(app.push, delete), ""),
+        ]
+        app.push(Menu(app, path.stem, [*rows, CANCEL]))
 
     def _take_stamp(self, path: Path) -> None:
         self.session.tools.clipboard = stamp_of(open_source(path).draft)
@@ -163,13 +196,13 @@ class EditorCommands(DocumentCommands):
         """Do a command; one with several steps shows a list of them below its button."""
         tools, view = self.session.tools, self.view
         steps: dict[str, dict[str, Action]] = {
-            "symmetry": {symmetry: partial(self.mirror, symmetry) for symmetry in SYMMETRIES},
+            "symmetry": {_MIRRORS[symmetry]: partial(self.mirror, symmetry) for symmetry in SYMMETRIES},
             "grid": {grid.name: partial(view.show_grid, grid) for grid in GRIDS},
             "snap_next": {snap: partial(setattr, tools, "snap", snap) for snap in SNAPS},
         }
         rows: list[MenuRow] = [(label[0].upper() + label[1:], do, "") for label, do in steps.get(name, {}).items()]
         if rows:
-            now = {"symmetry": tools.symmetry, "grid": view.grid.name, "snap_next": tools.snap}[name]
+            now = {"symmetry": _MIRRORS[tools.symmetry], "grid": view.grid.name, "snap_next": tools.snap}[name]
             self.app.push(DropDown(self.app, button, rows, at=list(steps[name]).index(now)))
         else:
             self.run(name)
@@ -177,6 +210,7 @@ class EditorCommands(DocumentCommands):
     def mirror(self, symmetry: str) -> None:
         self.session.tools.finish()
         self.session.tools.symmetry = symmetry
+        self.view.hint = f"Mirror: {_MIRRORS[symmetry]}"
 
     def switch_slopes(self) -> None:
         tools = self.session.tools
@@ -198,7 +232,8 @@ class EditorCommands(DocumentCommands):
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with the next of the speeds, or hide it after the last."""
         self.session.next_start()
-        self.view.hint = ""
+        asks = self.session.start != "off" and not self.view.hovering
+        self.view.hint = "Point at a place in the level: it is shown what the ninja reaches from there" if asks else ""
 
     def go_to_finding(self, index: int) -> None:
         findings = self.session.examine()
@@ -231,7 +266,7 @@ class EditorCommands(DocumentCommands):
             level = with_ninja_at(session.draft, at) if at else session.draft.level
             screen = TryScreen(self.app, session, level, session.draft.says if says is None else says, entry)
         except LevelError as error:
-            self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
+            self.app.notify(f"{error.what}: Shift+N and a click places a ninja, F6 tests with one at the pointer")
             return
         self.app.push(screen)
 

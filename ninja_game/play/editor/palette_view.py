@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from functools import lru_cache
 from math import dist
 from typing import NamedTuple
@@ -168,7 +168,10 @@ Entry = int | brush.ObjectType
 """A tile or a type of objects."""
 
 _FAMILY_OF_KEY = {family.key: family for family in brush.FAMILIES}
-_OBJECT_TYPE_OF_KEY = {object_type.key: object_type for object_type in brush.OBJECT_TYPES}
+_ENTRY_OF_KEY: dict[str, Entry] = {
+    **{brush.tile_key(tile): tile for tile in (brush.EMPTY, brush.FULL)},
+    **{f"shift+{object_type.key}": object_type for object_type in brush.OBJECT_TYPES},
+}
 
 
 def live_changes(tools: EditorTools) -> dict[str, dict[str, str | int]]:
@@ -177,24 +180,17 @@ def live_changes(tools: EditorTools) -> dict[str, dict[str, str | int]]:
     return {name: CHANGES[name] for name in dict.fromkeys(names) if name in CHANGES}
 
 
-def entry_of_key(tools: EditorTools, key: str, taken: Collection[str]) -> Entry | None:
-    """What a key chooses: with tiles a digit chooses a family, a letter a quarter of it; all other keys choose objects.
+def entry_of_key(tools: EditorTools, key: str) -> Entry | None:
+    """What a key takes, whatever is in hand: a digit a tile, Shift and a letter an object.
 
-    With objects a digit chooses one of them; with Shift, it chooses in the other part. E and D choose tiles if they
-    change nothing. ``taken``: the letters that make changes (``live_changes``).
+    With tiles a letter of QUARTERS takes that quarter of the family in hand.
     """
-    shifted, key = key.startswith("shift+"), key.removeprefix("shift+")
-    if key in taken or (shifted and key not in _FAMILY_OF_KEY):
-        return None
-    if key in ("e", "d"):
-        return brush.FULL if key == "e" else brush.EMPTY
-    if tools.about_objects != shifted:
-        return _OBJECT_TYPE_OF_KEY.get(key)
     family = next((item for item in brush.FAMILIES if tools.tile in item.tiles), brush.FAMILIES[0])
-    place = family.tiles.index(tools.tile) if tools.tile in family.tiles else 0
     if key in _FAMILY_OF_KEY:
-        return _FAMILY_OF_KEY[key].tiles[place]
-    return family.tiles[brush.QUARTERS.index(key)] if key in list(brush.QUARTERS) else _OBJECT_TYPE_OF_KEY.get(key)
+        return _FAMILY_OF_KEY[key].tiles[family.tiles.index(tools.tile) if tools.tile in family.tiles else 0]
+    if key in list(brush.QUARTERS) and not tools.about_objects:
+        return family.tiles[brush.QUARTERS.index(key)]
+    return _ENTRY_OF_KEY.get(key)
 
 
 class PaletteView(Widget):
@@ -224,7 +220,7 @@ class PaletteView(Widget):
 
     @property
     def _in_hand(self) -> Entry:
-        if not self.tools.objects:
+        if not self.tools.draws_objects:
             return self.tools.tile
         return brush.OBJECT_TYPES[brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(self.tools.spec))]
 
@@ -233,7 +229,7 @@ class PaletteView(Widget):
         """The name of the entry under the mouse, or else of the chosen one; of objects with the key."""
         what = self._in_hand if self.hovered is None else self.hovered
         if isinstance(what, brush.ObjectType):
-            return f"{what.name.capitalize()} (key {key_label_of(what.key)})"
+            return f"{what.name.capitalize()} (Shift+{key_label_of(what.key)})"
         name = brush.tile_name(what)
         return f"{name[0].upper()}{name[1:]}"
 
@@ -258,7 +254,7 @@ class PaletteView(Widget):
         tools = self.tools
         if tools.bend(by):
             return
-        if tools.objects:
+        if tools.draws_objects:
             place = brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(tools.spec))
             tools.pick_up(brush.OBJECT_TYPES[(place + by) % len(brush.OBJECT_TYPES)].spec)
         else:
@@ -268,47 +264,39 @@ class PaletteView(Widget):
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         canvas, palette = theme.canvas, theme.palette
         x, y, w, _ = self.area
-        tools = self.tools
-        taken = set[str]().union(*live_changes(tools).values())
-        for text, top, high, lit in (("Tiles", y, 89, not tools.objects), ("Objects", y + 89, 126, tools.objects)):
+        objects = self.tools.draws_objects
+        for text, top, high, lit in (("Tiles", y, 89, not objects), ("Objects: Shift and", y + 89, 126, objects)):
             if lit:
                 lit_area = x - 3, top - 2, w + 5, high
                 canvas.fill_rect(surface, mixed(palette.panel, palette.accent, 0.2), *lit_area, 3)
                 canvas.frame_rect(surface, palette.accent, *lit_area, 1, 3)
-            label, size = (text, 10.0) if lit else (f"{text}: ` or Shift", 9.0)
-            theme.text(surface, label, x + 1, top + 2, size=size, bold=lit)
+            theme.text(surface, text, x + 1, top + 2, size=10, bold=lit)
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW
-            live = isinstance(entry_of_key(tools, family.key, taken), int)
-            self._draw_key(surface, theme, family.key, at, live=live)
+            self._draw_key(surface, theme, family.key, at)
         for entry, area in self.places():
             canvas.fill_rect(surface, palette.background, *area)
             at = canvas.point(area[0], area[1])
             surface.blit(self._icon(theme, entry, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
             if isinstance(entry, brush.ObjectType):
                 below = area[0] + OBJECT / 2 - 2.5, area[1] + OBJECT
-                self._draw_key(surface, theme, entry.key, below, live=entry_of_key(tools, entry.key, taken) is entry)
+                self._draw_key(surface, theme, entry.key, below)
             if entry in (brush.EMPTY, brush.FULL):
-                key = brush.tile_key(entry)
-                left_of = area[0] - 9, area[1] + 4
-                self._draw_key(surface, theme, key, left_of, live=entry_of_key(tools, key.lower(), taken) == entry)
+                self._draw_key(surface, theme, brush.tile_key(entry), (area[0] - 9, area[1] + 4))
                 canvas.frame_rect(surface, palette.panel_edge, *area)
             if entry == self._in_hand:
                 canvas.frame_rect(surface, palette.accent, *area, 2)
 
-    def _draw_key(self, surface: pygame.Surface, theme: Theme, key: str, at: Point, *, live: bool) -> None:
-        """The key of an entry, with + for Shift; none while the key means something else."""
-        if live or key in _FAMILY_OF_KEY:
-            text, left = (key_label_of(key), at[0]) if live else (f"+{key}", at[0] - 2.5)
-            theme.text(surface, text, left, at[1], size=8 if live else 7, height=KEY, bold=True)
+    def _draw_key(self, surface: pygame.Surface, theme: Theme, key: str, at: Point) -> None:
+        theme.text(surface, key_label_of(key), *at, size=8, height=KEY, bold=True)
 
     def _icon(self, theme: Theme, entry: Entry, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size
         if not isinstance(entry, brush.ObjectType):
             return tile_icon(entry, size, theme.palette.base.name)
         # The chosen entry with its present properties.
-        in_hand = self.tools.objects and brush.object_type_of(self.tools.spec) == entry.name
+        in_hand = self.tools.draws_objects and brush.object_type_of(self.tools.spec) == entry.name
         return object_icon(
             self.tools.spec if in_hand else entry.spec, size, theme.canvas.scale, theme.palette.base.name
         )

@@ -26,6 +26,7 @@ from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow, ask_text
 from ninja_game.play.workspace import Pane
 from ninja_game.sim.grid import cell_of
+from ninja_game.sim.kinds import DOOR, EXIT
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.rules import CELL
 from ninja_game.ui.list_view import ListView
@@ -37,8 +38,8 @@ ROW = 22.5
 
 FIRST_STEPS = (
     "First draw a floor; put the ninja",
-    "(9) on it, and the exit (]) with",
-    "its switch. F5 plays the level",
+    "(Shift+N) on it, and the exit",
+    "(Shift+E) with its switch. F5 plays",
 )
 """The panel's text for an empty level."""
 
@@ -57,8 +58,8 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
             kind,
             spec and tuple(points(spec).items()),
         )
-    drawn = object_type_name(tools.spec) if tools.objects else tools.tile
-    return tools.draft.level == Level(), tools.objects, drawn, tools.effective_tool in CURVES, _taking(tools)
+    drawn = object_type_name(tools.spec) if tools.draws_objects else tools.tile
+    return tools.draft.level == Level(), tools.draws_objects, drawn, tools.effective_tool in CURVES, _taking(tools)
 
 
 def _taking(tools: EditorTools) -> str:
@@ -98,7 +99,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
             ("Delete", tools.delete, TABLE.hint("delete")),
         ]
         rows.append(_row(last))
-    elif tools.selection or tools.objects:
+    elif tools.selection or tools.draws_objects:
         spec = tools.chosen or tools.spec
         title = f"{'Selected' if tools.selection else _taking(tools)}: {object_type_name(spec)}"
         rows += [_choice(tools, name) for name in properties(spec)]
@@ -116,7 +117,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         title = f"{_taking(tools)}: {tile_name(tools.tile)}"
         first = FIRST_STEPS if tools.draft.level == Level() else ()
         rows += [partial(Label, text=text, size=9.5) for text in first]
-        texts = ["1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn"]
+        texts = ["1 to 8: shape", "Q W A S: its solid corner", "9: full    0: empty", "H, J, U: mirror, flip, turn"]
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
         modes, set_slopes = [("slopes: by hand", False), ("slopes: by themselves", True)], view.session.set_slopes
         rows.append(lambda area: Choice(area, "", modes, lambda: tools.slopes, set_slopes, hint=TABLE.hint("slopes")))
@@ -253,7 +254,7 @@ class ToolButton(Button):
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         tools, (x, y, w, h) = self.view.session.tools, self.area
-        lit = self.name == tools.tool or (self.name == "symmetry" and tools.symmetry != "off")
+        lit = self.name == tools.effective_tool or (self.name == "symmetry" and tools.symmetry != "off")
         theme.row(surface, self.area, chosen=lit, focused=lit, radius=3)
         self.enabled = {"undo": tools.history.can_undo, "redo": tools.history.can_redo}.get(self.name, True)
         grid, certify = self.view.grid.name, self.view.session.certify_text
@@ -298,7 +299,7 @@ class Toolbar(EditorPart):
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
         history = tools.history.can_undo, tools.history.can_redo
-        return tools.tool, tools.symmetry, self.view.grid, tools.snap, history, self.session.certify_text
+        return tools.effective_tool, tools.symmetry, self.view.grid, tools.snap, history, self.session.certify_text
 
 
 class PalettePart(EditorPart):
@@ -314,7 +315,7 @@ class PalettePart(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return tools.about_objects, live_changes(tools), tools.tile, tools.spec, self._palette.hovered, tools.objects
+        return tools.tile, tools.spec, self._palette.hovered, tools.draws_objects
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
@@ -430,7 +431,7 @@ class FilePart(EditorPart):
         stale, run = certifier.is_stale(session.draft.level), certifier.search.run
         text = certifier.text or "Not certified yet: F7 looks for a way through it"
         if stale and certifier.busy:
-            text = "The solver looks at the level before the last change. F7: at this one"
+            text = "The level has changed: the search starts again once you pause, or now by F7"
         elif stale:
             text = f"{'Certified before' if run else 'Not certified since'} the last change: F7 again"
         elif run and not certifier.busy:
@@ -454,7 +455,8 @@ class StatusLine(EditorPart):
     def _text(self) -> str:
         tools = self.session.tools
         if tools.placing_switch:
-            return "Click where the switch is; Esc gives up"
+            what = object_type_name(tools.spec)
+            return f"Now the switch of the {what}: click where it is. Esc puts the {what} away"
         if tools.ghost:
             return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc gives up"
         messages = messages_at(tools.draft.says, tools.cell) if self.view.hovering else ()
@@ -463,9 +465,15 @@ class StatusLine(EditorPart):
         slopes = "Slopes by themselves. " if tools.sets_slopes else ""
         if tools.tool == "select" and tools.takes != TAKES[0]:
             slopes = f"Takes only {tools.takes}: Shift+V. "
-        start = self.session.start
-        shown = slopes + _TOOL_HINTS[tools.effective_tool] if start == "off" else _REACH.format(start)
-        return self.view.hint or (shown if start == "off" or self.session.reach else _NO_REACH)
+        start, shown = self.session.start, slopes + _TOOL_HINTS[tools.effective_tool]
+        if tools.draws_objects and tools.effective_tool == "brush" and tools.spec.kind in (DOOR, EXIT):
+            what, two = object_type_name(tools.spec), has_switch(tools.spec)
+            shown = (
+                f"Click where the {what} is{', then where its switch is' if two else ': it has no switch'}. F1: help"
+            )
+        if start != "off" and self.view.hovering:
+            shown = _REACH.format(start) if self.session.reach else _NO_REACH
+        return self.view.hint or shown
 
     def render_key(self) -> tuple[object, ...]:
         return self.session.tools.pointer, self.session.tools.framed, self._text(), self.view.camera.zoom
@@ -531,7 +539,7 @@ class ObjectList(EditorPart):
         super().__init__(view)
         x, y, w, h = self.area
         self.shown: list[int] = []
-        self._level = self.session.tools.history
+        self._history = self.session.tools.history
         self._state: tuple[object, ...] = ()
         hint = "A click selects it, with Shift too; what comes first is made first, and moves first"
         self.list = ListView((x + 2, y + 26, w - 6, h - 50), 15, self._draw_row, self._choose, empty="None", hint=hint)
@@ -552,8 +560,8 @@ class ObjectList(EditorPart):
 
     def update(self, real_ms: int) -> None:
         tools = self.session.tools
-        if tools.history is not self._level:
-            self._level = tools.history
+        if tools.history is not self._history:
+            self._history = tools.history
             self._find.show("")
         state = self._find.text, tools.draft.objects, tools.selection
         if len(state) == len(self._state) and all(a is b for a, b in zip(state, self._state, strict=True)):

@@ -128,7 +128,7 @@ class EditorScreen(WorkspaceScreen):
         if tools.tool == "select" and tools.selection and not self.view.by_keys:
             tools.nudge(dx, dy)
             return
-        snap = tools.snap if tools.objects or tools.tool == "select" else "cell"
+        snap = tools.snap if tools.draws_objects or tools.tool == "select" else "cell"
         x, y = tools.pointer
         step = SNAPS[snap]
         self.view.hovering = self.view.by_keys = True
@@ -143,7 +143,7 @@ class EditorScreen(WorkspaceScreen):
             return True
         if self._change_by_key(key):
             return True
-        what = entry_of_key(tools, key, ())
+        what = entry_of_key(tools, key)
         if what is None:
             return False
         tools.selection = Selection()

@@ -58,7 +58,7 @@ from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.grid import is_inside
-from ninja_game.sim.kinds import DRONE, EXIT
+from ninja_game.sim.kinds import DRONE, EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec, well_formed
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
@@ -71,6 +71,9 @@ UNREACHABLE = "unreachable", "unreachable-switch"
 
 CHECK_SPACING = 0.1
 """Least seconds between two examinations of the level."""
+
+REST = 1.0
+"""Seconds without a change after which a search begins again with the level as it is."""
 
 PICTURE_WIDTH = 1584
 
@@ -130,6 +133,7 @@ class EditorSession:
         self.last_death: PathPoints = ()  #: where the last of the tries died
         self._file_stamp, self._looked_at = NO_FILE, 0.0
         self._certified: tuple[object, ...] = ()
+        self._resting = self.draft.level, 0.0  #: the level, and when it became that, s
         self._asked: Question | None = None
         self._asked_at = 0.0
 
@@ -218,7 +222,7 @@ class EditorSession:
     def _follow_drone(self) -> None:
         """Look for the round of the drone that is selected, or in hand over the level."""
         tools = self.tools
-        in_hand = tools.objects and not tools.selection and tools.effective_tool not in ("select", "pick")
+        in_hand = tools.draws_objects and not tools.selection and tools.effective_tool not in ("select", "pick")
         spec = tools.chosen or (tools.placed(*tools.pointer) if in_hand and is_inside(tools.cell) else None)
         now = self.draft.level, spec if spec and spec.kind == DRONE and well_formed(spec) else None
         if now != self._drone:
@@ -238,8 +242,7 @@ class EditorSession:
         known, self._known_runs.result = self._known_runs.result, None
         if known and known.level == self.draft.level:
             self.certifier.adopt(known)
-        if self.certifier.waits and self.certifier.is_stale(self.draft.level) and not self.tools.history.in_stroke:
-            self.certifier.start(self.draft.level)
+        self._search_again()
         if not self.certifier.busy:
             self.certify_file()
         self.autosave.poll(self.tools.history, self.source)
@@ -259,6 +262,16 @@ class EditorSession:
             self._checks.ask(self._asked)
         if not self.tools.history.in_stroke and self.draft.objects is not self._objects:
             self._tell_of_exits()
+
+    def _search_again(self) -> None:
+        """A search under way follows the level: at once while it waits, else once nothing has changed for REST."""
+        certifier, level = self.certifier, self.draft.level
+        if level is not self._resting[0]:
+            self._resting = level, monotonic()
+        rests = not self.tools.history.in_stroke and (certifier.waits or monotonic() - self._resting[1] >= REST)
+        stale = rests and certifier.busy and certifier.is_stale(level)
+        if stale and {NINJA, EXIT} <= {spec.kind for spec in level.objects}:
+            certifier.start(level)
 
     def _tell_of_exits(self) -> None:
         """Say how to move the exit to a player who placed a second one."""

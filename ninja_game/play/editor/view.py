@@ -162,7 +162,7 @@ class Overlay:
             if target:
                 self.target.sprite(_ring("faint"), *points(tools.draft.objects[target[0]])[target[1]])
                 return
-        if not tools.objects or not draws:
+        if not tools.draws_objects or not draws:
             for cell, tile in tools.preview.items() if draws else ():
                 self._ghost_tile(cell, tile)
             for motion in motions:
@@ -359,7 +359,7 @@ class EditorView(Pane):
         """All that the overlay depends on; changes of the level are known to the sheet."""
         tools = self.session.tools
         return (
-            tools.pointer, self.hovering, tools.tool, tools.objects, tools.tile, tools.spec, tools.snap,
+            tools.pointer, self.hovering, tools.tool, tools.draws_objects, tools.tile, tools.spec, tools.snap,
             tools.symmetry, tools.slopes, tools.nearest, tools.ghost, tools.selection, tools.marquee,
             tools.placing_switch, tools.draft, self.session.reach and id(self.session.reach),
         )  # fmt: skip
@@ -381,7 +381,8 @@ class EditorView(Pane):
             surface.blit(self.sheet.surface, self.overlay.area)
         else:
             changed = self.overlay.restore(surface, dirty)
-        return [*changed, *self.overlay.draw(surface, tools, self.session.reach, hovering=self.hovering)]
+        reach = self.session.reach if self.hovering else None
+        return [*changed, *self.overlay.draw(surface, tools, reach, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
         session, palette = self.session, self.app.theme.palette

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from math import ceil, dist
+from dataclasses import replace
+from math import ceil, dist, inf
 from pathlib import Path
 from threading import Event
 from time import monotonic
@@ -111,8 +112,11 @@ def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
     assert certifier.text.startswith("Compiling the solver, ")
 
 
-def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(room: Maker) -> None:
+def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(
+    room: Maker, monkeypatch: pytest.MonkeyPatch
+) -> None:
     session = room.editor.session
+    monkeypatch.setattr("ninja_game.play.editor.session.REST", inf)
     assert session.certify_text == "Certify"
     run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
     for progress, best, said in (
@@ -127,9 +131,9 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(room: Maker)
     session.certifier.search = Certification(room.draft.level, seconds=20.0, progress=Progress(seconds=1.0))
     room.drag((300, 300))
     assert session.certify_text == "Certify", "it would search the level as it is now"
-    assert "The solver looks at" in drawn(room.app), "and so says the card"
+    assert "The level has changed" in drawn(room.app), "and so says the card"
     room.chord("z", pygame.KMOD_LCTRL)
-    assert (session.certify_text, "The solver looks at" in drawn(room.app)) == ("Stop 1 s", False)
+    assert (session.certify_text, "The level has changed" in drawn(room.app)) == ("Stop 1 s", False)
 
 
 def test_while_the_solver_is_compiled_its_seconds_are_shown_and_nothing_stops(
@@ -147,6 +151,31 @@ def test_while_the_solver_is_compiled_its_seconds_are_shown_and_nothing_stops(
     room.drag((300, 300))
     assert session.certifier.search.level == room.draft.level
     assert session.certify_text[0] == "3", "it goes on with the level as it is now, and counts on"
+
+
+def test_a_search_goes_on_with_the_changed_level_once_that_has_rested(
+    room: Maker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session, asked, clock = room.editor.session, list[Certification](), [1000.0]
+    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.play.editor.session.monotonic", lambda: clock[0])
+    monkeypatch.setattr(session.certifier.solver.job, "ask", asked.append)
+    search = session.certifier.search = Certification(room.draft.level, seconds=20.0, progress=Progress(seconds=5.0))
+    for place in ((300, 300), (400, 300)):
+        room.drag(place)
+        clock[0] += 0.9
+        room.frames()
+        assert (asked, search.end) == ([], ""), "each change begins the rest again"
+    assert "The level has changed" in drawn(room.app)
+    clock[0] += 0.2
+    room.frames()
+    assert ([each.level for each in asked], search.end) == ([room.draft.level], "Stopped")
+    session.certifier.search.progress = Progress(seconds=5.0)
+    session.tools.history.change(room.draft.with_objects(room.draft.objects[:1]))
+    for _ in range(2):
+        room.frames()
+        clock[0] += 2
+    assert len(asked) == 1, "there is no exit to look for yet"
 
 
 def test_a_search_that_waits_is_of_the_level_as_it_is_by_then(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -175,10 +204,13 @@ def test_a_door_that_the_certified_run_passes_by_is_told_of() -> None:
     (found,) = search_of(level, run).obstacles
     assert (found.code, found.records) == ("unneeded-door", (3,)), "the other switch lies on its way"
     assert found.sentence.startswith("locked door at 13,22"), "and it is named"
-    assert passed_by(ROOM.level, [run.inputs]) == ()
+    assert passed_by(ROOM.level, [run]) == ()
     with patch("ninja_game.editor.certify.Simulation") as played:
         search_of(level, run).take(run)
     assert not played.called, "the window takes up a run that is known by now, and waits for no play"
+    with patch("ninja_game.editor.certify.Simulation") as played:
+        passed_by(level, [replace(run, body="box")])
+    played.assert_called_once_with(level, body="box")
 
 
 def test_a_search_of_what_no_file_holds_ends_with_the_level(room: Maker) -> None:

@@ -9,7 +9,6 @@ from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.files import Source
 from ninja_game.editor.specs import BODY, points
 from ninja_game.editor.stamp import Selection, Stamp, put
-from ninja_game.editor.tools import EditorTools
 from ninja_game.files.bundled import bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.play.editor import palette_view
@@ -48,20 +47,6 @@ def test_what_is_asked_for_in_one_place_looks_as_it_does_in_its_own(monkeypatch:
     for spec, look in exact.items():
         assert rounded(quick[spec]) == rounded(look), spec
     assert sum(bool(look.sprites) for look in exact.values()) > 500
-
-
-def test_the_palette_asks_once_what_keys_do_to_all_that_is_selected(
-    room: Maker, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    asked: list[EditorTools] = []
-
-    def noted(tools: EditorTools) -> dict[str, dict[str, str | int]]:
-        asked.append(tools)
-        return {}
-
-    monkeypatch.setattr(palette_view, "live_changes", noted)
-    room.editor.sides[0].draw(room.app.surface, room.app.theme, None, whole=True)
-    assert asked == [room.editor.session.tools]
 
 
 def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Maker) -> None:

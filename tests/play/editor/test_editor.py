@@ -14,7 +14,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.document import History
 from ninja_game.editor import packs
-from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, object_type_of, placed
+from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed, tile_key
 from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Certification, Reach, with_ninja_at
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, new_source, open_source
@@ -27,7 +27,6 @@ from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.commands import TABLE, TryScreen
-from ninja_game.play.editor.palette_view import entry_of_key, live_changes
 from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import sign_mark
@@ -48,6 +47,7 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import Choice, Label
 from tests.support.draw_log import drawn, noted_texts
+from tests.support.layout import Layout, noted
 from tests.support.level_maker import ROOM, Maker
 from tests.support.waiting import LONGEST
 
@@ -74,13 +74,13 @@ def test_from_the_menu_a_level_is_drawn_by_mouse(maker: Maker) -> None:
     assert maker.draft.objects
 
 
-def test_keys_choose_draw_and_place_as_in_ned(room: Maker) -> None:
+def test_keys_choose_draw_and_place(room: Maker) -> None:
     tools = room.editor.session.tools
     room.press("4", "s")
     assert tools.tile == 7
-    room.press("9")
-    assert tools.objects, "no tile has this key: it picks what it stands on"
-    room.press("grave", "e", "right", "down")
+    room.press("shift+n")
+    assert tools.draws_objects
+    room.press("9", "right", "down")
     before = tools.cell
     pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=SCANCODES["space"], mod=0, unicode=" "))
     room.press("right", "right")
@@ -88,7 +88,7 @@ def test_keys_choose_draw_and_place_as_in_ned(room: Maker) -> None:
     room.frames()
     assert tools.cell == (before[0] + 2, before[1])
     assert [room.draft.tile((before[0] + k, before[1])) for k in range(3)] == [1, 1, 1]
-    room.press("grave", "5", "a", "space")
+    room.press("shift+t", "a", "space")
     assert room.draft.objects[-1].values[2] == 2.0
     room.press("v", "space")
     room.chord("left", pygame.KMOD_LSHIFT)
@@ -117,7 +117,7 @@ def test_a_stray_enter_draws_nothing_where_the_mouse_is(room: Maker) -> None:
 
 def test_the_next_exit_does_not_cover_a_switch_that_was_just_placed(maker: Maker) -> None:
     maker.open("Editor")
-    maker.press("grave", "rightbracket")
+    maker.press("shift+e")
     maker.drag((300, 300))
     maker.drag((372, 348))
     at_switch = maker.app.surface.copy()
@@ -174,7 +174,7 @@ def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -
 
 def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
     session = room.editor.session
-    room.press("grave", "3")
+    room.press("shift+i")
     room.drag((100, 540))  # a mine on the way to the exit
     plain = room.app.surface.copy()
     room.press("f9")
@@ -238,7 +238,7 @@ def test_a_level_without_a_ninja_cannot_be_tried_but_says_how(maker: Maker) -> N
 
 
 def test_problems_are_shown_where_they_are_and_a_click_goes_there(room: Maker) -> None:
-    room.press("grave", "2")
+    room.press("shift+h")
     room.drag((300, 564))
     session = room.editor.session
     room.wait(lambda: session.examined is room.draft.level, "findings")
@@ -275,7 +275,7 @@ def test_letters_typed_into_a_field_are_no_commands(room: Maker) -> None:
 
 
 def test_a_click_on_a_property_changes_the_selected_object(room: Maker) -> None:
-    room.press("grave", "leftbracket")
+    room.press("shift+o")
     room.drag((300, 300))
     room.press("v")
     room.drag((300, 300))
@@ -290,9 +290,11 @@ def test_a_click_on_a_property_changes_the_selected_object(room: Maker) -> None:
 def test_the_buttons_of_mirror_grid_and_snap_list_what_there_is(room: Maker, name: str, chosen: str) -> None:
     button = next(each for each in room.editor.widgets if getattr(each, "name", "") == name)
     room.mouse(*button.centre)
+    texts = [each.text for each in room.top().widgets]  # type: ignore[attr-defined]
+    chosen = next(text for text in texts if text.startswith(chosen))
     room.choose(chosen)
     tools, grid = room.editor.session.tools, room.editor.view.grid.name
-    assert {"symmetry": tools.symmetry, "grid": grid, "snap_next": tools.snap}[name] == chosen.lower()
+    assert {"symmetry": tools.symmetry, "grid": grid, "snap_next": tools.snap}[name] == chosen.lower().split(":")[0]
     room.mouse(*button.centre)
     assert getattr(room.shown(Menu).focus, "text", "") == chosen, "what there is now has the focus"
 
@@ -312,9 +314,9 @@ def test_every_command_runs_and_help_names_all_keys(room: Maker) -> None:
 
 def test_only_what_changed_is_drawn_again_and_it_is_the_same_picture(room: Maker) -> None:
     room.drag((100, 100), (200, 220))
-    room.press("grave", "o")
+    room.press("shift+k")
     room.drag((238, 300), (420, 420))
-    room.press("m", "0")
+    room.press("m", "shift+g")
     room.drag((500, 100), (560, 160))
     room.press("t", "g", "v")
     room.drag((60, 60), (300, 300))
@@ -464,7 +466,7 @@ def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
 
 def test_what_has_a_switch_is_not_filled_in(room: Maker) -> None:
     tools = room.editor.session.tools
-    tools.tool, tools.objects = "fill", False
+    tools.tool, tools.draws_objects = "fill", False
     assert tools.effective_tool == "fill"
     before = len(room.draft.objects)
     tools.pick_up(object_of_type("locked door"))
@@ -492,11 +494,15 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     before = room.app.surface.copy()
     room.press("y")
     status = next(each for each in room.editor.parts if isinstance(each, StatusLine))
+    assert status._text().startswith("Point at a place in the level")
+    room.mouse(*room.at(396, 541), click=False)
     assert session.reach or "compiled" in status._text()
     standing = shown(396, 541)
     assert status._text().startswith("In 1 s, standing, the ninja can be in the green, ")
     room.mouse(*LAYOUT.file[:2], click=False)
-    assert status._text().startswith("In 1 s, "), "as long as it is shown"
+    room.frames()
+    away = room.app.surface.copy()
+    assert not status._text().startswith("In 1 s, "), "the pointer has gone, and what is reached from it"
     standing = shown(396, 541)
     left, right = edges(standing)
     assert abs((396 - left) - (right - 396)) <= 2 * SQUARE, "standing, both sides are alike"
@@ -509,8 +515,9 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     top = min(y for _, y, _ in standing.spans)
     assert top <= jump.positions[:, 1].min() < top + 2 * SQUARE
     room.frames(2)
-    changed = pygame.mask.from_threshold(before, (0, 0, 0), (8, 8, 8, 255), room.app.surface).count()
-    assert before.get_width() * before.get_height() - changed > 3000
+    for without in (before, away):
+        alike = pygame.mask.from_threshold(without, (0, 0, 0), (8, 8, 8, 255), room.app.surface).count()
+        assert before.get_width() * before.get_height() - alike > 3000
     room.press("y")
     running = shown(396, 541)
     assert edges(running)[1] > right + 24, "with a run up it goes farther"
@@ -538,7 +545,7 @@ def test_arrows_move_what_the_mouse_has_selected_and_a_key_says_what_select_take
 
 
 def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_once(room: Maker) -> None:
-    room.press("grave", "leftbracket")
+    room.press("shift+o")
     for x in (204, 252, 300):
         room.drag((x, 300))
     room.press("v")
@@ -557,7 +564,7 @@ def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_onc
 
 
 def test_several_objects_are_aligned_spread_moved_and_changed_by_clicks_each_undone_at_once(room: Maker) -> None:
-    room.press("grave", "0", "z")
+    room.press("shift+g", "z")
     for x, y in ((204, 300), (232, 330), (300, 312)):
         room.drag((x, y))
     room.press("v")
@@ -599,10 +606,10 @@ def test_a_move_that_cannot_be_says_why(room: Maker, by: str) -> None:
 
 
 def test_the_list_of_objects_finds_selects_and_orders_them_by_clicks(room: Maker) -> None:
-    room.press("grave", "0")
+    room.press("shift+g")
     for x in (204, 252, 300):
         room.drag((x, 300))
-    room.press("3")
+    room.press("shift+i")
     room.drag((348, 300))
     listed, tools = room.editor.sides[1], room.editor.session.tools
     assert isinstance(listed, ObjectList)
@@ -649,7 +656,7 @@ def test_the_palette_says_what_is_in_hand_or_under_the_mouse(room: Maker, monkey
     assert "Hollow curve lower right" in said
     gold = next(area for what, area in room.editor.palette.places() if getattr(what, "name", "") == "gold")
     room.mouse(gold[0] + 5, gold[1] + 5, click=False)
-    assert "Gold (key 0)" in said
+    assert "Gold (Shift+G)" in said
     said.clear()
     room.mouse(*room.at(300, 300), click=False)
     assert "Hollow curve lower right" in said
@@ -669,8 +676,8 @@ def test_slopes_and_spacing_are_set_in_the_panel_and_the_wheel_bends_a_line(room
     assert "by themselves" in slopes.options[slopes.index][0]
     room.chord("s", pygame.KMOD_LSHIFT)
     assert "by hand" in slopes.options[slopes.index][0]
-    room.press("grave", "0")
-    room.chord("l", pygame.KMOD_LSHIFT)
+    room.press("shift+g")
+    room.press("i")
     spacing = room.editor.properties.widgets[-1]
     room.mouse(*spacing.centre)
     assert tools.spacing == 36.0
@@ -712,14 +719,13 @@ def test_the_panel_follows_what_is_dragged(room: Maker) -> None:
 
 
 def test_the_panel_names_the_type_that_is_in_hand_or_selected(room: Maker) -> None:
-    room.press("grave")
     titles = []
-    for key in ("i", "p", "o", "i"):
-        room.press(key)
+    for key in ("a", "r", "k", "a"):
+        room.press(f"shift+{key}")
         room.frames()
         titles.append(room.editor.properties.widgets[0].text)  # type: ignore[attr-defined]
     assert titles == ["Draw: automatic door", "Draw: trap door", "Draw: locked door", "Draw: automatic door"]
-    room.press("7")
+    room.press("shift+l")
     room.drag((300, 300))
     room.press("v")
     room.drag((500, 400))
@@ -754,7 +760,7 @@ def test_find_has_the_keys_from_the_start_until_it_is_left(room: Maker) -> None:
         room.wheel(1, 100, 540)
         room.type("gol")
         assert isinstance(find, TextEntry)
-        assert (find.text, tools.snap, tools.objects) == ("gol", "cell", False)
+        assert (find.text, tools.snap, tools.draws_objects) == ("gol", "cell", False)
         room.press(leave)
         room.type("x")
         assert (room.editor.focus, tools.snap, view.listing) == (None, "half", True)
@@ -774,7 +780,7 @@ def test_the_line_to_its_switch_is_drawn_for_what_is_selected_though_lines_are_h
 def test_the_wheel_changes_nothing_while_something_is_drawn(maker: Maker) -> None:
     maker.open("Editor")
     tools = maker.editor.session.tools
-    maker.press("grave", "0")
+    maker.press("shift+g")
     tools.tool = "ellipse"
     start = maker.app.canvas.point(*maker.at(200, 200))
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=start, rel=(0, 0), buttons=(0, 0, 0), touch=False))
@@ -840,23 +846,36 @@ def test_the_sign_of_a_finding_leaves_its_cause_visible(room: Maker) -> None:
         assert sheet.flat.rect(0, 0, 792, 600).inflate(8, 8).contains(rect)
 
 
-def test_only_keys_that_act_stand_in_the_palette_and_its_part_in_use_is_lit(room: Maker) -> None:
-    for part in ("Tiles", "Objects"):
-        shown = drawn(room.app)
-        labels = re.findall(r"text '(\+?\d)' at \S+ size [78] ", shown)
-        assert sorted(labels) == sorted(["9", "0", *"12345678", *(f"+{key}" for key in "12345678")])
-        assert re.search(f"text '{part}' .*bold", shown)
+def test_a_key_beside_an_entry_of_the_palette_takes_it_whatever_was_used_before(room: Maker) -> None:
+    tools, palette = room.editor.session.tools, room.editor.palette
+    commands = {key for command in TABLE.commands for key in command.keys}
+    digits = {str(number): number for number in (*range(10), *range(1, 9))}
+    letters = {f"shift+{each.key}": each for each in OBJECT_TYPES}
+    assert (len(letters), (digits.keys() | letters.keys()) & commands) == (len(OBJECT_TYPES), set())
+    before = (1, 6, object_of_type("gold"), object_of_type("zap drone"), object_of_type("locked door"), None)
+    for key in (*digits, *letters):
+        for used in before:
+            if used is None:
+                tools.choose(frozenset({(0, BODY)}))
+            else:
+                tools.pick_up(used)
+            room.press(key)
+            assert not tools.selection
+            if key in letters:
+                assert palette._in_hand is letters[key]
+            else:
+                assert not tools.draws_objects
+                assert tile_key(tools.tile)[0] == key
+    shown = []
+    for _ in ("objects", "tiles"):
+        shown.append(drawn(room.app))
         room.press("grave")
-
-
-def test_shift_and_a_digit_choose_in_the_other_part_of_the_palette(room: Maker) -> None:
-    tools = room.editor.session.tools
-    for key, objects, kind in (("6", True, "zap drone"), ("3", False, ""), ("3", True, "mine")):
-        room.chord(key, pygame.KMOD_LSHIFT)
-        assert tools.objects == objects
-        assert not kind or object_type_of(tools.spec) == kind
-    room.press("4")
-    assert object_type_of(tools.spec) == "floor guard"
+    for picture in shown:
+        assert sorted(re.findall(r"text '(\w)' at \S+ size 8 ", picture)) == sorted(
+            [*digits, *(each.key.upper() for each in OBJECT_TYPES)]
+        )
+        assert "text 'Objects: Shift and'" in picture
+    assert len(set(re.findall(r"text '(?:Tiles|Objects).*", "".join(shown)))) == 4, "the part in use is lit"
 
 
 def test_undo_and_redo_say_what_changed_until_the_next_change(room: Maker) -> None:
@@ -889,11 +908,24 @@ def test_all_rows_about_several_drones_have_room_in_their_panel(room: Maker) -> 
     widgets = room.editor.properties.widgets
     assert any(getattr(each, "text", "") == "Kind..." for each in widgets)
     assert max(each.area[1] + each.area[3] for each in widgets) <= y + h - 7
+    with noted() as layouts:
+        layouts.append(Layout())
+        room.app._lay_out()
+        room.app.draw()
+    assert not layouts[0].shortened
+
+
+def test_the_tool_that_a_press_uses_is_lit(room: Maker) -> None:
+    room.press("i")
+    for key, lit in (("shift+k", "Brush"), ("shift+g", "Line"), ("shift+n", "Brush"), ("9", "Line")):
+        room.press(key)
+        bold = {tool for tool in ("Brush", "Line") if re.search(f"text '{tool}' .*bold", drawn(room.app))}
+        assert bold == {lit}, "doors and the ninja are placed one at a time"
 
 
 def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) -> None:
     session, drone = room.editor.session, object_of_type("zap drone")
-    room.chord("6", pygame.KMOD_LSHIFT)
+    room.press("shift+z")
     room.mouse(*room.at(300, 540), click=False)
     room.wait(lambda: session.drone_round, "the round of the drone in hand")
     run = Simulation(put(room.draft, Stamp({}, (placed(drone, *session.tools.pointer, "cell"),))).level)
@@ -934,6 +966,50 @@ def test_what_is_selected_is_kept_as_a_stamp_for_every_level(room: Maker, tmp_pa
     room.choose("stairs-1")
     assert room.app.notice
     assert not tools.ghost
+
+
+def test_stamps_are_renamed_and_deleted(room: Maker, tmp_path: Path) -> None:
+    folder = tmp_path / "stamps"
+    folder.mkdir()
+    for name in ("hook", "step"):
+        (folder / f"{name}.txt").write_text(name)
+
+    def change(name: str, *choices: str) -> None:
+        room.mouse(*room.button("Stamps").centre)
+        for choice in ("Rename or delete...", name, *choices):
+            room.choose(choice)
+
+    change("hook", "Rename...")
+    room.fill("Step", "Rename")
+    change("step", "Rename...", "Rename")
+    assert {path.name: path.read_text() for path in folder.iterdir()} == {"step.txt": "step", "step-2.txt": "hook"}
+    change("step", "Delete...", "Cancel")
+    assert len(list(folder.iterdir())) == 2
+    change("step", "Delete...", "Delete it")
+    assert [path.name for path in folder.iterdir()] == ["step-2.txt"]
+    room.mouse(*room.button("Stamps").centre)
+    (folder / "step-2.txt").unlink()
+    for choice in ("Rename or delete...", "step-2", "Delete...", "Delete it"):
+        room.choose(choice)
+    assert not room.app.notice, "another program has been quicker"
+
+
+def test_the_line_below_says_which_clicks_a_door_takes_and_esc_puts_half_a_door_away(room: Maker) -> None:
+    before = room.draft
+    room.press("shift+a")
+    assert "Click where the automatic door is: it has no switch" in drawn(room.app)
+    room.press("shift+k")
+    assert "Click where the locked door is, then where its switch is" in drawn(room.app)
+    room.drag((300, 300))
+    assert "Now the switch of the locked door: click where it is" in drawn(room.app)
+    room.press("escape")
+    assert "Click where the locked door is" in drawn(room.app)
+    assert room.draft == before
+
+
+def test_the_line_below_says_what_the_symmetry_does_that_m_takes(room: Maker) -> None:
+    room.press("m")
+    assert "Mirror: left-right: what you draw comes again on the other side" in drawn(room.app)
 
 
 def test_a_click_beside_a_list_below_its_button_closes_it(room: Maker) -> None:
@@ -978,39 +1054,13 @@ def test_what_went_wrong_is_still_said_over_a_screen_that_opens_then(room: Maker
     assert room.app.notice == "What went wrong"
 
 
-def test_keys_of_objects_and_tiles_work_whatever_is_selected_or_in_hand(room: Maker) -> None:
+def test_the_panel_tells_which_letters_change_what_is_in_hand(room: Maker) -> None:
     tools = room.editor.session.tools
-    launch, mine = object_of_type("launch pad"), object_of_type("mine")
-    for key, spec in (("equals", launch), ("3", mine)):
-        tools.choose(frozenset({(0, 0)}))
-        room.press(key)
-        assert (tools.objects, tools.spec.kind, bool(tools.selection)) == (True, spec.kind, False)
-    for key, tile in (("e", 1), ("d", 0)):
-        tools.pick_up(mine)
-        room.press(key)
-        assert (tools.objects, tools.tile) == (False, tile)
-    tools.pick_up(object_of_type("zap drone"))
+    room.press("shift+z")
     before = tools.spec
     room.press("e")
-    assert tools.objects
+    assert tools.draws_objects
     assert tools.spec != before, "it has a movement"
-
-
-def test_the_palette_tells_which_keys_take_what_now(room: Maker) -> None:
-    """Each key that is shown live takes what it stands at, and no other one does."""
-    tools, palette = room.editor.session.tools, room.editor.palette
-    drone, door = object_of_type("zap drone"), object_of_type("locked door")
-    for in_hand in (1, 6, object_of_type("gold"), drone, door):
-        for key in (*"1234567890qwasednopi", "minus", "equals"):
-            tools.pick_up(in_hand)
-            taken = set[str]().union(*live_changes(tools).values())
-            claimed, before = entry_of_key(tools, key, taken), (tools.objects, tools.tile, object_type_of(tools.spec))
-            room.press(key)
-            if claimed is None:
-                assert (tools.objects, tools.tile, object_type_of(tools.spec)) == before
-            else:
-                assert palette._in_hand == claimed
-    room.press("grave", "grave", "6")
     labels = [each.text for each in room.editor.properties.widgets if isinstance(each, Label)]
     assert labels[1:] == ["Q E: movement", "W A S D: direction", "N: seeker"]
 
@@ -1107,7 +1157,7 @@ def test_a_middle_click_puts_nothing_that_is_in_hand(room: Maker) -> None:
 
 
 def test_a_second_exit_is_told_of(room: Maker) -> None:
-    room.press("grave", "rightbracket")
+    room.press("shift+e")
     room.drag((300, 300))
     assert not room.app.notice, "its switch is still in hand"
     room.drag((350, 300))

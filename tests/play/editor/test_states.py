@@ -48,11 +48,11 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     assert (listed._find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
     assert (session.tools.symmetry, session.start, session.tools.slopes) == ("left-right", "standing", True)
     room.press("escape")
-    room.press("grave", "6", "a", "r")
+    room.press("shift+z", "a", "r")
     session.begin(Source(ROOM))
     room.frames()
     assert (session.tools.symmetry, session.start, session.tools.slopes) == ("off", "off", True)
-    assert (session.tools.objects, session.tools.tool) == (False, "brush")
+    assert (session.tools.draws_objects, session.tools.tool) == (False, "brush")
     assert session.tools.spec == object_of_type("gold"), "nothing of the hand carries over"
     assert (listed._find.text, len(listed.shown)) == ("", 2)
     room.editor.focus = None
