@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from ninja_game.editor import packs
-from ninja_game.editor.packs import ReadyPack, missing_run
+from ninja_game.editor.ready_pack import ReadyPack, missing_run
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path

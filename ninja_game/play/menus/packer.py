@@ -9,7 +9,8 @@ from pathlib import Path
 from time import monotonic
 
 from ninja_game.editor.certify import SOLVER
-from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, Steps, make_ready, problems_of
+from ninja_game.editor.pack_steps import Steps
+from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, make_ready, problems_of
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
@@ -46,7 +47,7 @@ class Packer(Aside):
         self.desk: Screen | None = None  #: the screen of packs
         self.shown: Path | None = None  #: the pack that the desk shows
         self.obstacles: Obstacles = {}
-        self.steps = Steps()  #: what was done at the desk
+        self.steps = Steps(app.player.folder)  #: what was done at the desk
         self.busy = self._stopped = False
         self.text = ""  #: progress, or result
         self._result_text = ""

@@ -18,7 +18,7 @@ import pytest
 from ninja_game.editor import packs
 from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.files import ascii_text
-from ninja_game.editor.packs import Obstacles, ReadyPack, Say
+from ninja_game.editor.ready_pack import Obstacles, ReadyPack, Say
 from ninja_game.files.user_folder import DAILY, short_path
 from ninja_game.formats.links import write_link
 from ninja_game.formats.n14.level_string import level_digest
