@@ -266,8 +266,8 @@ def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:
     return new
 
 
-def bring(levels: Sequence[NamedLevel], path: Path, folder: Path) -> list[str]:
-    """Move levels into one of the player's folders; their files' names there.
+def bring(levels: Sequence[NamedLevel], path: Path, folder: Path, *, copy: bool = False) -> list[str]:
+    """Move levels into one of the player's folders; their files' names there. ``copy``: copy all of them.
 
     Those that are not the player's own are copied: from outside ``folder``, or in a received pack. Raises PackError for
     a received pack as goal.
@@ -277,6 +277,7 @@ def bring(levels: Sequence[NamedLevel], path: Path, folder: Path) -> list[str]:
     names = []
     for level in levels:
         file = Path(level.file)
-        foreign = folder not in file.parents or (file.parent / RECEIVED).exists()
-        names.append(file.name if file.parent == path else transfer(level, path, keep=foreign))
+        keep = copy or folder not in file.parents or (file.parent / RECEIVED).exists()
+        here = duplicate(path, level) if copy and file.parent == path else file.name
+        names.append(here if file.parent == path else transfer(level, path, keep=keep))
     return names

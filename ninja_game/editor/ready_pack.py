@@ -42,7 +42,7 @@ class ReadyPack:
 
     pack: Pack
     findings: list[PackFinding]  #: accepted or not
-    zipped: bytes  #: bytes of its zip
+    zipped: bytes  #: bytes of its zip; b"" before its problems are known to the player
     link: str  #: "" where it is too large for one
     notes: list[str]  #: what could not be done
 
@@ -85,7 +85,7 @@ def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Ob
 def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
     """The findings about a pack, accepted or not; one about a run that a search did not find says why it did not.
 
-    A level without a run to the exit has no finding about a missing run with all gold.
+    What follows from another of them is left out: such as a missing run with all gold where there is none to the exit.
     """
     problems, no_exit = list[PackFinding](), set[Level]()
     for finding in findings(pack, with_gold=True):
@@ -97,7 +97,22 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
             no_exit |= {level} if kind == "exit" else set()
             named_finding = finding._replace(values={}, odd=why, sought=_SOUGHT[kind])
         problems += [named_finding] if named_finding not in problems else []
-    return problems
+    causes = {(level_of(pack, finding.file), finding.code) for finding in problems}
+    return [finding for finding in problems if not _follows(pack, finding, causes)]
+
+
+def _follows(pack: Pack, finding: PackFinding, causes: set[tuple[str, str]]) -> bool:
+    """Whether a finding goes when another one about its level, by file and code, is mended."""
+    file = level_of(pack, finding.file)
+    begun = file not in pack.levels or pack.levels[file].level.objects
+    return any(
+        (file, cause) in causes and (finding.code in codes or (finding.sought and cause != "same-content"))
+        for cause, codes in {
+            "no-ninja": (*_MISSING, *(() if begun else ("no-exit", "same-content"))),
+            "no-exit": tuple(_MISSING),
+            "same-content": ("same-name",),
+        }.items()
+    )
 
 
 def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -248,6 +249,27 @@ def test_the_time_that_is_left_goes_by_the_time_that_was_measured(pack: Path, mo
     ]
     shares = [share for _, share in said if share is not None]
     assert shares == sorted(shares)
+
+
+def test_what_follows_from_a_problem_is_no_problem_of_its_own(pack: Path) -> None:
+    for name in ("Brick", "Mortar"):
+        packs.new_level(pack, name, "me")
+    shutil.copy(pack / LAST, pack / "twin.txt")
+    lines = (pack / FIRST).read_text("utf-8").splitlines()
+    picture = [line.replace("X", ".").replace("x", ".") if re.match(r" *\d+ \|", line) else line for line in lines]
+    (pack / FIRST).write_text("\n".join(picture), "utf-8")
+    (pack / RUN).unlink()
+    level = Pack(pack).levels["brick.txt"].level
+    obstacles = {(level, "exit"): level_finding("unreached-exit")}
+    codes = {file: list[str]() for file in ("brick.txt", "mortar.txt", "twin.txt", FIRST)}
+    for finding in ready_pack.problems_of(Pack(pack), obstacles):
+        codes.get(finding.file, []).append(finding.code)
+    assert codes == {
+        "brick.txt": ["single-level", "no-ninja"],
+        "mortar.txt": ["single-level", "no-ninja"],
+        "twin.txt": ["single-level", "same-content", "no-certificate"],
+        FIRST: ["no-exit", "unseen-message"],
+    }
 
 
 def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Path) -> None:

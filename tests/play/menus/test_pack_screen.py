@@ -15,7 +15,7 @@ from zipfile import ZipFile
 import pygame
 import pytest
 
-from ninja_game.editor import packs
+from ninja_game.editor import packs, ready_pack
 from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.files import ascii_text
 from ninja_game.editor.ready_pack import Obstacles, ReadyPack, Say
@@ -31,6 +31,7 @@ from ninja_game.play.menu_screen import BACK, FormPanel, MenuScreen
 from ninja_game.play.menus import pack_menus, pack_sharing
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
+from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.pack_shelves import GAP, PackCell
 from ninja_game.play.menus.packs import PackScreen
@@ -514,7 +515,7 @@ def test_a_pack_is_made_ready_in_the_background(
     driver.frames(ms=500)
     driver.choose("Zip and link all the same")
     assert "the link is in the clipboard" in driver.app.notice
-    zipped = driver.player.folder / "exports" / "laundry-1.zip"
+    zipped = driver.player.folder / "exports" / "laundry.zip"
     assert begun == [path, path]
     assert ZipFile(zipped).namelist()[0] == "laundry/pack.toml"
     saved, rest = f"Saved: {short_path(zipped)}", "the link is in the clipboard"
@@ -531,7 +532,7 @@ def test_a_pack_is_made_ready_in_the_background(
     driver.press("escape")
     assert screen.status.counts() == "8 levels in 2 episodes. Make ready will look for all gold in 8 levels. 0 problems"
     assert screen.status.counts()[:30] in drawn(driver.app)
-    assert "laundry-1.zip" in drawn(driver.app), "it stays"
+    assert "laundry.zip" in drawn(driver.app), "it stays"
     assert "Send the zip or the link" in drawn(driver.app)
     assert driver.button("Make ready")
     opened_folders: list[str] = []
@@ -540,7 +541,7 @@ def test_a_pack_is_made_ready_in_the_background(
     assert opened_folders == [zipped.parent.as_uri()]
     assert screen.packer.text == saved, "the clipboard may hold something else by now"
     driver.carry(screen.shelves.row_area(2), half(screen, 8))
-    assert screen.packer.text == "Changed since laundry-1.zip"
+    assert screen.packer.text == "Changed since laundry.zip"
     assert "Send the zip or the link" not in drawn(driver.app)
     driver.choose("Undo")
     assert screen.packer.text == saved
@@ -603,9 +604,52 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     assert (grid.episode and grid.episode.name) == "Wash day", "what is shown there is as new"
     driver.press("escape")
     assert driver.shown(PackScreen).packer.text == (
-        f"Saved: {short_path(driver.player.folder / 'exports' / 'laundry-1.zip')}"
+        f"Saved: {short_path(driver.player.folder / 'exports' / 'laundry.zip')}"
     )
     assert driver.button("Make ready")
+
+
+def test_what_is_wrong_is_asked_about_before_the_work_and_once(
+    driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    packs.describe(path, {"version": "1.1"})
+    packs.place(path, [packs.new_level(path, "Brick", "me")], 1)
+    later = [pack_finding("same-name", "00-0-first-steps.txt", other="x")]
+    begun = list[list[PackFinding]]()
+
+    def made(folder: Path, **_: object) -> ReadyPack:
+        pack = Pack(folder)
+        problems = [*ready_pack.problems_of(pack, {}), *(later if len(begun) == 1 else [])]
+        begun.append(problems)
+        return ReadyPack(pack, [each for each in problems if each.code == "no-ninja" or each in later], b"zip", "", [])
+
+    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
+    screen = opened(driver)
+
+    def asked(text: str) -> None:
+        driver.wait(lambda: driver.top() is not screen, "it asks")
+        assert driver.shown(MenuScreen).title == "Laundry: " + text
+        driver.frames(ms=500)
+
+    driver.choose("Make ready")
+    asked("1 open problem")
+    assert not begun, "before the work"
+    driver.choose("Show the problems")
+    assert [each.text for each in problem_page(driver).problems][:1] == [
+        "Brick: there is no ninja: the level cannot be played"
+    ]
+    driver.press("escape")
+    for zips in (["laundry-1.1.zip"], ["laundry-1.1.zip", "laundry-1.1-2.zip"]):
+        driver.choose("Make ready")
+        asked("1 open problem")
+        driver.choose("Make ready all the same")
+        driver.wait(lambda: not screen.packer.busy)
+        if len(zips) == 2:
+            asked("2 open problems")
+            driver.choose("Zip and link all the same")
+        assert screen.packer.saved
+        assert screen.packer.saved.name == zips[-1], "what is known is not asked about again, what is new is"
+    assert len(begun) == 2
 
 
 def test_what_was_made_ready_asks_only_at_its_own_desk(
@@ -900,6 +944,7 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         assert not screen.own_packs
         driver.choose("Paste link")
         assert "Laundry is among your packs now" in driver.app.notice
+        driver.choose("Not now")
         driver.wait(lambda: screen.status.present, "the problems are known")
         work = "Make ready will look for all gold in 8 levels"
         assert screen.status.counts() == f"8 levels in 2 episodes. {work}. 0 problems"
@@ -917,6 +962,7 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
         driver.choose("Keep both")
+        driver.choose("Not now")
         assert len(screen.own_packs) == 2, "it never goes over what is there unasked"
     assert layout(screen.path) == first
 
@@ -933,7 +979,8 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
         driver.frames()
 
     drop()
-    assert driver.app.notice == "Laundry is among your packs now: Enter plays it"
+    assert driver.app.notice == "Laundry is among your packs now"
+    driver.choose("Not now")
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     before = {file: file.read_bytes() for file in path.rglob("*") if file.is_file()}
     (made / "00-0-first-steps.txt").unlink()
@@ -944,6 +991,7 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
     assert driver.shown(MenuScreen).title == "You have Laundry in another version"
     assert "1 level new, 1 level changed, 1 level gone" in drawn(driver.app)
     driver.choose("Update it")
+    driver.choose("Not now")
     assert driver.app.notice == "Laundry: 1 level new, 1 level changed, 1 level gone"
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     assert Pack(path).index.version == "1.1"
@@ -953,6 +1001,66 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
     drop()
     driver.choose("Keep both")
     assert [each.name for each in screen.own_packs] == ["Laundry", "Laundry, 1.1"]
+
+
+def test_what_is_received_is_shown_on_a_card_before_the_desk(driver: MenuDriver, path: Path, tmp_path: Path) -> None:
+    packs.describe(path, {"version": "1.2", "comment": "Dry by noon"})
+    zipped = tmp_path / "laundry.zip"
+    zipped.write_bytes(Pack(path).files.zipped())
+    shutil.rmtree(path)
+    pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(zipped)))
+    driver.frames()
+    card = driver.shown(PackCard)
+    assert card.focus is driver.button("Play")
+    text = drawn(driver.app)
+    for said in ("Laundry", "by the ninja-game developers, 1.2", "8 levels in 2 episodes", "Dry by noon"):
+        assert f"text '{said}' at" in text
+    with patch.object(card._thumbnails, "draw") as draw:
+        drawn(driver.app)
+    assert draw.call_count == 4, "its picture"
+    driver.press("return")
+    assert driver.shown(EpisodeGrid).pack.name == "Laundry"
+    driver.press("escape")
+    screen = driver.shown(PackScreen)
+    driver.choose("Undo")
+    pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(zipped)))
+    driver.frames()
+    driver.choose("Edit a copy")
+    assert [(pack.name, pack.received) for pack in screen.own_packs] == [("Laundry", True), ("Laundry copy", False)]
+    assert screen.pack
+    assert screen.pack.name == "Laundry copy"
+
+
+def test_a_level_that_comes_from_elsewhere_is_moved_or_with_ctrl_copied_and_that_is_said(
+    driver: MenuDriver, path: Path
+) -> None:
+    own = driver.player.folder / "levels" / "mine.txt"
+    own.write_text((path / "00-0-first-steps.txt").read_text("utf-8").replace("First Steps", "Mine"), "utf-8")
+    screen = opened(driver)
+    screen.choose_tray("yours")
+    driver.frames(2)
+    free = screen.shelves.row_area(11)
+    for mods, done in ((pygame.KMOD_LCTRL, "Copied"), (0, "Moved")):
+        driver.carry(screen.tray.row_area(0), free, drop=False)
+        assert "with Ctrl, a copy" in drawn(driver.app)
+        pygame.key.set_mods(mods)
+        driver.mouse_up(free)
+        pygame.key.set_mods(0)
+        assert driver.app.notice == f"{done} Mine from your folder. Undo, or Ctrl+Z, takes it back"
+        assert (own.exists(), (path / "mine.txt").exists()) == (bool(mods), True)
+        driver.choose("Undo")
+        assert (own.exists(), (path / "mine.txt").exists()) == (True, False)
+    driver.app.notify("")
+    driver.carry(screen.shelves.row_area(1), free, drop=False)
+    pygame.key.set_mods(pygame.KMOD_LCTRL)
+    driver.mouse_up(free)
+    pygame.key.set_mods(0)
+    assert driver.app.notice.startswith("Copied First Steps from Laundry")
+    assert layout(path)[1][3:] == ["firs"]
+    assert layout(path)[0][0] == "00-0"
+    driver.app.notify("")
+    driver.carry(screen.shelves.row_area(1), half(screen, 4))
+    assert driver.app.notice == "", "within the pack it is seen"
 
 
 def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: Path) -> None:
@@ -993,6 +1101,7 @@ def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Pat
         driver.press("escape")
         driver.choose("Paste link")
         driver.choose("Receive it once more")
+        driver.choose("Not now")
     assert [bool(pack.received) for pack in screen.own_packs] == [False, True]
     assert (screen.pack and screen.pack.received, screen.focus) == (True, screen.play_button)
 
@@ -1233,14 +1342,25 @@ def test_a_pack_needs_no_author_but_is_asked_for_one(driver: MenuDriver, monkeyp
     assert driver.player.settings.name == ""
     begun: list[Path] = []
     monkeypatch.setattr(screen.packer, "start", begun.append)
+    (screen.path / "pars.toml").touch()
     for author, asked in (("", True), ("ida", True), ("ida", False)):
         driver.choose("Make ready")
         if asked:
-            assert driver.shown(FormPanel).title == "Who made this pack?"
-            driver.fill(author, "Make ready")
+            form = driver.shown(FormPanel)
+            assert (form.title, form.focus) == ("What players see", form.widgets[1])
+            form.texts[1] = author
+            driver.choose("Make ready")
         assert Pack(screen.path).index.author == author
-    assert begun == [screen.path] * 3
     assert driver.player.settings.name == "ida"
+    (screen.path / "pars.toml").unlink()
+    driver.choose("Make ready")
+    form = driver.shown(FormPanel)
+    assert form.focus is form.widgets[3], "once for what it is about, too"
+    form.texts[3] = "About walls"
+    driver.choose("Make ready")
+    assert Pack(screen.path).index.comment == "About walls"
+    driver.choose("Make ready")
+    assert begun == [screen.path] * 5
 
 
 def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver) -> None:
