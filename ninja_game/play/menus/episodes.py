@@ -6,7 +6,9 @@ from collections.abc import Iterable, Sequence
 
 import pygame
 
+from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import shown_text
+from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Episode, EpisodeSet
@@ -20,6 +22,7 @@ from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import EpisodeSession, unfinished_run
 from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, tally, worst_medal
+from ninja_game.runtime import in_page_or_not
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR, ListView
 from ninja_game.ui.medals import MEDALS, draw_all_gold, draw_medal
@@ -182,6 +185,29 @@ class EpisodeGrid(ThumbnailScreen):
         return f"Enter: play this episode    {self.app.controls.name('link')}: copy a link to the pack"
 
     @property
+    def _is_lent(self) -> bool:
+        """Whether the pack is a zip or link that is none of the player's files."""
+        return self.pack.path in self.player.catalogue.more and not (self.pack.changeable or self.previews)
+
+    def _keep(self) -> None:
+        """Put a pack that was opened from elsewhere among the player's."""
+        from ninja_game.editor.packs import copy_pack, same_pack  # it needs NumPy, which takes a moment
+
+        catalogue, pack = self.player.catalogue, self.pack.pack
+        if pack is None:
+            return
+        path = next((own.path for own in self.packs if own.changeable and own.pack and same_pack(own.pack, pack)), None)
+        try:
+            path = path or copy_pack(pack, self.player.folder / LEVELS, pack.name, received=True)
+        except (NinjaGameError, OSError) as error:
+            self.app.notify(reason(error))
+            return
+        catalogue.more.remove(pack.files.path)
+        self._set_pack(next(own.key for own in catalogue.packs() if own.path == path))
+        self.enter()
+        self.app.notify(f"{shown_text(pack.name)} is among your packs now")
+
+    @property
     def _below(self) -> float:
         return TOP + self.grid.area[3] + 14
 
@@ -197,6 +223,10 @@ class EpisodeGrid(ThumbnailScreen):
         area = LEFT, self._below, WIDE, 30
         self.practice = setting_choice(self.app, area, "Practice mode", "practice", hint=PRACTICE_HINT)
         problems = problems_button(self.app, (LEFT, 546, WIDE, 18), lambda: self.problems)
+        if self._is_lent:
+            keep = Button((SIDE + 178, 64, 90, 30), "Keep it", self._keep)
+            keep.hint = "It goes among your packs, and is offered here whenever you play"
+            problems += in_page_or_not([], [keep])
         if len(self.packs) < 2:
             practice = [] if self.previews else [self.practice]
             return [self.grid, self.play, *practice, self.rows, *problems]
@@ -268,7 +298,8 @@ class EpisodeGrid(ThumbnailScreen):
             theme.text(surface, "No episodes", SIDE, 66, size=16, colour=palette.faint, bold=True)
             return
         head = f"{episode.code}  {episode.name}"
-        theme.text(surface, head, SIDE, 66, size=16, bold=True, width=264)
+        room = 174 if self._is_lent else 264
+        theme.text(surface, head, SIDE, 66, size=16, bold=True, width=room)
         best = self.player.records.episode_best(episode.key)
         clock = f"Your best: {seconds_text(best.score)} s left on the clock" if best else ""
         count = len(episode.levels)

@@ -6,13 +6,15 @@ import shutil
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
+from unittest.mock import patch
 
 import pygame
 import pytest
 
+from ninja_game.editor.packs import same_pack
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import LEVELS
-from ninja_game.formats.pack.pack import is_pack
+from ninja_game.formats.pack.pack import Pack, is_pack
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import daily_file
 from ninja_game.play.level.screen import LevelScreen
@@ -20,6 +22,7 @@ from ninja_game.play.main import first_screen
 from ninja_game.play.menus.browser import Browser, LevelChoice
 from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.player.progress import Mark, next_par, reached
@@ -34,6 +37,46 @@ def other_pack(folder: Path, numbers: tuple[int, ...] = (2, 17)) -> Path:
     episodes = "".join(f'[[episode]]\nnumber = {n}\nlevels = ["00-0-first-steps.txt"]\n' for n in numbers)
     (folder / "pack.toml").write_text(f'name = "Other"\ncolumns = ["Left", "Right"]\n{episodes}')
     return folder
+
+
+def test_a_zip_that_is_only_played_can_be_kept(driver: MenuDriver, tmp_path: Path) -> None:
+    zipped = tmp_path / "washing.zip"
+    zipped.write_bytes(Pack(PACK).files.zipped())
+    other_pack(driver.player.folder / LEVELS / "a")
+    index = driver.player.folder / LEVELS / "a" / "pack.toml"
+    index.write_text(index.read_text("utf-8").replace('"Other"', '"test pack"'), "utf-8")
+    for _ in range(2):
+        driver.app.push(first_screen(str(zipped), None, body="circle", practice=False)(driver.app))
+        grid = driver.shown(EpisodeGrid)
+        driver.frames()
+        with patch("ninja_game.editor.packs.copy_pack", side_effect=PermissionError(13, "Permission denied")) as copy:
+            driver.choose("Keep it")
+            refused = copy.called
+        if refused:
+            assert "ermission denied" in driver.app.notice
+            driver.choose("Keep it")
+        assert driver.app.notice == "test pack is among your packs now"
+        kept = driver.player.folder / LEVELS / "test-pack"
+        assert (grid.pack.path, grid.pack.received) == (kept, True), "not the other one of that name"
+        assert not [widget for widget in grid.widgets if getattr(widget, "text", "") == "Keep it"]
+        driver.app.pop()
+    assert not refused, "it is there already"
+    assert sorted(path.name for path in kept.parent.iterdir()) == ["a", "test-pack"]
+    assert same_pack(Pack(kept), Pack(zipped))
+    driver.app.push(first_screen(str(kept), None, body="circle", practice=False)(driver.app))
+    assert not [widget for widget in driver.shown(EpisodeGrid).widgets if getattr(widget, "text", "") == "Keep it"]
+
+
+def test_a_zip_that_is_dropped_on_the_first_screen_is_received(driver: MenuDriver, tmp_path: Path) -> None:
+    zipped = tmp_path / "washing.zip"
+    zipped.write_bytes(Pack(PACK).files.zipped())
+    pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(zipped)))
+    driver.frames(2)
+    assert driver.shown(PackCard).title == "test pack"
+    driver.choose("Not now")
+    driver.shown(PackScreen)
+    driver.press("escape")
+    driver.shown(Browser)
 
 
 def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None:
@@ -105,6 +148,7 @@ def test_zip_dropped_on_the_list_of_levels_is_received_as_a_pack(driver: MenuDri
     assert isinstance(browser, Browser)
     pygame.event.post(pygame.Event(pygame.DROPFILE, file=zipped))
     driver.frames(2)
+    driver.choose("Not now")
     assert [(pack.name, pack.received) for pack in driver.shown(PackScreen).own_packs] == [("Other", True)]
     driver.press("escape")
     assert browser.message == ""
