@@ -33,7 +33,7 @@ from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.pack_list import PackList
-from ninja_game.play.menus.pack_shelves import GAP, PackCell
+from ninja_game.play.menus.pack_shelves import GAP, PackCell, Rack
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
@@ -60,6 +60,14 @@ def pack_of_the_player(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> P
     index = path / "pack.toml"
     index.write_text(index.read_text("utf-8").replace("test pack", "Laundry"), "utf-8")
     return path
+
+
+@pytest.fixture(name="screen")
+def desk(driver: MenuDriver, request: pytest.FixtureRequest) -> PackScreen:
+    """The desk; with the player's pack, where a test asks for that too."""
+    if "path" in request.fixturenames:
+        request.getfixturevalue("path")
+    return opened(driver)
 
 
 def opened(driver: MenuDriver) -> PackScreen:
@@ -92,14 +100,32 @@ def typed(driver: MenuDriver, text: str) -> None:
     driver.fill(text, "OK")
 
 
+def titles(rack: Rack) -> list[str]:
+    return [cell.level.title for cell in rack.cells if cell.level]
+
+
+def pasted(driver: MenuDriver, link: str) -> None:
+    with patch("pygame.scrap.get_text", lambda: link):
+        driver.choose("Paste link")
+
+
+def copied_links(driver: MenuDriver) -> list[str]:
+    """The links that a click on the button puts into the clipboard."""
+    links: list[str] = []
+    with patch("pygame.scrap.put_text", links.append):
+        driver.choose("Copy the link")
+    return links
+
+
 def half(screen: PackScreen, index: int, *, right: bool = False) -> Area:
     """A half of a cell on the shelves."""
     x, y, w, h = screen.shelves.row_area(index)
     return x + right * w / 2, y, w / 2, h
 
 
-def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(
+    driver: MenuDriver, path: Path, screen: PackScreen
+) -> None:
     shelves = screen.shelves
     driver.carry(shelves.row_area(1), half(screen, 5, right=True), drop=False)
     x, y, w, _ = shelves.row_area(5)
@@ -121,8 +147,7 @@ def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriv
     assert layout(path)[1] == ["01-0", "01-1", "01-2", "00-0"]
 
 
-def test_cards_make_room_where_a_level_would_land(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_cards_make_room_where_a_level_would_land(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     shelves = screen.shelves
 
     def pictures() -> list[tuple[float, float]]:
@@ -148,9 +173,8 @@ def click(driver: MenuDriver, area: Area, mods: int = 0) -> None:
 
 
 def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_once(
-    driver: MenuDriver, path: Path
+    driver: MenuDriver, path: Path, screen: PackScreen
 ) -> None:
-    screen = opened(driver)
     shelves, steps = screen.shelves, screen.packer.steps
     place = shelves.row_area
     click(driver, place(1))
@@ -201,14 +225,13 @@ def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_onc
     assert (driver.top(), screen.marked) == (screen, set())
 
 
-def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     shelves = screen.shelves
     driver.carry(shelves.row_area(2), half(screen, 8))
     assert layout(path) == {0: ["00-0", "00-2", "00-3", "00-4"], 1: ["01-0", "00-1", "01-1", "01-2"]}
     driver.carry(shelves.row_area(1), screen.tray.area)
     assert layout(path)[0] == ["00-2", "00-3", "00-4"]
-    assert [cell.level.title for cell in screen.tray.cells if cell.level] == ["First Steps"]
+    assert titles(screen.tray) == ["First Steps"]
     driver.carry(screen.tray.row_area(0), shelves.row_area(13))
     assert layout(path)[2] == ["00-0"], "a row below the others is a new episode"
     assert [each.name for each in Pack(path).index.episodes][2] == "Episode 3"
@@ -253,15 +276,13 @@ def test_ones_own_level_with_its_certificate_is_certified(driver: MenuDriver, pa
         (path / "received").unlink(missing_ok=True)
 
 
-def test_a_full_episode_says_so(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_full_episode_says_so(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     driver.carry(screen.shelves.row_area(7), screen.shelves.row_area(2))
     assert "episode 1 is full" in driver.app.notice
     assert layout(path)[1] == ["01-0", "01-1", "01-2"]
 
 
-def test_keys_alone_move_a_level(driver: MenuDriver, path: Path) -> None:
-    opened(driver)
+def test_keys_alone_move_a_level(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     driver.press("right", "return")
     driver.choose("Move...")
     driver.press("down", "return")
@@ -289,7 +310,7 @@ def test_a_pad_alone_makes_a_pack_with_a_level_and_edits_it(driver: MenuDriver) 
     button("a")
     button("dpad-down")
     button("a")
-    assert [cell.level.title for cell in screen.shelves.cells if cell.level] == ["New level"]
+    assert titles(screen.shelves) == ["New level"]
     assert driver.shown(EditorScreen).session.source.path == screen.path / "new-level.txt"
     driver.shown(EditorScreen).session.close()
 
@@ -312,8 +333,7 @@ def test_a_level_of_the_players_folder_goes_into_the_pack_and_one_of_the_game_is
     assert "cannot be changed: it is the game's own" in driver.app.notice
 
 
-def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     for index, entry, text in ((1, "Rename...", "Early steps"), (0, "Rename...", "Falls"), (0, "New level...", "New")):
         driver.mouse(*(value + 20 for value in screen.shelves.row_area(index)[:2]))
         driver.mouse(*(value + 20 for value in screen.shelves.row_area(index)[:2]))
@@ -394,9 +414,7 @@ def test_the_page_of_a_pack_without_problems_offers_what_comes_next(
     page.problems = problem_page(driver).problems
     driver.shown(ProblemsScreen).list.index = len(page.problems) - 1
     driver.shown(ProblemsScreen)._offer()
-    copied: list[str] = []
-    with patch("pygame.scrap.put_text", copied.append):
-        driver.choose("Copy the link")
+    copied = copied_links(driver)
     assert len(copied) == 1
     assert driver.top() is screen
 
@@ -455,8 +473,9 @@ def test_a_check_that_fails_ends_the_wait_for_it(
     assert [problem.text for problem in problems_of(driver, screen)] != ["the disk cannot be read"]
 
 
-def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(driver: MenuDriver) -> None:
-    screen = opened(driver)
+def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(
+    driver: MenuDriver, screen: PackScreen
+) -> None:
     assert "a zip to drop here" in drawn(driver.app)
     driver.choose("New pack...")
     typed(driver, "Walls")
@@ -545,9 +564,7 @@ def test_a_pack_is_made_ready_in_the_background(
     assert "Send the zip or the link" not in drawn(driver.app)
     driver.choose("Undo")
     assert screen.packer.text == saved
-    copied: list[str] = []
-    with patch("pygame.scrap.put_text", copied.append):
-        driver.choose("Copy the link")
+    copied = copied_links(driver)
     assert copied[0].endswith(ready.link)
 
 
@@ -860,8 +877,7 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
     driver.wait(lambda: states() == ["Walk: certified"], "its card says so")
 
 
-def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     screen.packer.path, screen.packer.saved, screen.packer.text = path, path.with_suffix(".zip"), "Saved: laundry.zip"
     for answer, there in (("Cancel", True), ("Delete it", False)):
         driver.choose("More...")
@@ -930,8 +946,7 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     assert list(layout(path)) == [1]
 
 
-def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     clipboard = [""]
     with patch("pygame.scrap.put_text", clipboard.append), patch("pygame.scrap.get_text", lambda: clipboard[-1]):
         driver.choose("Copy the link")
@@ -975,8 +990,7 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
 
     def drop() -> None:
         zipped.write_bytes(Pack(made).files.zipped())
-        pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(zipped)))
-        driver.frames()
+        driver.drop_file(zipped)
 
     drop()
     assert driver.app.notice == "Laundry is among your packs now"
@@ -1008,8 +1022,7 @@ def test_what_is_received_is_shown_on_a_card_before_the_desk(driver: MenuDriver,
     zipped = tmp_path / "laundry.zip"
     zipped.write_bytes(Pack(path).files.zipped())
     shutil.rmtree(path)
-    pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(zipped)))
-    driver.frames()
+    driver.drop_file(zipped)
     card = driver.shown(PackCard)
     assert card.focus is driver.button("Play")
     text = drawn(driver.app)
@@ -1023,8 +1036,7 @@ def test_what_is_received_is_shown_on_a_card_before_the_desk(driver: MenuDriver,
     driver.press("escape")
     screen = driver.shown(PackScreen)
     driver.choose("Undo")
-    pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(zipped)))
-    driver.frames()
+    driver.drop_file(zipped)
     driver.choose("Edit a copy")
     assert [(pack.name, pack.received) for pack in screen.own_packs] == [("Laundry", True), ("Laundry copy", False)]
     assert screen.pack
@@ -1063,8 +1075,7 @@ def test_a_level_that_comes_from_elsewhere_is_moved_or_with_ctrl_copied_and_that
     assert driver.app.notice == "", "within the pack it is seen"
 
 
-def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     with patch.object(screen, "read_packs", wraps=screen.read_packs) as read:
         screen.choose(screen.shelves.cells[1])
         read.reset_mock()
@@ -1082,8 +1093,7 @@ def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: P
         assert [read.call_count, screen.path.name] == [1, "test-pack"]
 
 
-def test_an_episode_is_sorted_by_difficulty(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_an_episode_is_sorted_by_difficulty(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     driver.mouse(*(value + 20 for value in screen.shelves.row_area(0)[:2]))
     driver.press("return")
     driver.choose("Sort by difficulty")
@@ -1092,8 +1102,7 @@ def test_an_episode_is_sorted_by_difficulty(driver: MenuDriver, path: Path) -> N
     assert layout(path)[0] != ["00-0", "00-1", "00-2", "00-3", "00-4"]
 
 
-def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     with patch("pygame.scrap.get_text", Pack(path).files.link):
         driver.choose("Paste link")
         driver.choose("Show it as received")
@@ -1166,21 +1175,20 @@ def linked(*names: str) -> str:
         (write_link("pack", ['{"a.txt": "x"}']), "pack.toml"),
     ],
 )
-def test_what_is_no_link_of_a_pack_changes_nothing(driver: MenuDriver, path: Path, text: str, said: str) -> None:
-    opened(driver)
+def test_what_is_no_link_of_a_pack_changes_nothing(
+    driver: MenuDriver, path: Path, text: str, said: str, screen: PackScreen
+) -> None:
     before = sorted(path.parent.rglob("*"))
-    with patch("pygame.scrap.get_text", lambda: text):
-        driver.choose("Paste link")
+    pasted(driver, text)
     assert said in driver.app.notice
     assert sorted(path.parent.rglob("*")) == before
 
 
-def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     screen.choose_tray("yours")
     pack_menus.level_menu(screen, screen.shelves.cells[1])
     driver.choose("Take out")
-    assert [cell.level.title for cell in screen.tray.cells if cell.level] == ["First Steps"]
+    assert titles(screen.tray) == ["First Steps"]
     screen.choose_tray("yours")
     screen.choose(screen.shelves.cells[0])
     driver.choose("Remove the episode")
@@ -1189,8 +1197,7 @@ def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: 
     assert layout(path)[1] == ["01-0", "01-1", "01-2", "00-0"]
 
 
-def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     driver.choose("More...")
     driver.choose("Play it")
     assert driver.shown(EpisodeGrid).pack.key == "Laundry"
@@ -1238,8 +1245,7 @@ def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(driver: MenuD
     link = Pack(path).files.link()
     shutil.rmtree(path)
     screen = opened(driver)
-    with patch("pygame.scrap.get_text", lambda: link):
-        driver.choose("Paste link")
+    pasted(driver, link)
     text = drawn(driver.app)
     assert "Laundry by the ninja-game developers" in text
     received = screen.path
@@ -1333,8 +1339,9 @@ def test_a_card_has_room_for_a_long_name_and_no_gold_where_there_is_none(driver:
     assert mark.call_count == 1
 
 
-def test_a_pack_needs_no_author_but_is_asked_for_one(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
-    screen = opened(driver)
+def test_a_pack_needs_no_author_but_is_asked_for_one(
+    driver: MenuDriver, monkeypatch: pytest.MonkeyPatch, screen: PackScreen
+) -> None:
     driver.choose("New pack...")
     assert "'Author'" in drawn(driver.app), "an empty one is a problem of the pack: nothing says it may be"
     typed(driver, "Walls")
@@ -1363,8 +1370,7 @@ def test_a_pack_needs_no_author_but_is_asked_for_one(driver: MenuDriver, monkeyp
     assert begun == [screen.path] * 5
 
 
-def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver) -> None:
-    screen = opened(driver)
+def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver, screen: PackScreen) -> None:
     driver.choose("New pack...")
     driver.shown(FormPanel).texts[1] = "ida"
     typed(driver, "Walls")
@@ -1414,8 +1420,7 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     assert not [problem for problem in problems_of(driver, screen) if problem.accepted], "it is not certified since"
 
 
-def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     driver.choose("New pack...")
     typed(driver, "Empty")
     assert screen.tray_key == "none", "the folder has none"
@@ -1509,9 +1514,8 @@ def test_a_pack_that_is_gone_or_changed_is_seen_at_once(driver: MenuDriver, path
     "buttons", [("Copy of the pack",), ("Name, author, version...", "OK"), ("Delete the pack...", "Delete it")]
 )
 def test_a_pack_whose_folder_has_gone_meanwhile_ends_nothing(
-    driver: MenuDriver, path: Path, buttons: tuple[str, ...]
+    driver: MenuDriver, path: Path, buttons: tuple[str, ...], screen: PackScreen
 ) -> None:
-    screen = opened(driver)
     driver.choose("More...")
     path.rename(driver.player.folder / "elsewhere")
     for button in buttons:

@@ -8,7 +8,6 @@ from datetime import date
 from pathlib import Path
 from unittest.mock import patch
 
-import pygame
 import pytest
 
 from ninja_game.editor.packs import same_pack
@@ -70,8 +69,7 @@ def test_a_zip_that_is_only_played_can_be_kept(driver: MenuDriver, tmp_path: Pat
 def test_a_zip_that_is_dropped_on_the_first_screen_is_received(driver: MenuDriver, tmp_path: Path) -> None:
     zipped = tmp_path / "washing.zip"
     zipped.write_bytes(Pack(PACK).files.zipped())
-    pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(zipped)))
-    driver.frames(2)
+    driver.drop_file(zipped)
     assert driver.shown(PackCard).title == "test pack"
     driver.choose("Not now")
     driver.shown(PackScreen)
@@ -146,8 +144,7 @@ def test_zip_dropped_on_the_list_of_levels_is_received_as_a_pack(driver: MenuDri
     zipped = shutil.make_archive(str(tmp_path / "dropped"), "zip", path)
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
-    pygame.event.post(pygame.Event(pygame.DROPFILE, file=zipped))
-    driver.frames(2)
+    driver.drop_file(Path(zipped))
     driver.choose("Not now")
     assert [(pack.name, pack.received) for pack in driver.shown(PackScreen).own_packs] == [("Other", True)]
     driver.press("escape")
