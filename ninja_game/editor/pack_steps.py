@@ -41,22 +41,19 @@ class Steps(list[Step]):
 
     def _keep(self) -> None:
         """Keep the newest steps on the disk, as many as have room, back to one that leads elsewhere."""
-        kept, room = list[object](), UNDO_BYTES
-        with suppress(OSError, NinjaGameError):
-            for step in reversed(self):
-                folders = [*(folder for folder, _ in step.texts), *(place for pair in step.moves for place in pair)]
-                room -= sum(len(text or b"") for versions in step.texts.values() for text in versions)
-                if room < 0 or not all(folder.is_relative_to(self._root) for folder in folders):
-                    break
-                texts = [
-                    [self._name(folder), name, *(text if text is None else text.decode("latin-1") for text in versions)]
-                    for (folder, name), versions in step.texts.items()
-                ]
-                kept.insert(0, [step.name, texts, [[self._name(place) for place in pair] for pair in step.moves]])
-            Tree(self._root).write(self._file, json.dumps(kept))
 
-    def _name(self, place: Path) -> str:
-        return place.relative_to(self._root).as_posix()
+        def plain(value: Path | bytes) -> str:
+            return value.decode("latin-1") if isinstance(value, bytes) else value.relative_to(self._root).as_posix()
+
+        kept, room = list[str](), UNDO_BYTES
+        with suppress(ValueError):
+            for name, texts, moves in reversed(self):
+                step = json.dumps([name, [[*key, *both] for key, both in texts.items()], moves], default=plain)
+                if (room := room - len(step)) < 0:
+                    break
+                kept.insert(0, step)
+        with suppress(OSError, NinjaGameError):
+            Tree(self._root).write(self._file, f"[{','.join(kept)}]")
 
     def _place(self, name: str) -> Path:
         if not leads_below(name):

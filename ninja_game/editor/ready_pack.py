@@ -29,6 +29,10 @@ Obstacles = dict[tuple[Level, str], Finding]
 _MISSING = {"no-certificate": "exit", "no-gold-run": "gold"}
 """Codes of findings about missing runs, with the kind of run."""
 
+_CAUSES = dict.fromkeys(_MISSING, ("no-ninja", "no-exit"))
+_CAUSES |= {"no-exit": ("no-ninja",), "same-content": ("no-ninja",), "same-name": ("same-content",)}
+"""Codes of findings about a level, with those that they follow from."""
+
 _SOUGHT = {"exit": "run to the exit", "gold": "run with all gold"}
 _GOALS = {"exit": "exit", "gold": "all gold"}
 
@@ -97,22 +101,13 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
             no_exit |= {level} if kind == "exit" else set()
             named_finding = finding._replace(values={}, odd=why, sought=_SOUGHT[kind])
         problems += [named_finding] if named_finding not in problems else []
-    causes = {(level_of(pack, finding.file), finding.code) for finding in problems}
-    return [finding for finding in problems if not _follows(pack, finding, causes)]
+    named = {(level_of(pack, finding.file), finding.code) for finding in problems}
 
+    def follows(finding: PackFinding) -> bool:
+        causes = _CAUSES.get("no-certificate" if finding.sought else finding.code, ())
+        return any((level_of(pack, finding.file), cause) in named for cause in causes)
 
-def _follows(pack: Pack, finding: PackFinding, causes: set[tuple[str, str]]) -> bool:
-    """Whether a finding goes when another one about its level, by file and code, is mended."""
-    file = level_of(pack, finding.file)
-    begun = file not in pack.levels or pack.levels[file].level.objects
-    return any(
-        (file, cause) in causes and (finding.code in codes or (finding.sought and cause != "same-content"))
-        for cause, codes in {
-            "no-ninja": (*_MISSING, *(() if begun else ("no-exit", "same-content"))),
-            "no-exit": tuple(_MISSING),
-            "same-content": ("same-name",),
-        }.items()
-    )
+    return [finding for finding in problems if not follows(finding)]
 
 
 def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:

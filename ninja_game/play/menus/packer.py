@@ -187,7 +187,7 @@ class PackStatus:
         self.failure = ""  #: why the last check found out nothing
         self._states: dict[int, str] = {}
         self._asked_for: tuple[Pack | None, int] = None, 0  #: the pack of the last check, and the number of obstacles
-        self._checks: NewestJob[Pack, Checked] = NewestJob(self.check)
+        self._checks: NewestJob[Pack, Checked] = NewestJob(lambda pack: Checked.of(pack, packer.obstacles))
 
     def show(self, pack: EpisodeSet | None) -> None:
         """Show a pack as it is now. A failed search changes no file, but the findings: it is checked again."""
@@ -205,9 +205,6 @@ class PackStatus:
         if self._checks.idle:
             self.checked, self.failure = self._checks.result, self._checks.problem
         return self.checked is not checked or self.failure != failure
-
-    def check(self, pack: Pack) -> Checked:
-        return Checked.of(pack, self.packer.obstacles)
 
     @property
     def present(self) -> Checked | None:
