@@ -6,9 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import pygame
 
-from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Episode, EpisodeSet
@@ -190,22 +188,10 @@ class EpisodeGrid(ThumbnailScreen):
         return self.pack.path in self.player.catalogue.more and not (self.pack.changeable or self.previews)
 
     def _keep(self) -> None:
-        """Put a pack that was opened from elsewhere among the player's."""
-        from ninja_game.editor.packs import copy_pack, same_pack  # it needs NumPy, which takes a moment
-
-        catalogue, pack = self.player.catalogue, self.pack.pack
-        if pack is None:
-            return
-        path = next((own.path for own in self.packs if own.changeable and own.pack and same_pack(own.pack, pack)), None)
-        try:
-            path = path or copy_pack(pack, self.player.folder / LEVELS, pack.name, received=True)
-        except (NinjaGameError, OSError) as error:
-            self.app.notify(reason(error))
-            return
-        catalogue.more.remove(pack.files.path)
-        self._set_pack(next(own.key for own in catalogue.packs() if own.path == path))
-        self.enter()
-        self.app.notify(f"{shown_text(pack.name)} is among your packs now")
+        """Receive the pack like a file that is dropped on the main menu, which lies below."""
+        self.player.catalogue.more.remove(path := self.pack.files.path)
+        self.app.pop()
+        pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(path)))
 
     @property
     def _below(self) -> float:
