@@ -34,6 +34,7 @@ from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.pack_shelves import GAP, PackCell, Rack
+from ninja_game.play.menus.packer import Packer
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
@@ -929,6 +930,7 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     assert driver.shown(MenuScreen).title == "Delete Laundry with its 9 levels?"
     assert "All goes to the folder deleted; Undo brings it back" in drawn(driver.app)
     driver.choose("Delete it")
+    assert Packer(driver.app).steps == screen.packer.steps, "so it is when the program runs again"
     said = ["Delete Laundry", "New pack", "Take out Things that hum", "Rename First Steps", "Move First Steps"]
     for what in [*said, "Move Mind the Gap"]:
         assert driver.button("Undo").hint == f"Ctrl+Z: {what}"
