@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
@@ -29,7 +29,7 @@ Obstacles = dict[tuple[Level, str], Finding]
 _MISSING = {"no-certificate": "exit", "no-gold-run": "gold"}
 """Codes of findings about missing runs, with the kind of run."""
 
-_CAUSES = dict.fromkeys(_MISSING, ("no-ninja", "no-exit"))
+_CAUSES: dict[str, Sequence[str]] = dict.fromkeys(_MISSING, ("no-ninja", "no-exit"))
 _CAUSES |= {"no-exit": ("no-ninja",), "same-content": ("no-ninja",), "same-name": ("same-content",)}
 """Codes of findings about a level, with those that they follow from."""
 

@@ -189,9 +189,10 @@ class EpisodeGrid(ThumbnailScreen):
 
     def _keep(self) -> None:
         """Receive the pack like a file that is dropped on the main menu, which lies below."""
-        self.player.catalogue.more.remove(path := self.pack.files.path)
-        self.app.pop()
-        pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(path)))
+        if path := self.pack.path:
+            self.player.catalogue.more.remove(path)
+            self.app.pop()
+            pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(path)))
 
     @property
     def _below(self) -> float:
