@@ -107,7 +107,7 @@ def pack_up(pack: Path, seconds: float, jobs: int, zip_path: Path | None) -> int
       ninja-game levels pack my-pack/
       ninja-game levels pack my-pack/ --seconds 60 --zip shared.zip
     """
-    from ninja_game.editor.packs import make_ready
+    from ninja_game.editor.ready_pack import make_ready
 
     path = zip_path or pack.resolve().with_name(f"{pack.resolve().name}.zip")
     check_output(path)

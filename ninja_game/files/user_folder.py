@@ -104,11 +104,12 @@ def free_path(folder: Path, stem: str, suffix: str, first: int = 1) -> Path:
     return folder / next(name for name in names if name_key(name) not in there)
 
 
-def export_path(folder: Path, title: str, suffix: str) -> Path:
+def export_path(folder: Path, title: str, suffix: str, first: int = 0) -> Path:
     """A free path for a picture, a film or a replay that the game writes: ``exports/title-1.gif`` and so on.
 
-    What a file name cannot hold becomes "-". Raises OSError where the folder cannot be made.
+    What a file name cannot hold becomes "-". ``first``: as of ``free_path``. Raises OSError where the folder cannot be
+    made.
     """
     exports = folder / EXPORTS
     exports.mkdir(parents=True, exist_ok=True)
-    return free_path(exports, file_stem(title, "replay"), suffix, first=0)
+    return free_path(exports, file_stem(title, "replay"), suffix, first)

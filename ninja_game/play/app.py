@@ -311,13 +311,15 @@ class App:
             theme.text(self.surface, line, middle, top, size=size, align="centre", width=most + 4)
         return rect
 
-    def write_export(self, title: str, suffix: str, content: str | Callable[[Path], object]) -> Path | None:
+    def write_export(
+        self, title: str, suffix: str, content: str | Callable[[Path], object], *, first: int = 0
+    ) -> Path | None:
         """Write a file into the player's exports, and show where; its path, or None if that failed.
 
-        ``content``: text, or a function that writes to the path.
+        ``content``: text, or a function that writes to the path. ``first``: as of ``export_path``.
         """
         try:
-            path = export_path(self.player.folder, title, suffix)
+            path = export_path(self.player.folder, title, suffix, first)
             if callable(content):
                 content(path)
             else:

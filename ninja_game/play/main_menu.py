@@ -33,6 +33,7 @@ from ninja_game.sim.grid import Point
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.level_view import LevelView
@@ -132,6 +133,13 @@ class MainMenu(MenuScreen):
                 for wide in [half if k ^ 1 < len(others) else w]
             ),
         ]
+
+    def handle(self, event: InputEvent) -> None:
+        if event.raw.type == pygame.DROPFILE:
+            self.app.push(self._browser(self.app))
+            self.app.top.handle(event)
+        else:
+            super().handle(event)
 
     def back(self) -> None:
         self.app.push(Question(self.app, "Quit the game?", "Quit", self.app.quit))

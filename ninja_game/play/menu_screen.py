@@ -327,7 +327,7 @@ class Panel(MenuScreen):
 
     @property
     def _box(self) -> Area:
-        height = 64 + self.row_height * len(self.rows())
+        height = self.head + 16 + self.row_height * len(self.rows())
         return (WIDTH - PANEL_WIDTH) / 2, (HEIGHT - height) / 2, PANEL_WIDTH, height
 
     def build(self) -> Sequence[Widget]:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
-from ninja_game.editor import packs
-from ninja_game.editor.packs import Obstacles, make_ready, missing_run
+from ninja_game.editor import pack_steps, packs, ready_pack
+from ninja_game.editor.pack_steps import Steps
+from ninja_game.editor.ready_pack import Obstacles, make_ready, missing_run
 from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, PackFiles
@@ -106,7 +109,7 @@ def test_a_pack_is_made_described_and_copied(pack: Path, tmp_path: Path) -> None
 
 
 def test_a_dozen_steps_are_taken_back_and_folders_stay(pack: Path, tmp_path: Path) -> None:
-    steps, folder = packs.Steps(), tmp_path / "levels"
+    steps, folder = Steps(tmp_path), tmp_path / "levels"
     folder.mkdir()
     steps.run("Copy", lambda: packs.copy_pack(Pack(pack), folder, "copy"))
     assert (folder / "copy" / RUN).is_file()
@@ -120,6 +123,40 @@ def test_a_dozen_steps_are_taken_back_and_folders_stay(pack: Path, tmp_path: Pat
     assert Pack(pack).index.version == "1"
     with pytest.raises(NinjaGameError, match="nothing to undo"):
         steps.undo()
+
+
+def test_steps_outlive_the_program_and_lead_nowhere_but_into_the_players_folder(pack: Path, tmp_path: Path) -> None:
+    folder, kept = tmp_path / "levels", tmp_path / "editing" / "undo" / "packs.steps"
+    made = packs.new_pack(folder, "Walls", "me")
+    before = (made / "pack.toml").read_bytes()
+    Steps(tmp_path).run("Name", lambda: packs.describe(made, {"name": "Wälle"}))
+    named = (made / "pack.toml").read_bytes()
+    Steps(tmp_path).run("Copy", lambda: packs.copy_pack(Pack(pack), folder, "copy"))
+    Steps(tmp_path).run("Delete", lambda: packs.bin_pack(made, tmp_path / "deleted"))
+    assert [step.name for step in Steps(tmp_path)] == ["Name", "Copy", "Delete"]
+    assert [Steps(tmp_path).undo() for _ in "12"] == ["Delete", "Copy"]
+    assert sorted(folder.iterdir()) == [made]
+    assert (made / "pack.toml").read_bytes() == named
+    assert Steps(tmp_path).undo() == "Name"
+    assert (made / "pack.toml").read_bytes() == before
+    steps = Steps(tmp_path)
+    steps.run("Delete", lambda: packs.bin_pack(made, tmp_path / "deleted"))
+    (tmp_path / "deleted" / "walls").rename(tmp_path / "gone")
+    with pytest.raises(NinjaGameError, match="Delete: not undone, as walls was changed since"):
+        Steps(tmp_path).undo()
+    assert not Steps(tmp_path), "what is never possible again is not offered again"
+    elsewhere = tmp_path / "home"
+    Steps(elsewhere).run("Name", lambda: packs.describe(tmp_path / "gone", {"name": "Roofs"}))
+    assert not Steps(elsewhere), "a pack elsewhere"
+    victim = tmp_path / "victim.txt"
+    victim.write_text("a", "utf-8")
+    for odd in ("[", "[[1]]", '[["x", [["../..", "victim.txt", "b", "a"]], []]]', '[["x", [], [["../a", "b"]]]]'):
+        kept.write_text(odd, "utf-8")
+        assert not Steps(tmp_path)
+    with patch("ninja_game.editor.pack_steps.UNDO_BYTES", 10):
+        steps.run("Copy", lambda: packs.copy_pack(Pack(pack), folder, "copy"))
+    assert not Steps(tmp_path), "too much for the disk"
+    assert steps.undo() == "Copy"
 
 
 def test_what_is_not_the_players_own_is_copied_and_a_received_pack_stays(pack: Path, tmp_path: Path) -> None:
@@ -197,8 +234,8 @@ def test_the_time_that_is_left_goes_by_the_time_that_was_measured(pack: Path, mo
 
     monkeypatch.setattr("ninja_game.search.certify.certify_all", certify_all)
     monkeypatch.setattr("ninja_game.search.solve.compile_solver", lambda: None)
-    monkeypatch.setattr(packs, "monotonic", lambda: now)
-    packs._certify(Pack(pack), pack, 20.0, 1, lambda text, share: said.append((text, share)), {})
+    monkeypatch.setattr(ready_pack, "monotonic", lambda: now)
+    ready_pack._certify(Pack(pack), pack, 20.0, 1, lambda text, share: said.append((text, share)), {})
     first, second = "level 1 of 2, First Steps (exit and all gold)", "level 2 of 2, Mind the Gap (exit and all gold)"
     assert [text for text, _ in said if "so far" in text] == [
         f"Certifying {first}: 0 s so far, about 80 s left",
@@ -212,6 +249,27 @@ def test_the_time_that_is_left_goes_by_the_time_that_was_measured(pack: Path, mo
     ]
     shares = [share for _, share in said if share is not None]
     assert shares == sorted(shares)
+
+
+def test_what_follows_from_a_problem_is_no_problem_of_its_own(pack: Path) -> None:
+    for name in ("Brick", "Mortar"):
+        packs.new_level(pack, name, "me")
+    shutil.copy(pack / LAST, pack / "twin.txt")
+    lines = (pack / FIRST).read_text("utf-8").splitlines()
+    picture = [line.replace("X", ".").replace("x", ".") if re.match(r" *\d+ \|", line) else line for line in lines]
+    (pack / FIRST).write_text("\n".join(picture), "utf-8")
+    (pack / RUN).unlink()
+    level = Pack(pack).levels["brick.txt"].level
+    obstacles = {(level, "exit"): level_finding("unreached-exit")}
+    codes = {file: list[str]() for file in ("brick.txt", "mortar.txt", "twin.txt", FIRST)}
+    for finding in ready_pack.problems_of(Pack(pack), obstacles):
+        codes.get(finding.file, []).append(finding.code)
+    assert codes == {
+        "brick.txt": ["single-level", "no-ninja"],
+        "mortar.txt": ["single-level", "no-ninja"],
+        "twin.txt": ["single-level", "same-content", "no-certificate"],
+        FIRST: ["no-exit", "unseen-message"],
+    }
 
 
 def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Path) -> None:
@@ -312,8 +370,8 @@ def test_the_command_makes_a_pack_ready(pack: Path, tmp_path: Path) -> None:
     assert f"wrote {tmp_path / 'pack.zip'}\n#pack=" in result.output
 
 
-def test_undo_leaves_alone_what_others_did_meanwhile(pack: Path) -> None:
-    steps, found, before = packs.Steps(), pack / RUN, (pack / "pack.toml").read_text("utf-8")
+def test_undo_leaves_alone_what_others_did_meanwhile(pack: Path, tmp_path: Path) -> None:
+    steps, found, before = Steps(tmp_path), pack / RUN, (pack / "pack.toml").read_text("utf-8")
 
     def action() -> None:
         packs.place(pack, [FIRST], None)
@@ -328,17 +386,17 @@ def test_undo_leaves_alone_what_others_did_meanwhile(pack: Path) -> None:
 def test_a_step_that_the_disk_refuses_to_undo_can_be_undone_later(
     pack: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    steps, other = packs.Steps(), packs.new_pack(tmp_path, "Other", "me")
+    steps, other = Steps(tmp_path), packs.new_pack(tmp_path, "Other", "me")
     files = sorted((pack / "certificates").iterdir())
     steps.run("Move", lambda: packs.transfer(Pack(pack).levels[FIRST], other, keep=False))
-    write, full = packs._write_file, [True]
+    write, full = pack_steps.write_file, [True]
 
     def on_a_full_disk(folder: Path, name: str, text: bytes | str | None) -> None:
         if name == RUN and folder == pack and full:
             raise OSError(28, "No space left on device")
         write(folder, name, text)
 
-    monkeypatch.setattr(packs, "_write_file", on_a_full_disk)
+    monkeypatch.setattr(pack_steps, "write_file", on_a_full_disk)
     with pytest.raises(OSError, match="No space"):
         steps.undo()
     full.clear()

@@ -28,8 +28,10 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.main_menu import MainMenu
+from ninja_game.play.menu_screen import nothing
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
+from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.panels.help import HelpScreen
@@ -440,6 +442,11 @@ def _packs(driver: MenuDriver) -> Iterator[str]:
     driver.choose("Preview")
     driver.frames(30)
     yield "packs-preview"
+    driver.press("escape")
+    assert screen.pack
+    driver.app.push(PackCard(driver.app, screen.pack, [("Play", nothing, "")]))
+    driver.frames(30)
+    yield "packs-card"
     driver.press("escape")
     driver.carry(screen.shelves.row_area(2), screen.shelves.row_area(9), drop=False)
     yield "packs-dragging"

@@ -176,6 +176,11 @@ class MenuDriver:
         with patch.object(pygame.mouse, "get_pos", lambda: place):
             self.frames(1)
 
+    def drop_file(self, path: Path) -> None:
+        """Drop a file on the window."""
+        pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(path)))
+        self.frames(2)
+
     def pad(self, button: int) -> None:
         """Press and release a button of a standard gamepad."""
         for kind in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP):

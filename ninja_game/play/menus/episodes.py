@@ -20,6 +20,7 @@ from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import EpisodePlaythrough, unfinished_run
 from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, tally, worst_medal
+from ninja_game.runtime import in_page_or_not
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR_WIDTH, ListView
 from ninja_game.ui.medals import MEDALS_FROM_BRONZE, draw_all_gold, draw_medal
@@ -181,6 +182,18 @@ class EpisodeGrid(ThumbnailScreen):
         return f"Enter: play this episode    {self.app.controls.name('link')}: copy a link to the pack"
 
     @property
+    def _is_lent(self) -> bool:
+        """Whether the pack is a zip or link that is none of the player's files."""
+        return self.pack.path in self.player.catalogue.more and not (self.pack.changeable or self.previews)
+
+    def _keep(self) -> None:
+        """Receive the pack like a file that is dropped on the main menu, which lies below."""
+        if path := self.pack.path:
+            self.player.catalogue.more.remove(path)
+            self.app.pop()
+            pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(path)))
+
+    @property
     def _below(self) -> float:
         return _TOP + self.grid.area[3] + 14
 
@@ -196,6 +209,10 @@ class EpisodeGrid(ThumbnailScreen):
         area = _LEFT, self._below, _WIDE, 30
         self.practice = setting_choice(self.app, area, "Practice mode", "practice", hint=PRACTICE_HINT)
         problems = problems_button(self.app, (_LEFT, 546, _WIDE, 18), lambda: self.problems)
+        if self._is_lent:
+            keep = Button((_SIDE + 178, 64, 90, 30), "Keep it", self._keep)
+            keep.hint = "It goes among your packs, and is offered here whenever you play"
+            problems += in_page_or_not([], [keep])
         if len(self.packs) < 2:
             practice = [] if self.previews else [self.practice]
             return [self.grid, self.play, *practice, self.rows, *problems]
@@ -267,7 +284,8 @@ class EpisodeGrid(ThumbnailScreen):
             theme.text(surface, "No episodes", _SIDE, 66, size=16, colour=palette.faint, bold=True)
             return
         head = f"{episode.code}  {episode.name}"
-        theme.text(surface, head, _SIDE, 66, size=16, bold=True, width=264)
+        room = 174 if self._is_lent else 264
+        theme.text(surface, head, _SIDE, 66, size=16, bold=True, width=room)
         best = self.player.records.episode_best(episode.key)
         clock = f"Your best: {seconds_text(best.score)} s left on the clock" if best else ""
         count = len(episode.levels)

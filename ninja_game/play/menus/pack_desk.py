@@ -14,7 +14,7 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
 from ninja_game.formats.pack.pack import INDEX, Pack
-from ninja_game.levels.episodes import Entry, EpisodeSet
+from ninja_game.levels.episodes import GAME, YOURS, Entry, EpisodeSet
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.menu_screen import ask_received, ask_text
@@ -219,7 +219,9 @@ class PackDesk(ThumbnailScreen):
         levels = self.levels_with(moving.level) if moving and moving.level else []
         if levels and not (goal and goal.level in levels and len(levels) == 1):
             change = self.run_step if goal is None and self.tray_key != "none" else self.change_pack
-            change(partial(self._move_levels, levels, goal, after=after), f"Move {called(levels)}")
+            copy = bool(pygame.key.get_mods() & (pygame.KMOD_CTRL | pygame.KMOD_META))
+            move = partial(self._move_levels, levels, goal, after=after, copy=copy)
+            change(move, f"{'Copy' if copy else 'Move'} {called(levels)}")
         elif moving and moving.episode and goal and goal.episode:
             numbers = moving.episode.number, goal.episode.number
             self.change_pack(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
@@ -240,13 +242,17 @@ class PackDesk(ThumbnailScreen):
             index, after = next((k for k in row if not (cells[k].head or cells[k].level)), row[-1]), False
         return index, after
 
-    def _move_levels(self, levels: Sequence[Entry], goal: PackCell | None, *, after: bool) -> None:
+    def _move_levels(self, levels: Sequence[Entry], goal: PackCell | None, *, after: bool, copy: bool) -> None:
         target = self.path
         if goal is None and self.tray_key != "none":
             target = next((pack.path for pack in self.sets if pack.key == self.tray_key and pack.path), self.folder)
         if target != self.folder and target not in [pack.path for pack in self.own_packs]:
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
-        names = packs.bring([level.named for level in levels], target, self.folder)
+        names = packs.bring([level.named for level in levels], target, self.folder, copy=copy)
+        if came := [level for level in levels if copy or Path(level.named.file).parent != target]:
+            done = "Copied" if Path(came[0].named.file).exists() else "Moved"
+            source = {YOURS: "your folder", GAME: "the game"}.get(came[0].source, shown_text(came[0].source))
+            self.app.notify(f"{done} {called(came)} from {source}. Undo, or Ctrl+Z, takes it back")
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:

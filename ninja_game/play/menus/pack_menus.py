@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from math import inf
 from pathlib import Path
@@ -12,7 +13,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, EpisodeIndex
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.play.level.screen import play_level
-from ninja_game.play.menu_screen import CANCEL, FormPanel, Menu, MenuRow, Question
+from ninja_game.play.menu_screen import CANCEL, FormPanel, Menu, MenuRow, Question, nothing
 from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
 from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_shelves import PackCell, called
@@ -53,17 +54,27 @@ def pack_menu(desk: PackDesk) -> None:
     desk.app.push(Menu(desk.app, pack.name, rows))
 
 
-def pack_form(desk: PackDesk, pack: Pack, first: int = 0) -> None:
-    """Ask for the texts of the index; the field number ``first`` has the focus."""
+def pack_form(
+    desk: PackDesk, pack: Pack, first: int = 0, yes: str = "OK", then: Callable[[], object] = nothing
+) -> None:
+    """Ask for the texts of the index; the field number ``first`` has the focus. ``then``: called afterwards."""
     index, path = pack.index, pack.files.path
     keys = ("name", "author", "version", "comment")
-    fields = [(key.capitalize(), getattr(index, key), 200) for key in keys]
+    theirs = index.is_signed or (desk.pack and desk.pack.received)
+    signed = index if theirs else replace(index, author=desk.player.settings.name)
+    fields = [(key.capitalize(), getattr(signed, key), 200) for key in keys]
 
     def describe(texts: list[str]) -> None:
         desk.app.know_author(index.author, texts[1])
-        desk.change_pack(lambda: packs.describe(path, dict(zip(keys, texts, strict=True))), "About the pack")
+        values = {key: text.strip() for key, text in zip(keys, texts, strict=True)}
 
-    form = FormPanel(desk.app, "About the pack", fields, "OK", describe)
+        def change() -> None:
+            packs.describe(path, values)
+            then()
+
+        desk.change_pack(change, "About the pack")
+
+    form = FormPanel(desk.app, "What players see", fields, yes, describe)
     desk.app.push(form)
     form.focus = form.widgets[first]
 

@@ -8,17 +8,19 @@ from functools import partial
 from pathlib import Path
 
 from ninja_game.editor import packs
-from ninja_game.editor.packs import ReadyPack, missing_run
+from ninja_game.editor.ready_pack import ReadyPack, missing_run
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import NEVER_ACCEPTED
-from ninja_game.formats.pack.pack import INDEX, Pack
+from ninja_game.formats.pack.pack import INDEX, PARS, Pack
+from ninja_game.levels.episodes import EpisodeSet
 from ninja_game.levels.findings import PackFinding
 from ninja_game.play.clipboard import copy_link, pasted_text
-from ninja_game.play.menu_screen import CANCEL, FormPanel, Menu, MenuRow, ask_text
+from ninja_game.play.menu_screen import CANCEL, FormPanel, Menu, MenuRow, nothing
 from ninja_game.play.menus.episodes import PREVIEW
+from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_menus import pack_form, pack_menu, view
 from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND
@@ -113,18 +115,15 @@ def copy_the_link(desk: PackDesk) -> None:
 
 
 def make_ready(desk: PackDesk) -> None:
-    path, name = desk.path, desk.player.settings.name
-
-    def sign(author: str) -> None:
-        if author.strip():
-            desk.app.know_author("", author)
-            desk.run_step(lambda: packs.describe(path, {"author": author.strip()}), "Author of the pack")
-        desk.packer.start(path)
-
-    if desk.pack and desk.pack.pack and desk.pack.pack.index.is_signed:
-        desk.packer.start(path)
+    """Make the shown pack ready; of one's own, first ask once for what players see."""
+    pack = desk.pack_now()
+    if not (desk.pack and pack):
+        return
+    start, index = partial(desk.packer.start, desk.path), pack.index
+    if desk.pack.received or (index.is_signed and (index.comment or PARS in pack.files.names)):
+        start()
     else:
-        ask_text(desk.app, "Who made this pack?", "Author", name, "Make ready", sign, 40)
+        pack_form(desk, pack, 3 if index.is_signed else 1, "Make ready", start)
 
 
 def new_pack(desk: PackDesk) -> None:
@@ -161,12 +160,15 @@ def take_in(desk: PackDesk, read: Callable[[], Pack]) -> None:
 
     def receive(over: Pack | None = None) -> None:
         def copy() -> None:
-            news = f": {packs.news(over, pack)}" if over else " is among your packs now: Enter plays it"
+            news = f": {packs.news(over, pack)}" if over else " is among your packs now"
             desk.new_path = packs.copy_pack(pack, desk.folder, pack.name, received=True, over=over)
             desk.app.notify(f"{shown_text(pack.name)}{news}")
 
+        before = desk.pack
         desk.run_step(copy, f"Update {pack.name}" if over else "Paste link")
         desk.focus_on(desk.play_button)
+        if desk.pack and desk.pack is not before:
+            show_card(desk, desk.pack)
 
     name, author = shown_text(pack.name), pack.index.author
     older = [own.pack for own in desk.own_packs if own.pack and own.received and own.pack.name == pack.name]
@@ -187,11 +189,23 @@ def take_in(desk: PackDesk, read: Callable[[], Pack]) -> None:
         receive()
 
 
+def show_card(desk: PackDesk, pack: EpisodeSet) -> None:
+    """What a received pack is, before the desk, which is for makers."""
+    rows: list[MenuRow] = [
+        ("Play", partial(view, desk) if pack.episodes else None, "" if pack.episodes else "No episode has levels"),
+        ("Edit a copy", lambda: desk.copy_pack(pack.pack) if pack.pack else None, "What was received stays as it is"),
+        ("Not now", nothing, "It is among your packs"),
+    ]
+    desk.app.push(PackCard(desk.app, pack, rows))
+
+
 def ask_about(desk: PackDesk, ready: ReadyPack) -> None:
     desk.packer.open_problems = None
     rows: list[MenuRow] = [
         ("Show the problems", lambda: show_problems(desk), "Make ready asks again"),
-        ("Zip and link all the same", lambda: desk.packer.publish(ready), ""),
+        ("Zip and link all the same", partial(desk.packer.publish, ready), "")
+        if ready.zipped
+        else ("Make ready all the same", partial(desk.packer.start, desk.path, known=ready.problems), "With these"),
         CANCEL,
     ]
     title = f"{shown_text(ready.pack.name)}: {counted(len(ready.problems), 'open problem')}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,7 +10,8 @@ from pathlib import Path
 from time import monotonic
 
 from ninja_game.editor.certify import SOLVER
-from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, Steps, make_ready, problems_of
+from ninja_game.editor.pack_steps import Steps
+from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, make_ready, problems_of
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
@@ -43,10 +45,11 @@ class Packer(Aside):
         self.path = Path()  #: the pack that is or was made ready
         self.saved: Path | None = None  #: the zip that was written of it
         self._seconds = SECONDS
+        self._known: Sequence[PackFinding] | None = None  #: problems that the player knows; None: they are asked first
         self.desk: Screen | None = None  #: the screen of packs
         self.shown: Path | None = None  #: the pack that the desk shows
         self.obstacles: Obstacles = {}
-        self.steps = Steps()  #: what was done at the desk
+        self.steps = Steps(app.player.folder)  #: what was done at the desk
         self.busy = self._stopped = False
         self.text = ""  #: progress, or result
         self._result_text = ""
@@ -67,8 +70,9 @@ class Packer(Aside):
         """Whether the zip has all that is in the pack now."""
         return self.saved is not None and self.text == self._result_text
 
-    def start(self, path: Path, seconds: float = SECONDS) -> None:
-        self.path, self.busy, self._stopped = path, True, False
+    def start(self, path: Path, *, seconds: float = SECONDS, known: Sequence[PackFinding] | None = None) -> None:
+        """Make a pack ready. ``known``: problems that are not asked about; None: what is wrong is asked before."""
+        self._known, self.path, self.busy, self._stopped = known, path, True, False
         self.saved, self.open_problems, self._seconds = None, None, seconds
         self._say("Beginning", 0.0)
         self._job.ask(path)
@@ -76,7 +80,7 @@ class Packer(Aside):
     def search_longer(self, path: Path, missing: tuple[Level, str]) -> None:
         """Make the pack ready with a longer search of a run that was not found."""
         self.obstacles.pop(missing, None)
-        self.start(path, LONGER)
+        self.start(path, seconds=LONGER, known=())
 
     def end(self) -> None:
         """Stop; results are on the disk already."""
@@ -93,6 +97,10 @@ class Packer(Aside):
         self._step = text, share, monotonic()
 
     def _make_ready(self, path: Path) -> ReadyPack:
+        if self._known is None:
+            self._say("Looking for problems", None)
+            if (found := Checked.of(Pack(path), self.obstacles)).problems:
+                return ReadyPack(found.pack, found.findings, b"", "", [])
         jobs = max(1, cores() - 1)
         return make_ready(path, seconds=self._seconds, jobs=jobs, say=self._say, obstacles=self.obstacles)
 
@@ -108,7 +116,7 @@ class Packer(Aside):
             if self.app.stack:
                 self.app.top.look_again()
             ready = None if self.text else self._job.result
-            if ready and ready.problems:
+            if ready and any(problem not in (self._known or ()) for problem in ready.problems):
                 self.open_problems = ready
                 self.text = f"Neither zip nor link yet: {counted(len(ready.problems), 'open problem')}"
                 if not self.waited_for:
@@ -119,7 +127,8 @@ class Packer(Aside):
     def publish(self, ready: ReadyPack) -> None:
         """Write the zip; copy the link if the player looks at the pack, and notify them."""
         app, name, waited_for = self.app, ready.pack.name, self.waited_for
-        self.saved = app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
+        title = f"{name} {ready.pack.index.version}".strip()
+        self.saved = app.write_export(title, ".zip", lambda path: write_atomically(path, ready.zipped), first=1)
         self._zipped, self._compared = ready.zipped, None
         notices = [app.notice]
         if ready.link and waited_for:
@@ -152,6 +161,12 @@ class Checked:
     findings: list[PackFinding]  #: accepted or not, without those below
     to_do: list[PackFinding]  #: those that Make ready removes
 
+    @classmethod
+    def of(cls, pack: Pack, obstacles: Obstacles) -> Checked:
+        findings = problems_of(pack, obstacles)
+        to_do = [odd for odd in findings if odd.code in MADE_READY and not (odd.reason or odd.sought)]
+        return cls(pack, [finding for finding in findings if finding not in to_do], to_do)
+
     @cached_property
     def problems(self) -> list[PackFinding]:
         return [finding for finding in self.findings if not finding.reason]
@@ -172,7 +187,7 @@ class PackStatus:
         self.failure = ""  #: why the last check found out nothing
         self._states: dict[int, str] = {}
         self._asked_for: tuple[Pack | None, int] = None, 0  #: the pack of the last check, and the number of obstacles
-        self._checks: NewestJob[Pack, Checked] = NewestJob(self.check)
+        self._checks: NewestJob[Pack, Checked] = NewestJob(lambda pack: Checked.of(pack, packer.obstacles))
 
     def show(self, pack: EpisodeSet | None) -> None:
         """Show a pack as it is now. A failed search changes no file, but the findings: it is checked again."""
@@ -190,11 +205,6 @@ class PackStatus:
         if self._checks.idle:
             self.checked, self.failure = self._checks.result, self._checks.problem
         return self.checked is not checked or self.failure != failure
-
-    def check(self, pack: Pack) -> Checked:
-        findings = problems_of(pack, self.packer.obstacles)
-        to_do = [odd for odd in findings if odd.code in MADE_READY and not (odd.reason or odd.sought)]
-        return Checked(pack, [finding for finding in findings if finding not in to_do], to_do)
 
     @property
     def present(self) -> Checked | None:

@@ -33,7 +33,7 @@ _NO_LEVELS = (
 
 _DRAG = "Drag a level or an episode; Enter or a second click: what can be done. Ctrl or Shift and a click: several"
 
-_MOVES = "Let go where it is to be. The colours of a level go by its place in the pack"
+_MOVES = "Let go where it is to be; with Ctrl, a copy. The colours of a level go by its place in the pack"
 
 
 class _Shown(NamedTuple):
@@ -85,7 +85,7 @@ class PackScreen(PackDesk):
         wrong = button(552, 66, "Problems", pack_sharing.show_problems)
         begin = ("Stop", self.packer.end) if busy else ("Make ready", partial(pack_sharing.make_ready, self))
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
-        make = Button((624, 60, 132, 28), *begin, hint=hint)
+        make = Button((632, 60, 124, 28), *begin, hint=hint)
         link = Button((662, 525, 94, 24), "Copy the link", partial(pack_sharing.copy_the_link, self), size=10)
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", partial(pack_sharing.open_folder, self), size=10)

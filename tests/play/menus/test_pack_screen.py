@@ -15,10 +15,10 @@ from zipfile import ZipFile
 import pygame
 import pytest
 
-from ninja_game.editor import packs
+from ninja_game.editor import packs, ready_pack
 from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.files import ascii_text
-from ninja_game.editor.packs import Obstacles, ReadyPack, Say
+from ninja_game.editor.ready_pack import Obstacles, ReadyPack, Say
 from ninja_game.files.user_folder import DAILY, short_path
 from ninja_game.formats.links import write_link
 from ninja_game.formats.n14.level_string import level_digest
@@ -31,8 +31,10 @@ from ninja_game.play.menu_screen import BACK, FormPanel, MenuScreen
 from ninja_game.play.menus import pack_menus, pack_sharing
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
+from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.pack_list import PackList
-from ninja_game.play.menus.pack_shelves import GAP, PackCell
+from ninja_game.play.menus.pack_shelves import GAP, PackCell, Rack
+from ninja_game.play.menus.packer import Packer
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
@@ -59,6 +61,14 @@ def pack_of_the_player(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> P
     index = path / "pack.toml"
     index.write_text(index.read_text("utf-8").replace("test pack", "Laundry"), "utf-8")
     return path
+
+
+@pytest.fixture(name="screen")
+def desk(driver: MenuDriver, request: pytest.FixtureRequest) -> PackScreen:
+    """The desk; with the player's pack, where a test asks for that too."""
+    if "path" in request.fixturenames:
+        request.getfixturevalue("path")
+    return opened(driver)
 
 
 def opened(driver: MenuDriver) -> PackScreen:
@@ -91,14 +101,32 @@ def typed(driver: MenuDriver, text: str) -> None:
     driver.fill(text, "OK")
 
 
+def titles(rack: Rack) -> list[str]:
+    return [cell.level.title for cell in rack.cells if cell.level]
+
+
+def pasted(driver: MenuDriver, link: str) -> None:
+    with patch("pygame.scrap.get_text", lambda: link):
+        driver.choose("Paste link")
+
+
+def copied_links(driver: MenuDriver) -> list[str]:
+    """The links that a click on the button puts into the clipboard."""
+    links: list[str] = []
+    with patch("pygame.scrap.put_text", links.append):
+        driver.choose("Copy the link")
+    return links
+
+
 def half(screen: PackScreen, index: int, *, right: bool = False) -> Area:
     """A half of a cell on the shelves."""
     x, y, w, h = screen.shelves.row_area(index)
     return x + right * w / 2, y, w / 2, h
 
 
-def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(
+    driver: MenuDriver, path: Path, screen: PackScreen
+) -> None:
     shelves = screen.shelves
     driver.carry(shelves.row_area(1), half(screen, 5, right=True), drop=False)
     x, y, w, _ = shelves.row_area(5)
@@ -120,8 +148,7 @@ def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriv
     assert layout(path)[1] == ["01-0", "01-1", "01-2", "00-0"]
 
 
-def test_cards_make_room_where_a_level_would_land(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_cards_make_room_where_a_level_would_land(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     shelves = screen.shelves
 
     def pictures() -> list[tuple[float, float]]:
@@ -147,9 +174,8 @@ def click(driver: MenuDriver, area: Area, mods: int = 0) -> None:
 
 
 def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_once(
-    driver: MenuDriver, path: Path
+    driver: MenuDriver, path: Path, screen: PackScreen
 ) -> None:
-    screen = opened(driver)
     shelves, steps = screen.shelves, screen.packer.steps
     place = shelves.row_area
     click(driver, place(1))
@@ -200,14 +226,13 @@ def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_onc
     assert (driver.top(), screen.marked) == (screen, set())
 
 
-def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     shelves = screen.shelves
     driver.carry(shelves.row_area(2), half(screen, 8))
     assert layout(path) == {0: ["00-0", "00-2", "00-3", "00-4"], 1: ["01-0", "00-1", "01-1", "01-2"]}
     driver.carry(shelves.row_area(1), screen.tray.area)
     assert layout(path)[0] == ["00-2", "00-3", "00-4"]
-    assert [cell.level.title for cell in screen.tray.cells if cell.level] == ["First Steps"]
+    assert titles(screen.tray) == ["First Steps"]
     driver.carry(screen.tray.row_area(0), shelves.row_area(13))
     assert layout(path)[2] == ["00-0"], "a row below the others is a new episode"
     assert [each.name for each in Pack(path).index.episodes][2] == "Episode 3"
@@ -252,15 +277,13 @@ def test_ones_own_level_with_its_certificate_is_certified(driver: MenuDriver, pa
         (path / "received").unlink(missing_ok=True)
 
 
-def test_a_full_episode_says_so(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_full_episode_says_so(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     driver.carry(screen.shelves.row_area(7), screen.shelves.row_area(2))
     assert "episode 1 is full" in driver.app.notice
     assert layout(path)[1] == ["01-0", "01-1", "01-2"]
 
 
-def test_keys_alone_move_a_level(driver: MenuDriver, path: Path) -> None:
-    opened(driver)
+def test_keys_alone_move_a_level(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     driver.press("right", "return")
     driver.choose("Move...")
     driver.press("down", "return")
@@ -288,7 +311,7 @@ def test_a_pad_alone_makes_a_pack_with_a_level_and_edits_it(driver: MenuDriver) 
     button("a")
     button("dpad-down")
     button("a")
-    assert [cell.level.title for cell in screen.shelves.cells if cell.level] == ["New level"]
+    assert titles(screen.shelves) == ["New level"]
     assert driver.shown(EditorScreen).session.source.path == screen.path / "new-level.txt"
     driver.shown(EditorScreen).session.close()
 
@@ -311,8 +334,7 @@ def test_a_level_of_the_players_folder_goes_into_the_pack_and_one_of_the_game_is
     assert "cannot be changed: it is the game's own" in driver.app.notice
 
 
-def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     for index, entry, text in ((1, "Rename...", "Early steps"), (0, "Rename...", "Falls"), (0, "New level...", "New")):
         driver.mouse(*(value + 20 for value in screen.shelves.row_area(index)[:2]))
         driver.mouse(*(value + 20 for value in screen.shelves.row_area(index)[:2]))
@@ -393,9 +415,7 @@ def test_the_page_of_a_pack_without_problems_offers_what_comes_next(
     page.problems = problem_page(driver).problems
     driver.shown(ProblemsScreen).list.index = len(page.problems) - 1
     driver.shown(ProblemsScreen)._offer()
-    copied: list[str] = []
-    with patch("pygame.scrap.put_text", copied.append):
-        driver.choose("Copy the link")
+    copied = copied_links(driver)
     assert len(copied) == 1
     assert driver.top() is screen
 
@@ -454,8 +474,9 @@ def test_a_check_that_fails_ends_the_wait_for_it(
     assert [problem.text for problem in problems_of(driver, screen)] != ["the disk cannot be read"]
 
 
-def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(driver: MenuDriver) -> None:
-    screen = opened(driver)
+def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(
+    driver: MenuDriver, screen: PackScreen
+) -> None:
     assert "a zip to drop here" in drawn(driver.app)
     driver.choose("New pack...")
     typed(driver, "Walls")
@@ -514,7 +535,7 @@ def test_a_pack_is_made_ready_in_the_background(
     driver.frames(ms=500)
     driver.choose("Zip and link all the same")
     assert "the link is in the clipboard" in driver.app.notice
-    zipped = driver.player.folder / "exports" / "laundry-1.zip"
+    zipped = driver.player.folder / "exports" / "laundry.zip"
     assert begun == [path, path]
     assert ZipFile(zipped).namelist()[0] == "laundry/pack.toml"
     saved, rest = f"Saved: {short_path(zipped)}", "the link is in the clipboard"
@@ -531,7 +552,7 @@ def test_a_pack_is_made_ready_in_the_background(
     driver.press("escape")
     assert screen.status.counts() == "8 levels in 2 episodes. Make ready will look for all gold in 8 levels. 0 problems"
     assert screen.status.counts()[:30] in drawn(driver.app)
-    assert "laundry-1.zip" in drawn(driver.app), "it stays"
+    assert "laundry.zip" in drawn(driver.app), "it stays"
     assert "Send the zip or the link" in drawn(driver.app)
     assert driver.button("Make ready")
     opened_folders: list[str] = []
@@ -540,13 +561,11 @@ def test_a_pack_is_made_ready_in_the_background(
     assert opened_folders == [zipped.parent.as_uri()]
     assert screen.packer.text == saved, "the clipboard may hold something else by now"
     driver.carry(screen.shelves.row_area(2), half(screen, 8))
-    assert screen.packer.text == "Changed since laundry-1.zip"
+    assert screen.packer.text == "Changed since laundry.zip"
     assert "Send the zip or the link" not in drawn(driver.app)
     driver.choose("Undo")
     assert screen.packer.text == saved
-    copied: list[str] = []
-    with patch("pygame.scrap.put_text", copied.append):
-        driver.choose("Copy the link")
+    copied = copied_links(driver)
     assert copied[0].endswith(ready.link)
 
 
@@ -603,9 +622,52 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     assert (grid.episode and grid.episode.name) == "Wash day", "what is shown there is as new"
     driver.press("escape")
     assert driver.shown(PackScreen).packer.text == (
-        f"Saved: {short_path(driver.player.folder / 'exports' / 'laundry-1.zip')}"
+        f"Saved: {short_path(driver.player.folder / 'exports' / 'laundry.zip')}"
     )
     assert driver.button("Make ready")
+
+
+def test_what_is_wrong_is_asked_about_before_the_work_and_once(
+    driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    packs.describe(path, {"version": "1.1"})
+    packs.place(path, [packs.new_level(path, "Brick", "me")], 1)
+    later = [pack_finding("same-name", "00-0-first-steps.txt", other="x")]
+    begun = list[list[PackFinding]]()
+
+    def made(folder: Path, **_: object) -> ReadyPack:
+        pack = Pack(folder)
+        problems = [*ready_pack.problems_of(pack, {}), *(later if len(begun) == 1 else [])]
+        begun.append(problems)
+        return ReadyPack(pack, [each for each in problems if each.code == "no-ninja" or each in later], b"zip", "", [])
+
+    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
+    screen = opened(driver)
+
+    def asked(text: str) -> None:
+        driver.wait(lambda: driver.top() is not screen, "it asks")
+        assert driver.shown(MenuScreen).title == "Laundry: " + text
+        driver.frames(ms=500)
+
+    driver.choose("Make ready")
+    asked("1 open problem")
+    assert not begun, "before the work"
+    driver.choose("Show the problems")
+    assert [each.text for each in problem_page(driver).problems][:1] == [
+        "Brick: there is no ninja: the level cannot be played"
+    ]
+    driver.press("escape")
+    for zips in (["laundry-1.1.zip"], ["laundry-1.1.zip", "laundry-1.1-2.zip"]):
+        driver.choose("Make ready")
+        asked("1 open problem")
+        driver.choose("Make ready all the same")
+        driver.wait(lambda: not screen.packer.busy)
+        if len(zips) == 2:
+            asked("2 open problems")
+            driver.choose("Zip and link all the same")
+        assert screen.packer.saved
+        assert screen.packer.saved.name == zips[-1], "what is known is not asked about again, what is new is"
+    assert len(begun) == 2
 
 
 def test_what_was_made_ready_asks_only_at_its_own_desk(
@@ -816,8 +878,7 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
     driver.wait(lambda: states() == ["Walk: certified"], "its card says so")
 
 
-def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     screen.packer.path, screen.packer.saved, screen.packer.text = path, path.with_suffix(".zip"), "Saved: laundry.zip"
     for answer, there in (("Cancel", True), ("Delete it", False)):
         driver.choose("More...")
@@ -869,6 +930,7 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     assert driver.shown(MenuScreen).title == "Delete Laundry with its 9 levels?"
     assert "All goes to the folder deleted; Undo brings it back" in drawn(driver.app)
     driver.choose("Delete it")
+    assert Packer(driver.app).steps == screen.packer.steps, "so it is when the program runs again"
     said = ["Delete Laundry", "New pack", "Take out Things that hum", "Rename First Steps", "Move First Steps"]
     for what in [*said, "Move Mind the Gap"]:
         assert driver.button("Undo").hint == f"Ctrl+Z: {what}"
@@ -886,8 +948,7 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     assert list(layout(path)) == [1]
 
 
-def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     clipboard = [""]
     with patch("pygame.scrap.put_text", clipboard.append), patch("pygame.scrap.get_text", lambda: clipboard[-1]):
         driver.choose("Copy the link")
@@ -900,6 +961,7 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         assert not screen.own_packs
         driver.choose("Paste link")
         assert "Laundry is among your packs now" in driver.app.notice
+        driver.choose("Not now")
         driver.wait(lambda: screen.status.present, "the problems are known")
         work = "Make ready will look for all gold in 8 levels"
         assert screen.status.counts() == f"8 levels in 2 episodes. {work}. 0 problems"
@@ -917,6 +979,7 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
         driver.choose("Keep both")
+        driver.choose("Not now")
         assert len(screen.own_packs) == 2, "it never goes over what is there unasked"
     assert layout(screen.path) == first
 
@@ -929,11 +992,11 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
 
     def drop() -> None:
         zipped.write_bytes(Pack(made).files.zipped())
-        pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(zipped)))
-        driver.frames()
+        driver.drop_file(zipped)
 
     drop()
-    assert driver.app.notice == "Laundry is among your packs now: Enter plays it"
+    assert driver.app.notice == "Laundry is among your packs now"
+    driver.choose("Not now")
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     before = {file: file.read_bytes() for file in path.rglob("*") if file.is_file()}
     (made / "00-0-first-steps.txt").unlink()
@@ -944,6 +1007,7 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
     assert driver.shown(MenuScreen).title == "You have Laundry in another version"
     assert "1 level new, 1 level changed, 1 level gone" in drawn(driver.app)
     driver.choose("Update it")
+    driver.choose("Not now")
     assert driver.app.notice == "Laundry: 1 level new, 1 level changed, 1 level gone"
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     assert Pack(path).index.version == "1.1"
@@ -955,8 +1019,65 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
     assert [each.name for each in screen.own_packs] == ["Laundry", "Laundry, 1.1"]
 
 
-def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: Path) -> None:
+def test_what_is_received_is_shown_on_a_card_before_the_desk(driver: MenuDriver, path: Path, tmp_path: Path) -> None:
+    packs.describe(path, {"version": "1.2", "comment": "Dry by noon"})
+    zipped = tmp_path / "laundry.zip"
+    zipped.write_bytes(Pack(path).files.zipped())
+    shutil.rmtree(path)
+    driver.drop_file(zipped)
+    card = driver.shown(PackCard)
+    assert card.focus is driver.button("Play")
+    text = drawn(driver.app)
+    for said in ("Laundry", "by the ninja-game developers, 1.2", "8 levels in 2 episodes", "Dry by noon"):
+        assert f"text '{said}' at" in text
+    with patch.object(card._thumbnails, "draw") as draw:
+        drawn(driver.app)
+    assert draw.call_count == 4, "its picture"
+    driver.press("return")
+    assert driver.shown(EpisodeGrid).pack.name == "Laundry"
+    driver.press("escape")
+    screen = driver.shown(PackScreen)
+    driver.choose("Undo")
+    driver.drop_file(zipped)
+    driver.choose("Edit a copy")
+    assert [(pack.name, pack.received) for pack in screen.own_packs] == [("Laundry", True), ("Laundry copy", False)]
+    assert screen.pack
+    assert screen.pack.name == "Laundry copy"
+
+
+def test_a_level_that_comes_from_elsewhere_is_moved_or_with_ctrl_copied_and_that_is_said(
+    driver: MenuDriver, path: Path
+) -> None:
+    own = driver.player.folder / "levels" / "mine.txt"
+    own.write_text((path / "00-0-first-steps.txt").read_text("utf-8").replace("First Steps", "Mine"), "utf-8")
     screen = opened(driver)
+    screen.choose_tray("yours")
+    driver.frames(2)
+    free = screen.shelves.row_area(11)
+    for mods, done in ((pygame.KMOD_LCTRL, "Copied"), (0, "Moved")):
+        driver.carry(screen.tray.row_area(0), free, drop=False)
+        assert "with Ctrl, a copy" in drawn(driver.app)
+        pygame.key.set_mods(mods)
+        driver.mouse_up(free)
+        pygame.key.set_mods(0)
+        assert driver.app.notice == f"{done} Mine from your folder. Undo, or Ctrl+Z, takes it back"
+        assert (own.exists(), (path / "mine.txt").exists()) == (bool(mods), True)
+        driver.choose("Undo")
+        assert (own.exists(), (path / "mine.txt").exists()) == (True, False)
+    driver.app.notify("")
+    driver.carry(screen.shelves.row_area(1), free, drop=False)
+    pygame.key.set_mods(pygame.KMOD_LCTRL)
+    driver.mouse_up(free)
+    pygame.key.set_mods(0)
+    assert driver.app.notice.startswith("Copied First Steps from Laundry")
+    assert layout(path)[1][3:] == ["firs"]
+    assert layout(path)[0][0] == "00-0"
+    driver.app.notify("")
+    driver.carry(screen.shelves.row_area(1), half(screen, 4))
+    assert driver.app.notice == "", "within the pack it is seen"
+
+
+def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     with patch.object(screen, "read_packs", wraps=screen.read_packs) as read:
         screen.choose(screen.shelves.cells[1])
         read.reset_mock()
@@ -974,8 +1095,7 @@ def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: P
         assert [read.call_count, screen.path.name] == [1, "test-pack"]
 
 
-def test_an_episode_is_sorted_by_difficulty(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_an_episode_is_sorted_by_difficulty(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     driver.mouse(*(value + 20 for value in screen.shelves.row_area(0)[:2]))
     driver.press("return")
     driver.choose("Sort by difficulty")
@@ -984,8 +1104,7 @@ def test_an_episode_is_sorted_by_difficulty(driver: MenuDriver, path: Path) -> N
     assert layout(path)[0] != ["00-0", "00-1", "00-2", "00-3", "00-4"]
 
 
-def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     with patch("pygame.scrap.get_text", Pack(path).files.link):
         driver.choose("Paste link")
         driver.choose("Show it as received")
@@ -993,6 +1112,7 @@ def test_the_link_of_ones_own_pack_can_be_received(driver: MenuDriver, path: Pat
         driver.press("escape")
         driver.choose("Paste link")
         driver.choose("Receive it once more")
+        driver.choose("Not now")
     assert [bool(pack.received) for pack in screen.own_packs] == [False, True]
     assert (screen.pack and screen.pack.received, screen.focus) == (True, screen.play_button)
 
@@ -1057,21 +1177,20 @@ def linked(*names: str) -> str:
         (write_link("pack", ['{"a.txt": "x"}']), "pack.toml"),
     ],
 )
-def test_what_is_no_link_of_a_pack_changes_nothing(driver: MenuDriver, path: Path, text: str, said: str) -> None:
-    opened(driver)
+def test_what_is_no_link_of_a_pack_changes_nothing(
+    driver: MenuDriver, path: Path, text: str, said: str, screen: PackScreen
+) -> None:
     before = sorted(path.parent.rglob("*"))
-    with patch("pygame.scrap.get_text", lambda: text):
-        driver.choose("Paste link")
+    pasted(driver, text)
     assert said in driver.app.notice
     assert sorted(path.parent.rglob("*")) == before
 
 
-def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     screen.choose_tray("yours")
     pack_menus.level_menu(screen, screen.shelves.cells[1])
     driver.choose("Take out")
-    assert [cell.level.title for cell in screen.tray.cells if cell.level] == ["First Steps"]
+    assert titles(screen.tray) == ["First Steps"]
     screen.choose_tray("yours")
     screen.choose(screen.shelves.cells[0])
     driver.choose("Remove the episode")
@@ -1080,8 +1199,7 @@ def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: 
     assert layout(path)[1] == ["01-0", "01-1", "01-2", "00-0"]
 
 
-def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     driver.choose("More...")
     driver.choose("Play it")
     assert driver.shown(EpisodeGrid).pack.key == "Laundry"
@@ -1129,8 +1247,7 @@ def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(driver: MenuD
     link = Pack(path).files.link()
     shutil.rmtree(path)
     screen = opened(driver)
-    with patch("pygame.scrap.get_text", lambda: link):
-        driver.choose("Paste link")
+    pasted(driver, link)
     text = drawn(driver.app)
     assert "Laundry by the ninja-game developers" in text
     received = screen.path
@@ -1224,8 +1341,9 @@ def test_a_card_has_room_for_a_long_name_and_no_gold_where_there_is_none(driver:
     assert mark.call_count == 1
 
 
-def test_a_pack_needs_no_author_but_is_asked_for_one(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
-    screen = opened(driver)
+def test_a_pack_needs_no_author_but_is_asked_for_one(
+    driver: MenuDriver, monkeypatch: pytest.MonkeyPatch, screen: PackScreen
+) -> None:
     driver.choose("New pack...")
     assert "'Author'" in drawn(driver.app), "an empty one is a problem of the pack: nothing says it may be"
     typed(driver, "Walls")
@@ -1233,18 +1351,28 @@ def test_a_pack_needs_no_author_but_is_asked_for_one(driver: MenuDriver, monkeyp
     assert driver.player.settings.name == ""
     begun: list[Path] = []
     monkeypatch.setattr(screen.packer, "start", begun.append)
+    (screen.path / "pars.toml").touch()
     for author, asked in (("", True), ("ida", True), ("ida", False)):
         driver.choose("Make ready")
         if asked:
-            assert driver.shown(FormPanel).title == "Who made this pack?"
-            driver.fill(author, "Make ready")
+            form = driver.shown(FormPanel)
+            assert (form.title, form.focus) == ("What players see", form.widgets[1])
+            form.texts[1] = author
+            driver.choose("Make ready")
         assert Pack(screen.path).index.author == author
-    assert begun == [screen.path] * 3
     assert driver.player.settings.name == "ida"
+    (screen.path / "pars.toml").unlink()
+    driver.choose("Make ready")
+    form = driver.shown(FormPanel)
+    assert form.focus is form.widgets[3], "once for what it is about, too"
+    form.texts[3] = "About walls"
+    driver.choose("Make ready")
+    assert Pack(screen.path).index.comment == "About walls"
+    driver.choose("Make ready")
+    assert begun == [screen.path] * 5
 
 
-def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver) -> None:
-    screen = opened(driver)
+def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver, screen: PackScreen) -> None:
     driver.choose("New pack...")
     driver.shown(FormPanel).texts[1] = "ida"
     typed(driver, "Walls")
@@ -1294,8 +1422,7 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     assert not [problem for problem in problems_of(driver, screen) if problem.accepted], "it is not certified since"
 
 
-def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
-    screen = opened(driver)
+def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     driver.choose("New pack...")
     typed(driver, "Empty")
     assert screen.tray_key == "none", "the folder has none"
@@ -1389,9 +1516,8 @@ def test_a_pack_that_is_gone_or_changed_is_seen_at_once(driver: MenuDriver, path
     "buttons", [("Copy of the pack",), ("Name, author, version...", "OK"), ("Delete the pack...", "Delete it")]
 )
 def test_a_pack_whose_folder_has_gone_meanwhile_ends_nothing(
-    driver: MenuDriver, path: Path, buttons: tuple[str, ...]
+    driver: MenuDriver, path: Path, buttons: tuple[str, ...], screen: PackScreen
 ) -> None:
-    screen = opened(driver)
     driver.choose("More...")
     path.rename(driver.player.folder / "elsewhere")
     for button in buttons:

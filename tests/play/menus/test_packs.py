@@ -7,12 +7,12 @@ from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
-import pygame
 import pytest
 
+from ninja_game.editor.packs import same_pack
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import LEVELS
-from ninja_game.formats.pack.pack import is_pack
+from ninja_game.formats.pack.pack import Pack, is_pack
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import daily_file
 from ninja_game.play.level.screen import LevelScreen
@@ -20,6 +20,7 @@ from ninja_game.play.main import first_screen
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menus.browser import Browser, LevelChoice
 from ninja_game.play.menus.episodes import _NAMED, Cells, EpisodeGrid
+from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.player.progress import Mark, next_par, reached
@@ -34,6 +35,39 @@ def other_pack(folder: Path, numbers: tuple[int, ...] = (2, 17)) -> Path:
     episodes = "".join(f'[[episode]]\nnumber = {n}\nlevels = ["00-0-first-steps.txt"]\n' for n in numbers)
     (folder / "pack.toml").write_text(f'name = "Other"\ncolumns = ["Left", "Right"]\n{episodes}')
     return folder
+
+
+def test_a_zip_that_is_only_played_can_be_kept(driver: MenuDriver, tmp_path: Path) -> None:
+    zipped = tmp_path / "washing.zip"
+    zipped.write_bytes(Pack(PACK).files.zipped())
+    for _ in range(2):
+        driver.app.push(first_screen(str(zipped), None, body="circle", practice=False)(driver.app))
+        driver.frames()
+        assert "Keep it" in drawn(driver.app)
+        driver.choose("Keep it")
+        driver.frames(2)
+        driver.choose("Play" if isinstance(driver.top(), PackCard) else "Play it")
+        grid = driver.shown(EpisodeGrid)
+        kept = driver.player.folder / LEVELS / "test-pack"
+        assert (grid.pack.path, grid.pack.received) == (kept, True)
+        assert "Keep it" not in drawn(driver.app)
+        driver.press("escape", "escape", "escape")
+        driver.shown(MainMenu)
+    assert [path.name for path in kept.parent.iterdir()] == ["test-pack"], "it was there already"
+    assert same_pack(Pack(kept), Pack(zipped))
+    driver.app.push(first_screen(str(PACK), None, body="circle", practice=False)(driver.app))
+    assert "Keep it" not in drawn(driver.app), "a folder is somebody's own"
+
+
+def test_a_zip_that_is_dropped_on_the_first_screen_is_received(driver: MenuDriver, tmp_path: Path) -> None:
+    zipped = tmp_path / "washing.zip"
+    zipped.write_bytes(Pack(PACK).files.zipped())
+    driver.drop_file(zipped)
+    assert driver.shown(PackCard).title == "test pack"
+    driver.choose("Not now")
+    driver.shown(PackScreen)
+    driver.press("escape")
+    driver.shown(Browser)
 
 
 def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None:
@@ -103,8 +137,8 @@ def test_zip_dropped_on_the_list_of_levels_is_received_as_a_pack(driver: MenuDri
     zipped = shutil.make_archive(str(tmp_path / "dropped"), "zip", path)
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
-    pygame.event.post(pygame.Event(pygame.DROPFILE, file=zipped))
-    driver.frames(2)
+    driver.drop_file(Path(zipped))
+    driver.choose("Not now")
     assert [(pack.name, pack.received) for pack in driver.shown(PackScreen).own_packs] == [("Other", True)]
     driver.press("escape")
     assert browser.message == ""
