@@ -99,6 +99,18 @@ class PlacedMessage(NamedTuple):
     near: bool = False  #: whether it lies beside its place, whatever it covers, and points to it
 
 
+def placed_message(
+    text: str, tiles: tuple[int, ...], things: Things, place: Point | None, spot: Point | None, *, of_start: bool
+) -> PlacedMessage:
+    """A text beside its own ``place``, px, or near ``spot``, where the ninja was when it came, and never over that.
+
+    ``of_start``: it stays in place, and may cover open space.
+    """
+    if place and spot:
+        things = (*things, (*spot, MUST))
+    return PlacedMessage(text, tiles, things, place or spot, of_start, place is not None)
+
+
 class EndPanel(NamedTuple):
     """Title and lines of the panel of an ended run; tiles and things to cover as little of as possible."""
 
