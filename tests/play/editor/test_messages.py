@@ -709,6 +709,18 @@ def test_a_message_of_any_moment_lies_where_the_preview_shows_it(
     assert Hud(doors.app.theme).box(message) == boxes[-1]
 
 
+def test_a_message_that_waits_for_another_is_a_problem_with_its_place(doors: Maker) -> None:
+    session = doors.editor.session
+    session.certifier.search = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
+    said(doors, "gold: One | gold: Two | lock 11,22: Three | at 20,20: Four | death 1: Five | trap for 9 s: Six")
+    late = [finding for finding in session.examine() if finding.code == "late-message"]
+    assert [(finding.text, finding.cells) for finding in late] == [
+        ("the message 'Three' is not shown in the known run: others are read then", ((10, 22),)),
+        ("the message 'Four' is not shown in the known run: others are read then", ((20, 20),)),
+        ("the message 'Six' is not shown in the known run: others are read then", ((13, 22),)),
+    ]
+
+
 @pytest.mark.parametrize("count", range(MAX_MESSAGES + 1))
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
