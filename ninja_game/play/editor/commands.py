@@ -65,6 +65,11 @@ what is selected."""
 NAMELESS = "My level"
 """The name of a level to which its maker gave none."""
 
+Begun = tuple[bytes, int]
+"""What a test begins with: ``lead`` and ``deaths`` of a LevelContext."""
+
+NOTHING: Begun = b"", 0
+
 IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
 
 IN_MORE = ("reach", "tests", "paths", "lines", "list", "slopes", "next_finding")
@@ -226,17 +231,14 @@ class EditorCommands(DocumentCommands):
 
     # --- trying and certifying ---
 
-    def test(self, at: Point | None = None, says: str | None = None, *, lead: bytes = b"", deaths: int = 0) -> None:
-        """Play the level. ``at``: where the ninja begins, by default at its place; ``says``: other messages.
-
-        ``lead``, ``deaths``: of a LevelContext.
-        """
+    def test(self, at: Point | None = None, says: str | None = None, begun: Begun = NOTHING) -> None:
+        """Play the level. ``at``: where the ninja begins, by default at its place; ``says``: other messages."""
         session, entry = self.session, self._entry()
         session.tools.finish()
         try:
             level = with_ninja_at(session.draft, at) if at else session.draft.level
             says = session.draft.says if says is None else says
-            screen = TryScreen(self.app, session, level, says, entry, lead=lead, deaths=deaths)
+            screen = TryScreen(self.app, session, level, says, entry, begun)
         except LevelError as error:
             self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
             return
@@ -250,7 +252,7 @@ class EditorCommands(DocumentCommands):
         session, lines = self.session, parse_messages(says)
         level, line = session.draft.level, lines[number] if lines else None
         if line is None or line.when in {"start", "death"}:
-            self.test(None, says, deaths=line.number if line else 0)
+            self.test(None, says, (b"", line.number if line else 0))
             return
         waits = bytes(line.number * TICKS_PER_SECOND + 1)
         runs = [session.way, *(run.inputs for run in session.tries[-1:] if run.level == level), waits]
@@ -258,7 +260,7 @@ class EditorCommands(DocumentCommands):
             moments = ((run, heard(lines, level, run)[number]) for run in filter(None, runs))
             lead = next((lead_in(level, run, moment.due) for run, moment in moments if moment), None)
             if lead is not None:
-                self.test(None, says, lead=lead)
+                self.test(None, says, (lead, 0))
                 return
         self.test(place and place_before(session.draft, place, line.size), says)
 
@@ -475,9 +477,9 @@ class TryContext(LevelContext):
 
     next_label = "back to the editor"
 
-    def __init__(self, session: EditorSession, entry: Entry, lead: bytes, deaths: int) -> None:
+    def __init__(self, session: EditorSession, entry: Entry, begun: Begun) -> None:
         super().__init__(session.app.player, entry, practice_mode=True)
-        self._session, self.lead, self.deaths = session, lead, deaths
+        self._session, (self.lead, self.deaths) = session, begun
 
     def _tried(self, attempt: Attempt, *, over: bool) -> None:
         self._session.tried(self.level, bytes(attempt.inputs), over=over)
@@ -521,12 +523,11 @@ class TryScreen(LevelScreen):
     music = SILENCE
 
     def __init__(
-        self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None, *,
-        lead: bytes = b"", deaths: int = 0,
-    ) -> None:  # fmt: skip
+        self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None, begun: Begun = NOTHING
+    ) -> None:
         title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
-        self._trying = TryContext(session, Entry(named, YOURS, there.episode if there else ""), lead, deaths)
+        self._trying = TryContext(session, Entry(named, YOURS, there.episode if there else ""), begun)
         super().__init__(app, self._trying)
 
     def leave(self) -> None:
