@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
-from itertools import pairwise, takewhile
+from itertools import takewhile
 from math import isfinite
 from struct import iter_unpack
 from threading import Event
@@ -315,7 +315,7 @@ class Certifier:
 
 
 TICKS = TICKS_PER_SECOND
-"""Ticks simulated for the overlay: a second."""
+"""Ticks simulated for the overlay, and least ticks of a test before its message: a second."""
 
 STARTS = {"off": None, "standing": 0.0, "running right": TOP_SPEED, "running left": -TOP_SPEED}
 """Speeds at the start to the right, px/tick; "off": nothing is shown."""
@@ -391,36 +391,34 @@ def with_ninja_at(draft: Draft, place: tuple[float, float]) -> Level:
     return put(draft, Stamp({}, (placed(object_of_type("ninja"), *place, "px"),))).level
 
 
-def place_before(
-    draft: Draft, routes: Iterable[PathPoints], place: tuple[float, float], size: Cell = SIZE
-) -> tuple[float, float] | None:
+def lead_in(level: Level, inputs: bytes, tick: int) -> bytes:
+    """The part of a run with which a test of a tick begins: to where it last stood, at least a second before."""
+    run, stood = Simulation(level), 0
+    for number, keys in enumerate(inputs[: max(0, tick - TICKS)], 1):
+        run.step_keys(keys)
+        stood = number if run.outcome == "running" and not run.ninja.in_air else stood
+    return inputs[:stood]
+
+
+def place_before(draft: Draft, place: tuple[float, float], size: Cell = SIZE) -> tuple[float, float] | None:
     """Where a test of what is said near a place begins, px; None: at the level's start.
 
-    It is where the first of these routes that comes there last stood; else a cell beside the frame, with a floor and
-    on the side of the start rather than without. A ninja that presses nothing lives there. ``size``: of the frame
-    around the place, in cells.
+    It is a cell beside the frame, nearer without room for that, with a floor and on the side of the start rather than
+    without. A ninja that presses nothing lives there. ``size``: of the frame around the place, in cells.
     """
     column, row = cell_of(*place)
     start = next(iter(route_of(draft.level, bytes(1))), place)
-    places = []
-
-    def is_near(x: float, y: float) -> bool:
-        return abs(x - place[0]) <= (size[0] / 2 + 1) * CELL and abs(y - place[1]) <= (size[1] / 2 + 1) * CELL
-
-    if is_near(*start) and start != place:
+    across, down = ((side / 2 + 1) * CELL for side in size)
+    if abs(start[0] - place[0]) <= across and abs(start[1] - place[1]) <= down and start != place:
         return None
-    for route in routes:
-        came = next((k for k, at in enumerate(route) if is_near(*at)), 0)
-        places += [there for before, there in pairwise(route[:came]) if before[1] == there[1]][-1:]
-    ways = [
-        [(column + step * k, row) for k in range(1, size[0] // 2 + 2)]
-        for step in ((1, -1) if start > place else (-1, 1))
-    ]
-    for way in sorted(ways, key=lambda way: -sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way)):
+    sides, far = (1, -1) if start > place else (-1, 1), range(size[0] // 2 + 1, 0, -1)
+    ways = [[(column + side * k, row) for k in range(1, last + 1)] for last in far for side in sides]
+    for way in sorted(ways, key=lambda way: (-len(way), -sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way))):
         if all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way):
-            places.append(middle_of(way[-1]))
-    runs = ((at, _played(with_ninja_at(draft, at), bytes(TICKS))) for at in places)
-    return next((at for at, run in runs if run and run.outcome != "dead"), None)
+            run = _played(with_ninja_at(draft, at := middle_of(way[-1])), bytes(TICKS))
+            if run and run.outcome != "dead":
+                return at
+    return None
 
 
 def find_reach(ask: Ask) -> Reach:

@@ -7,12 +7,13 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
-from ninja_game.sim.grid import middle_of
+from ninja_game.sim.grid import Cell, cell_at, cell_index, is_inside, middle_of
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
 MAX_MESSAGES, MAX_LETTERS = 8, 120
 SIZE = 5, 5  # columns and rows of the frame around the cell of a text with a place, unless it has a size of its own
+ANY: Cell = 0, 0  # the cell of a text that is about none
 BAR = "|"  # separates two texts
 
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
@@ -22,22 +23,26 @@ TARGETS = ("switch", "exit")  # objects that a text may name in the same way: an
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _COUNTED = re.compile(r"death ([1-9][0-9]?)|after ([1-9][0-9]?) s")
-_PLACE = re.compile(r"at ([0-9]{1,2}),([0-9]{1,2})(?: ([1-9][0-9]?)x([1-9][0-9]?))?")
+_PLACE = re.compile(r"(at|switch|gold|lock|trap) ([0-9]{1,2}),([0-9]{1,2})(?: ([1-9][0-9]?)x([1-9][0-9]?))?")
 _TIME = re.compile(r"(.*) for ([1-9][0-9]?) s")
 _EVENTS = ("start", "switch", "gold", "lock", "trap")
-_WHEN = f"{', '.join(_EVENTS)}, 'death 3', 'after 20 s', 'at 12,5' or 'at 12,5 3x3', then perhaps 'for 9 s'"
+_WHEN = (
+    f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'death 3', 'after 20 s', 'at 12,5' or 'at 12,5 3x3',"
+    " then perhaps 'for 9 s'"
+)
 
 
 class LevelMessage(NamedTuple):
     """``when``: a name of _EVENTS, "death", "after" or "at". ``number``: after how many deaths, or seconds of a try.
 
-    ``cell``: column and row. ``seconds``: how long it is shown; 0: the usual time. ``size``: of its frame, in cells.
+    ``cell``: column and row of "at", or of the one switch or gold. ``seconds``: how long it is shown; 0: the usual
+    time. ``size``: of its frame, in cells.
     """
 
     when: str
     text: str
     number: int = 0
-    cell: tuple[int, int] = (0, 0)
+    cell: Cell = ANY
     seconds: int = 0
     size: tuple[int, int] = SIZE
 
@@ -45,6 +50,10 @@ class LevelMessage(NamedTuple):
     def place(self) -> tuple[float, float] | None:
         """The middle of the cell near which it is shown, px; None for other moments."""
         return middle_of(self.cell) if self.when == "at" else None
+
+    def is_about(self, x: float, y: float) -> bool:
+        """Whether a switch or gold at a point, px, is what it is about."""
+        return self.cell == ANY or cell_at(x, y) == cell_index(*self.cell)
 
     @property
     def reach(self) -> tuple[float, float]:
@@ -112,10 +121,10 @@ def _read(part: str) -> LevelMessage:
         return LevelMessage(moment, text, seconds=seconds)
     if match := _COUNTED.fullmatch(moment):
         return LevelMessage(moment.split()[0], text, int(match[1] or match[2]), seconds=seconds)
-    if (match := _PLACE.fullmatch(moment)) and 1 <= int(match[1]) <= COLUMNS and 1 <= int(match[2]) <= ROWS:
-        size = (int(match[3]), int(match[4])) if match[3] else SIZE
-        if size[0] <= COLUMNS and size[1] <= ROWS:
-            return LevelMessage("at", text, cell=(int(match[1]), int(match[2])), seconds=seconds, size=size)
+    if (match := _PLACE.fullmatch(moment)) and is_inside(cell := (int(match[2]), int(match[3]))):
+        size = (int(match[4]), int(match[5])) if match[4] else SIZE
+        if size[0] <= COLUMNS and size[1] <= ROWS and (match[1] == "at" or not match[4]):
+            return LevelMessage(match[1], text, cell=cell, seconds=seconds, size=size)
     raise LevelError("an unknown moment in 'says'", found=repr(when[:40]), expected=_WHEN)
 
 

@@ -11,7 +11,7 @@ from math import cos, dist, isnan, pi, sin, sqrt
 
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.ascii.writer import best_form
-from ninja_game.formats.messages import parse_messages
+from ninja_game.formats.messages import ANY, parse_messages
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.sim import kinds, rules
 from ninja_game.sim.arithmetic import is_set
@@ -237,15 +237,19 @@ def _some(names: Sequence[str], count: int) -> str:
 
 def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
     """Find the messages whose moment never comes. Raises LevelError if they cannot be read."""
-    doors = {door.mechanism for door in ground.doors.values()}
-    kinds_here = {spec.kind for spec in ground.objects if well_formed(spec)}
-    missing = {
-        "switch": "exit" * (kinds.EXIT not in kinds_here), "gold": "gold" * (kinds.GOLD not in kinds_here),
-        "lock": "locked door" * (LOCKED not in doors), "trap": "trap door" * (TRAP not in doors),
+    things = [spec for spec in ground.objects if well_formed(spec)]
+    doors = {kind: [(o.x, o.y) for o in ground.doors.values() if o.mechanism == kind] for kind in (LOCKED, TRAP)}
+    named: dict[str, tuple[str, Sequence[Sequence[float]]]] = {
+        "switch": ("exit", [spec.values[2:4] for spec in things if spec.kind == kinds.EXIT]),
+        "gold": ("gold", [spec.values[:2] for spec in things if spec.kind == kinds.GOLD]),
+        "lock": ("locked door", doors[LOCKED]), "trap": ("trap door", doors[TRAP]),
     }  # fmt: skip
     for message in parse_messages(says):
-        if lacks := missing.get(message.when):
-            yield level_finding("unseen-message", text=message.text, why=f"there is no {lacks}")
+        lacks, places = named.get(message.when, ("", ()))
+        if lacks and not any(message.is_about(*place) for place in places):
+            cells = (message.cell,) if message.cell != ANY else ()
+            where = " with its switch" * (lacks != "gold") + " at {},{}".format(*message.cell) if cells else ""
+            yield level_finding("unseen-message", cells=cells, text=message.text, why=f"there is no {lacks}{where}")
         elif message.place and not ground.comes_near(*message.place, message.reach):
             why = "the ninja never comes near its place"
             yield level_finding("unseen-message", cells=(message.cell,), text=message.text, why=why)

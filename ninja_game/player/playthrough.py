@@ -51,10 +51,12 @@ class Playthrough:
     """A level by itself, of a file, or of an episode. The subclasses below choose the next level.
 
     ``entry``: the present level. ``lifetime``: ticks at its start. ``notices``: of what was saved. ``next_label``: the
-    label of the way on from a passed level.
+    label of the way on from a passed level. ``lead``: inputs that have been played when it waits for the player.
+    ``deaths``: for its texts, how many there were before.
     """
 
     next_label = "next level"
+    lead, deaths = b"", 0
 
     def __init__(self, data: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False) -> None:
         self.data = data

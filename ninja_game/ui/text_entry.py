@@ -151,7 +151,8 @@ class TextEntry(Widget):
             if begin < end and focused:
                 fill(surface, palette.bar_full, begin - 1, top, end - begin + 2, high)
             line, colour = (text[first:last], palette.text) if text else (self.prompt, palette.faint)
-            theme.text(surface, line, left, top + (high - TEXT) / 2, size=TEXT, colour=colour)
+            wide = None if text else w - 2 * PAD
+            theme.text(surface, line, left, top + (high - TEXT) / 2, size=TEXT, colour=colour, width=wide)
             if focused and row == at:
                 fill(surface, palette.accent, place - 1, top + 1, 1.5, high - 2)
 

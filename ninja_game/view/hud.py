@@ -99,6 +99,18 @@ class PlacedMessage(NamedTuple):
     near: bool = False  #: whether it lies beside its place, whatever it covers, and points to it
 
 
+def placed_message(
+    text: str, tiles: tuple[int, ...], things: Things, place: Point | None, spot: Point | None, *, of_start: bool
+) -> PlacedMessage:
+    """A text beside its own ``place``, px, or near ``spot``, where the ninja was when it came, and never over that.
+
+    ``of_start``: it stays in place, and may cover open space.
+    """
+    if place and spot:
+        things = (*things, (*spot, MUST))
+    return PlacedMessage(text, tiles, things, place or spot, of_start, place is not None)
+
+
 class EndPanel(NamedTuple):
     """Title and lines of the panel of an ended run; tiles and things to cover as little of as possible."""
 
@@ -359,7 +371,9 @@ def _box(theme: Theme, message: PlacedMessage, keys: float) -> Box:
     if place:
         things = (*things, (*place, MUST))
     boxes: list[tuple[int, Box]] = []
-    for rows, width in ((0, 1), (0, 0.6), (0, 0.4)) if anchor else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
+    for rows, width in (
+        ((0, 1), (0, 0.6), (0, 0.4), (0, 0.3)) if anchor else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6))
+    ):
         lines = text.split("\n") if keys else wrapped(theme, text, width * _MESSAGE_WIDE, _MESSAGE_SIZE)
         lines = [theme.fit(line, _MESSAGE_WIDEST - keys, _MESSAGE_SIZE) for line in lines]
         w = min(max(theme.width(line, _MESSAGE_SIZE) for line in lines), _MESSAGE_WIDEST - keys) + 28 + keys

@@ -15,6 +15,7 @@ from ninja_game.sim.schema.world_fields import World
 from ninja_game.ui.canvas import WIDTH
 
 _BESIDE = 36.0  # px from a place to the panel of its message: far enough not to fade while the ninja is there
+_AWAY = 2 * CELL  # px across and down from a place to the farthest such panel, less at a corner
 _MAX_BOTTOM = 573.0  # lowest end of a panel: below are the level's name and the texts after a pass, px
 _NEAR = 16.0  # px between a panel and the middle of a thing
 _ALONG = 7  # open cells that cost as much as an open cell beside a solid one
@@ -69,7 +70,7 @@ def solid_place(
 
     Solid cells cost nothing, open cells beside solid ones most. Of equal places the one nearest to ``near`` is taken,
     or to the middle of the upper border. ``rows``: only at the left, in the middle and at the right of that many
-    heights, from the upper border to the lower one; ``beside``: only around that place, _BESIDE px from it.
+    heights, from the upper border to the lower one; ``beside``: only around that place, _BESIDE to _AWAY px from it.
     """
     open_cells, ways = _ways(tiles)
 
@@ -89,13 +90,14 @@ def solid_place(
     apart = (_MAX_BOTTOM - h - edge) / max(1, rows - 1) if rows else 6
     tops = [edge + k * apart for k in range(rows or int((_MAX_BOTTOM - h - edge) / 6))]
     if beside:
+        things = tuple(thing for thing in things if away_from(thing[:2], *beside, 0, 0) < hypot(w, h) + 2 * _AWAY)
         ends = (beside[0], w, WIDTH - edge), (beside[1], h, _MAX_BOTTOM)
         lefts, tops = (
-            [min(max(edge, at + k * (_BESIDE + size / 2) / 4 - size / 2), end - size) for k in range(-4, 5)]
+            [min(max(edge, at + k * (_AWAY + size / 2) / 6 - size / 2), end - size) for k in range(-6, 7)]
             for at, size, end in ends
         )
     places = [(x, y) for x in lefts for y in tops]
-    clear = [place for place in places if beside and away_from(beside, *place, w, h) >= _BESIDE - 1]
+    clear = [place for place in places if beside and _BESIDE - 1 <= away_from(beside, *place, w, h) < _AWAY + 4]
     x, y = min(clear or places, key=cost)
     covered, _, hidden = cost((x, y))
     return x, y, covered, hidden

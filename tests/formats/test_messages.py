@@ -6,7 +6,7 @@ import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.messages import MAX_LETTERS, parse_messages
+from ninja_game.formats.messages import ANY, MAX_LETTERS, parse_messages
 
 PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
 
@@ -20,6 +20,9 @@ PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
         ("death 0: jump", "unknown moment"),
         ("at 32,5: jump", "unknown moment"),
         ("start: press {fly}", "unknown key in 'says'; found {fly}; expected left, right, jump"),
+        ("lock 32,5: jump", "unknown moment"),
+        ("lock 12,5 3x3: jump", "unknown moment"),
+        ("start 12,5: jump", "unknown moment in 'says'; found 'start 12,5'; expected start, switch, gold"),
         ("after 0 s: jump", "unknown moment"),
         ("after 20: jump", "unknown moment"),
         ("start for 100 s: jump", "unknown moment"),
@@ -41,6 +44,18 @@ def test_a_place_has_a_frame_of_five_cells_or_of_its_own_size() -> None:
     for size in ("0x3", "3x0", "32x1", "1x24", "3", "3x3x3"):
         with pytest.raises(LevelError, match="unknown moment"):
             parse_messages(f"at 12,5 {size}: a")
+
+
+def test_a_moment_may_be_about_one_switch_or_gold_by_its_cell() -> None:
+    says = "lock 12,5: a | lock: b | gold 3,4 for 9 s: c | switch 1,23: d | trap 31,1: e"
+    read = parse_messages(says)
+    assert [(line.when, line.cell, line.place) for line in read] == [
+        ("lock", (12, 5), None), ("lock", ANY, None), ("gold", (3, 4), None), ("switch", (1, 23), None),
+        ("trap", (31, 1), None),
+    ]  # fmt: skip
+    one, any_of_them = read[:2]
+    assert [one.is_about(x, 132.0) for x in (287.9, 288.0, 311.9, 312.0, float("nan"))] == [0, 1, 1, 0, 0]
+    assert any_of_them.is_about(-99.0, float("nan"))
 
 
 def test_each_moment_is_read() -> None:

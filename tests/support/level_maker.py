@@ -26,7 +26,7 @@ ROOM = put(
 
 def examine(editor: EditorScreen) -> None:
     """Have the level's problems found now."""
-    editor.session._checks.ask((editor.session.draft.level, (), editor.session.draft.says))
+    editor.session._checks.ask((editor.session.draft.level, (), editor.session.draft.says, b""))
     editor.session._checks.finish()
 
 

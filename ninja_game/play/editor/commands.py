@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
-from ninja_game.editor.certify import place_before, with_ninja_at
+from ninja_game.editor.certify import lead_in, place_before, with_ninja_at
 from ninja_game.editor.draft import Draft, change_text
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered, save as save_draft
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
@@ -29,6 +30,7 @@ from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import UNREACHABLE, EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
 from ninja_game.play.editor.view import EditorView
+from ninja_game.play.level.messages import heard
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, Question, ask_text, nothing
 from ninja_game.play.menus.browser import LevelChoice
@@ -40,6 +42,7 @@ from ninja_game.player.playthrough import Navigation, PacedRun, Playthrough
 from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level
+from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import following
@@ -61,6 +64,11 @@ what is selected."""
 
 NAMELESS = "My level"
 """The name of a level to which its maker gave none."""
+
+Begun = tuple[bytes, int]
+"""What a test begins with: ``lead`` and ``deaths`` of a LevelContext."""
+
+NOTHING: Begun = b"", 0
 
 IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
 
@@ -258,23 +266,38 @@ class EditorCommands(DocumentCommands):
 
     # --- trying and certifying ---
 
-    def test(self, at: Point | None = None, says: str | None = None) -> None:
+    def test(self, at: Point | None = None, says: str | None = None, begun: Begun = NOTHING) -> None:
         """Play the level. ``at``: where the ninja begins, by default at its place; ``says``: other messages."""
         session, entry = self.session, self._entry()
         session.tools.finish()
         try:
             level = with_ninja_at(session.draft, at) if at else session.draft.level
-            screen = TryScreen(self.app, session, level, session.draft.says if says is None else says, entry)
+            says = session.draft.says if says is None else says
+            screen = TryScreen(self.app, session, level, says, entry, begun)
         except LevelError as error:
             self.app.notify(f"{error.what}: Shift+N and a click places a ninja, F6 tests with one at the pointer")
             return
         self.app.push(screen)
 
-    def test_message(self, place: Point | None, size: Cell, says: str) -> None:
-        """Play the level with these messages, from just before a frame, as the solver's run or the last test came."""
-        session = self.session
-        routes = session.certifier.search.route if session.way else (), session.last_try
-        self.test(place and place_before(session.draft, routes, place, size), says)
+    def test_message(self, number: int, place: Point | None, says: str) -> None:
+        """Play the level with these messages from just before one of them; ``place``: where it is said, if known.
+
+        The way there is that of the known run, or of the last test; without such a run it begins beside the place.
+        """
+        session, lines = self.session, parse_messages(says)
+        level, line = session.draft.level, lines[number] if lines else None
+        if line is None or line.when in {"start", "death"}:
+            self.test(None, says, (b"", line.number if line else 0))
+            return
+        waits = bytes(line.number * TICKS_PER_SECOND + 1)
+        runs = [session.way, *(run.inputs for run in session.tries[-1:] if run.level == level), waits]
+        with suppress(LevelError):  # without a ninja, which the test reports
+            moments = ((run, heard(lines, level, run)[number]) for run in filter(None, runs))
+            lead = next((lead_in(level, run, moment.due) for run, moment in moments if moment), None)
+            if lead is not None:
+                self.test(None, says, (lead, 0))
+                return
+        self.test(place and place_before(session.draft, place, line.size), says)
 
     def certify(self) -> None:
         certifier = self.session.certifier
@@ -489,9 +512,9 @@ class TryContext(Playthrough):
 
     next_label = "back to the editor"
 
-    def __init__(self, session: EditorSession, entry: Entry) -> None:
+    def __init__(self, session: EditorSession, entry: Entry, begun: Begun) -> None:
         super().__init__(session.app.player, entry, practice_mode=True)
-        self._session = session
+        self._session, (self.lead, self.deaths) = session, begun
 
     def _tried(self, attempt: Attempt, *, over: bool) -> None:
         self._session.tried(self.level, bytes(attempt.inputs), over=over)
@@ -511,7 +534,7 @@ class TryContext(Playthrough):
 
     def passed(self, attempt: Attempt) -> list[str]:
         self._tried(attempt, over=True)
-        certifies = self._session.passed(self.level, attempt)
+        certifies = not self.lead and self._session.passed(self.level, attempt)
         return ["It can be passed: this run certifies it" if certifies else "It can be passed"]
 
     def died(self, attempt: Attempt) -> None:
@@ -534,10 +557,12 @@ class TryScreen(LevelScreen):
 
     music = SILENCE
 
-    def __init__(self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None) -> None:
+    def __init__(
+        self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None, begun: Begun = NOTHING
+    ) -> None:
         title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
-        self._trying = TryContext(session, Entry(named, YOURS, there.episode if there else ""))
+        self._trying = TryContext(session, Entry(named, YOURS, there.episode if there else ""), begun)
         super().__init__(app, self._trying)
 
     def leave(self) -> None:

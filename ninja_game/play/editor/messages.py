@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from math import dist
 
@@ -13,6 +13,7 @@ import pygame
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
+    ANY,
     BAR,
     KEYS,
     MAX_LETTERS,
@@ -29,11 +30,11 @@ from ninja_game.levels.episodes import Mood
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.lint import Ground, unseen_messages
 from ninja_game.play.app import App
-from ninja_game.play.editor.sheet import said_at
+from ninja_game.play.editor.sheet import said_at, things_of
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
-from ninja_game.play.level.messages import shown_ticks, waits
-from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow, MenuScreen, ask_to_keep
+from ninja_game.play.level.messages import Heard, heard, late_text, shown_ticks
+from ninja_game.play.menu_screen import CANCEL, Action, Menu, MenuRow, MenuScreen, ask_to_keep
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.sim.rules import CELL, LIFETIME, TICKS_PER_SECOND
@@ -41,10 +42,11 @@ from ninja_game.sim.schema.world_fields import World
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.input.keys import chord
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Area, Palette, Theme, inside, mixed
 from ninja_game.ui.widgets import Button, Widget
-from ninja_game.view.hud import Hud, HudView, PlacedMessage
+from ninja_game.view.hud import Hud, HudView, placed_message
 from ninja_game.view.places import Things
 from ninja_game.view.sprites.thumbnail import open_exit, thumbnail
 
@@ -58,7 +60,7 @@ PICTURE: Area = (342, TOP, 422, 422 * HEIGHT / WIDTH)
 _WHEN = {
     "start": ("At the start", "At each start, until the exit is open"),
     "switch": ("Exit opens", "Once, when the ninja opens the exit"),
-    "gold": ("The first gold", "Once, when the ninja takes the first gold"),
+    "gold": ("Gold is taken", "Once, when the ninja takes the first gold"),
     "death": ("After deaths", "At the start, after so many deaths"),
     "lock": ("A door unlocks", "Once, when a locked door opens"),
     "trap": ("A trap closes", "Once, when a trap door closes"),
@@ -67,12 +69,15 @@ _WHEN = {
 }
 """The name of each moment, and when it is."""
 
+_ONE = "Which one: column and row of the gold or switch, or a click on it in the picture; empty: the first of any"
+
 _DETAILS = {
-    "death": "How many deaths: a number from 1 to 99",
-    "after": "How many seconds: a number from 1 to 99",
-    "at": "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's: 12,5 or 12,5 3x3",
+    **dict.fromkeys(("switch", "gold", "lock", "trap"), ("any", _ONE)),
+    "death": ("deaths", "How many deaths: a number from 1 to 99"),
+    "after": ("seconds", "How many seconds: a number from 1 to 99"),
+    "at": ("12,5", "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's: 12,5 or 12,5 3x3"),
 }
-"""What some moments need besides."""
+"""What some moments may need besides: an example, and a hint."""
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
@@ -80,18 +85,18 @@ _HELP = (
     "at an exit alone once it is open.",
 )
 
-DETAIL, TIME, TEXT = 1, -3, -1
+DETAIL, TIME, TEXT = 1, -2, -1
 """Places of the fields in a row."""
 
 GRIP = 9.0
 """px of the level from the edge of a frame within which a drag sizes it."""
 
-_TIME_HINT = "Seconds that it stays: a number from 1 to 99; empty: as long as usual"
+_TIME_HINT = "Seconds that it stays: a number from 1 to 99; empty: as its letters and those of its moment need"
 
 _WORDS = ", ".join(f"{{{name}}}" for name in KEYS + TARGETS)
 
 
-@dataclass
+@dataclass(eq=False)
 class Message:
     """``when``: as of a LevelMessage. As typed: ``detail``, of _DETAILS, and ``time``, the seconds that it is shown."""
 
@@ -117,7 +122,7 @@ class Message:
         """Which field of the row is wrong, DETAIL, TIME or TEXT, and the problem in words; '' for none."""
         moment = self.moment
         if self.when in _DETAILS and (":" in moment or not _fits(f"{moment}: a text")):
-            return DETAIL, _DETAILS[self.when]
+            return DETAIL, _DETAILS[self.when][1]
         if self.time and not self.seconds:
             return TIME, _TIME_HINT
         if not self.text.strip():
@@ -144,7 +149,7 @@ def messages_of(says: str) -> list[Message]:
 
 
 def _detail(line: LevelMessage) -> str:
-    if line.when != "at":
+    if line.cell == ANY:
         return str(line.number or "")
     return "{},{}".format(*line.cell) + (" {}x{}".format(*line.size) if line.size != SIZE else "")
 
@@ -174,9 +179,9 @@ class _Stage:
 class MessagesScreen(MenuScreen):
     """``here``: the default cell of a new message near a place. ``put``: gets the new value of the header.
 
-    ``test``: plays the level from before a place, with the size of its frame, or its start, with such a value. ``at``:
-    the cell of the message that gets the focus. ``mood``: in which the level is played. ``way``: gives the inputs of
-    its author's run, if any.
+    ``test``: plays the level with such a value from just before a message, by its number and its place, if known.
+    ``at``: the cell of the message that gets the focus. ``mood``: in which the level is played. ``way``: gives the
+    inputs of its author's run, if any.
     """
 
     title = "Messages to the player"
@@ -188,7 +193,7 @@ class MessagesScreen(MenuScreen):
         draft: Draft,
         here: Cell,
         put: Callable[[str], object],
-        test: Callable[[Point | None, Cell, str], object],
+        test: Callable[[int, Point | None, str], object],
         mood: Mood,
         way: Callable[[], bytes],
         at: Cell | None = None,
@@ -231,17 +236,23 @@ class MessagesScreen(MenuScreen):
     def build(self) -> Sequence[Widget]:
         self._row_widgets = [self._row(number) for number in range(len(self.messages))]
         rows = [widget for row in self._row_widgets[self._first : self._first + SHOWN] for widget in row]
-        y, count = END + 14, len(self.messages)
-        full, others = count >= MAX_MESSAGES, (self._first + SHOWN) % MAX_MESSAGES
-        words = "Remove one first" if full else "Add a message"
-        add = Button((36, y, 160, 28), words, None if full else self._add)
-        if count > SHOWN:
-            text = f"Page {self._first // SHOWN + 1} of 2"
-            rows.append(Button((252, y, 78, 28), text, partial(self._select, others), hint="The other messages"))
-        hint = "Play from just before the selected message; Esc comes back"
-        test = Button((342, y, 132, 28), "Test", self._try, hint=hint)
-        end = [Button((488, y, 132, 28), "OK", self._accept), Button((632, y, 132, 28), "Cancel", self.close)]
-        return [*rows, add, test, *end]
+        y, some, full = END + 14, bool(self.messages), len(self.messages) >= MAX_MESSAGES
+        if len(self.messages) > SHOWN:
+            text, others = f"Page {self._first // SHOWN + 1} of 2", (self._first + SHOWN) % MAX_MESSAGES
+            rows.append(Button((342, y, 98, 28), text, partial(self._select, others), hint="The other messages"))
+        most = f"{MAX_MESSAGES} is the most: remove one first" if full else ""
+        up, down = (partial(self._reorder, by) if some else None for by in (-1, 1))
+        buttons: list[tuple[float, float, str, Action | None, str]] = [
+            (36, 48, "Add", None if full else self._add, most),
+            (88, 54, "Copy", self._copy if some and not full else None, "The selected message once more: Ctrl+D"),
+            (146, 44, "Up", up, "The selected message earlier: Ctrl+Up; with Shift the first"),
+            (194, 56, "Down", down, "The selected message later: Ctrl+Down; with Shift the last"),
+            (254, 76, "Remove", self._remove if some else None, "Take the selected message away"),
+            (450, 98, "Test", self._try, "Play from just before the selected message; Esc comes back"),
+            (558, 98, "OK", self._accept, ""),
+            (666, 98, "Cancel", self.close, ""),
+        ]
+        return [*rows, *(Button((x, y, w, 28), text, do, hint=hint, size=10.5) for x, w, text, do, hint in buttons)]
 
     @property
     def _first(self) -> int:
@@ -259,16 +270,15 @@ class MessagesScreen(MenuScreen):
 
         put(message.text)
         text.put = put
-        moment = Button((36, y, 104, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
+        moment = Button((36, y, 118, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
         details: list[Widget] = []
         if message.when in _DETAILS:
-            hint, detail = _DETAILS[message.when], partial(setattr, message, "detail")
-            details.append(TextEntry((143, y, 78, 28), hint, message.detail, detail, longest=11, hint=hint))
-        usual = f"{shown_ticks(message.when, len(self._together(message)), message.text) // TICKS_PER_SECOND} s"
+            (prompt, hint), detail = _DETAILS[message.when], partial(setattr, message, "detail")
+            details.append(TextEntry((157, y, 86, 28), prompt, message.detail, detail, longest=11, hint=hint))
+        usual = shown_ticks(message.when, len(self._together(message)), message.text) // TICKS_PER_SECOND
         put_time = partial(setattr, message, "time")
-        details.append(TextEntry((224, y, 48, 28), usual, message.time, put_time, longest=2, hint=_TIME_HINT))
-        remove = Button((275, y, 55, 28), "Remove", lambda: self._remove(message), size=10)
-        return [moment, *details, remove, text]
+        time = TextEntry((246, y, 84, 28), f"auto ({usual} s)", message.time, put_time, longest=2, hint=_TIME_HINT)
+        return [moment, *details, time, text]
 
     def _ask_moment(self, message: Message) -> None:
         def choose(when: str) -> None:
@@ -298,9 +308,14 @@ class MessagesScreen(MenuScreen):
         eyes = ((k, self._eye(message)) for k, message in enumerate(self.messages))
         there = {k: dist(eye, (x, y)) for k, eye in eyes if eye}
         line, selected = self._line(self.selected), self.selected
+        things = {cell_of(*at): dist(at, (x, y)) for at in self._things_of(selected)} if pressed else {}
+        named = "{},{}".format(*min(things, key=things.__getitem__, default=ANY))
         if pressed:
             self._sizes = _edges_at(line, x, y) if line and min(there.values()) > GRIP else (False, False)
-        if pressed and not any(self._sizes) and min(there.values(), default=WIDTH) < 1.5 * CELL:
+        if selected and min(things.values(), default=WIDTH) < 1.5 * CELL and selected.detail != named:
+            selected.detail = named
+            self.enter()
+        elif pressed and not any(self._sizes) and min(there.values(), default=WIDTH) < 1.5 * CELL:
             self._select(min(there, key=there.__getitem__))
         elif line and selected and any(self._sizes):
             wide = min(COLUMNS, 2 * abs(column - line.cell[0]) + 1) if self._sizes[0] else line.size[0]
@@ -319,8 +334,28 @@ class MessagesScreen(MenuScreen):
         self.messages.append(Message())
         self._select(len(self.messages) - 1)
 
-    def _remove(self, message: Message) -> None:
-        self.messages = [other for other in self.messages if other is not message]
+    def _put_at(self, number: int, message: Message, others: list[Message]) -> None:
+        """Show the messages with one at that place among others, selected; a button keeps the focus."""
+        number = min(max(0, number), len(others))
+        behind = self.widgets.index(self.focus) - len(self.widgets) if self.focus else 0
+        in_row = any(self.focus in row for row in self._row_widgets)
+        self.messages = [*others[:number], message, *others[number:]]
+        self._select(number)
+        self.focus = self.focus if in_row else self.widgets[behind]
+
+    def _copy(self) -> None:
+        if self.selected and len(self.messages) < MAX_MESSAGES:
+            self._put_at(self._selected + 1, replace(self.selected), self.messages)
+
+    def _reorder(self, by: int) -> None:
+        """Move the selected message by so many places, with Shift to the end."""
+        if selected := self.selected:
+            far = MAX_MESSAGES if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1
+            others = [other for other in self.messages if other is not selected]
+            self._put_at(self._selected + by * far, selected, others)
+
+    def _remove(self) -> None:
+        del self.messages[self._selected]
         self._selected = min(self._selected, max(0, len(self.messages) - 1))
         self.enter()
 
@@ -341,8 +376,7 @@ class MessagesScreen(MenuScreen):
 
     def _try(self) -> None:
         if self._is_sound():
-            eye, line = self._eye(self.selected) if self.selected else None, self._line(self.selected)
-            self._test(eye, line.size if line else SIZE, self.source)
+            self._test(self._selected, self._eye(self.selected) if self.selected else None, self.source)
 
     def close(self) -> None:
         """Leave; ask first whether changes are kept."""
@@ -352,8 +386,13 @@ class MessagesScreen(MenuScreen):
             ask_to_keep(self.app, "The messages are changed", self._accept)
 
     def capture(self, event: InputEvent) -> bool:
-        """Typed letters go to the text of the row with the focus."""
+        """Typed letters go to the text of the row with the focus; some keys do what the buttons do."""
         raw = event.raw
+        keys = chord(raw).replace("shift+", "") if raw.type == pygame.KEYDOWN else ""
+        by = {"ctrl+up": -1, "ctrl+down": 1}.get(keys, 0)
+        if by or keys == "ctrl+d":
+            self._reorder(by) if by else self._copy()
+            return True
         names = {pygame.TEXTINPUT: "text", pygame.KEYDOWN: "unicode"}
         typed = getattr(raw, names.get(raw.type, ""), "")
         if typed.strip() and typed.isprintable() and not isinstance(self.focus, TextEntry):
@@ -370,6 +409,7 @@ class MessagesScreen(MenuScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme = self.theme
+        self._selected = next((k for k, row in enumerate(self._row_widgets) if self.focus in row), self._selected)
         for number, message in list(enumerate(self.messages))[self._first : self._first + SHOWN]:
             row, length = TOP + ROW * (number % SHOWN), len(message.text)
             theme.text(surface, str(number + 1), 32, row + 36, size=9, bold=True, align="right")
@@ -385,16 +425,18 @@ class MessagesScreen(MenuScreen):
                 wrong = wrong or self._wait_of(message)
             colour = theme.palette.bad if wrong else theme.palette.faint
             theme.text(surface, wrong or self._turn_of(message), 36, row + 95, size=8.5, colour=colour, width=WIDE - 56)
-            if self.focus in self._row_widgets[number]:
-                self._selected = number
+            if message is self.selected:
+                theme.canvas.fill_rect(surface, theme.palette.accent, 32.5, row, 2, 91)
         count = f"{len(self.messages)} of {MAX_MESSAGES}"
-        theme.text(surface, count, 204, END + 21, size=11, colour=theme.palette.faint, width=46)
+        theme.text(surface, count, 764, 24, size=11, colour=theme.palette.on_tile, align="right")
         selected = self.selected
         self._draw_level(surface, selected)
         name, when = _WHEN[selected.when] if selected else ("", "")
         help_texts = [f"{name}: {when[0].lower()}{when[1:]}."] if selected else []
         if selected and selected.when == "at":
             help_texts.append("A click in the picture moves it, a drag of its frame sizes it.")
+        if len(self._things_of(selected)) > 1:
+            help_texts.append("A click in the picture on one of them: only when it is that one.")
         advice = [finding.advice for finding in self._unseen(selected)]
         x, y, w, h = PICTURE
         below = x, y + h + 10, w, END - y - h - 10
@@ -410,17 +452,18 @@ class MessagesScreen(MenuScreen):
         place = next(k for k, other in enumerate(together, 1) if other is message)
         return f"No. {place} of {len(together)}" if len(together) > 1 else ""
 
-    def _wait_of(self, message: Message) -> str:
-        """How late a message comes in its author's run because others are read first; '' if it is in time."""
+    def _heard(self, message: Message) -> Heard | None:
+        """When a message comes in the known run; None: never, or without such a run."""
         sound, inputs = [other for other in self.messages if not other.problem[1]], self._way()
-        if not inputs or message.when in {"start", "death"}:
-            return ""
+        if not inputs or message not in sound or message.when in {"start", "death"}:
+            return None
         lines = [line for other in sound for line in parse_messages(other.source)]
-        wait = waits(lines, self._draft.level, inputs)[sound.index(message)]
-        if wait is None:
-            return "Not shown in the known run: others are read then"
-        late = wait // TICKS_PER_SECOND
-        return f"{late} s late in the known run: others are read first" if late else ""
+        return heard(lines, self._draft.level, inputs)[sound.index(message)]
+
+    def _wait_of(self, message: Message) -> str:
+        """How late a message comes in the known run because others are read first; '' if it is in time."""
+        text = late_text(moment) if (moment := self._heard(message)) else ""
+        return text[:1].upper() + text[1:]
 
     def _together(self, message: Message) -> list[Message]:
         return [other for other in self.messages if other.moment == message.moment]
@@ -441,14 +484,19 @@ class MessagesScreen(MenuScreen):
         if message:
             controls, when = self.app.controls, message.when
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
-            layout = draft.level.tiles, self._things.get(cast, ()), self._eye(message), when == "start", when == "at"
-            placed = PlacedMessage(text, *layout) if text else None
+            line, moment, things = self._line(message), self._heard(message), self._things.get(cast, ())
+            spot = moment.spot if moment else None if line else self._eye(message)
+            layout = draft.level.tiles, things, line and line.place, spot
+            placed = placed_message(text, *layout, of_start=when == "start") if text else None
         for other in self.messages:
             if (line := self._line(other)) and (eye := line.place):
                 (w, h), chosen = line.reach, other is message
                 frame = eye[0] - w, eye[1] - h, 2 * w, 2 * h
                 colour = palette.accent if chosen else mixed(palette.background, palette.accent, 0.4)
                 stage.hud.theme.canvas.frame_rect(picture, colour, *frame, 1 + chosen)
+        for at in self._things_of(message):
+            named = at == (message and self._eye(message))
+            stage.hud.theme.canvas.circle(picture, palette.accent, at, 13, 3 if named else 1)
         foot = draft.name, f"gold 0 / {draft.level.gold}"
         labels = named_in(stage.world, arrow_targets(texts)) if stage.world else ()
         stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, message=placed, named=labels))
@@ -458,6 +506,10 @@ class MessagesScreen(MenuScreen):
                 x, y = (start + at * PICTURE[2] / WIDTH for start, at in zip(PICTURE, eye, strict=False))
                 theme.canvas.circle(surface, theme.palette.accent, (x, y), 6)
                 theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
+
+    def _things_of(self, message: Message | None) -> list[Point]:
+        """What a message can be about, px: the gold, or the switches of its moment."""
+        return things_of(self._draft, message.when) if message and message.when in _DETAILS else []
 
     def _line(self, message: Message | None) -> LevelMessage | None:
         """A message near a place as the level will have it; None for others and without a valid place."""
@@ -469,4 +521,5 @@ class MessagesScreen(MenuScreen):
         """Where the ninja is when a message appears, px; None at the start, or where that is unknown."""
         if line := self._line(message):
             return line.place
-        return said_at(self._draft, message.when) if message.when != "start" else None
+        timeless = message.when == "start" or message.problem[0] == DETAIL
+        return None if timeless else said_at(self._draft, parse_messages(f"{message.moment}: a text")[0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -41,6 +42,7 @@ from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import NO_FILE, stamp_of
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.load import load_levels
+from ninja_game.formats.messages import parse_messages
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, is_pack
@@ -48,16 +50,17 @@ from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import GAME, YOURS, Entry
-from ninja_game.levels.findings import Finding
+from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.levels.lint import level_findings
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_text, pasted_text
+from ninja_game.play.level.messages import heard, late_text
 from ninja_game.play.window import save_picture
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
-from ninja_game.sim.grid import is_inside
+from ninja_game.sim.grid import cell_of, is_inside
 from ninja_game.sim.kinds import DRONE, EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec, well_formed
 from ninja_game.ui.widgets import following
@@ -77,20 +80,30 @@ REST = 1.0
 
 PICTURE_WIDTH = 1584
 
-Question = tuple[Level, tuple[Finding, ...], str]
-"""A level to examine, what the solver has found about it, and its messages."""
+Question = tuple[Level, tuple[Finding, ...], str, bytes]
+"""A level to examine, what the solver has found about it, its messages, and the inputs of its known run, if any."""
 Examined = tuple[Level, list[Finding]]
 
 
 def _examine(question: Question) -> Examined:
-    level, searched, says = question
-    odd = level_findings(level, says)
+    level, searched, says, way = question
+    odd = [*level_findings(level, says), *_late_messages(level, says, way)]
     # An unreachable exit needs no finding of the solver too.
     out_of_reach = {number for finding in odd if finding.code in UNREACHABLE for number in finding.records}
     # One finding is enough for an enclosed exit: its switch gets one once the exit can be reached.
     shut = {number for finding in odd if finding.code == "unreachable" for number in finding.records}
     odd = [finding for finding in odd if finding.code != "unreachable-switch" or not shut.issuperset(finding.records)]
     return level, [*(finding for finding in searched if not out_of_reach.intersection(finding.records)), *odd]
+
+
+def _late_messages(level: Level, says: str, way: bytes) -> Iterator[Finding]:
+    """The messages that wait for others in the known run. One that follows another of its own moment is meant to."""
+    lines, begun = parse_messages(says), set[tuple[object, ...]]()
+    for line, moment in zip(lines, heard(lines, level, way) if way else [], strict=False):
+        of, timed = (line.when, line.number, line.cell), line.when not in {"start", "death"}
+        if moment and timed and of not in begun and (why := late_text(moment)):
+            yield level_finding("late-message", cells=(cell_of(*(line.place or moment.spot)),), text=line.text, why=why)
+        begun.add(of)
 
 
 class EditorSession:
@@ -252,13 +265,13 @@ class EditorSession:
         if self._checks.problem:
             self.app.notify(f"The level could not be examined: {self._checks.problem}")
             self._checks.problem = ""
-        level, says = self.draft.level, self.draft.says
+        level, says, way = self.draft.level, self.draft.says, self.way
         obstacles = () if self.certifier.is_stale(level) else self.certifier.search.obstacles
         before = self._asked
-        news = before is None or level is not before[0] or obstacles is not before[1] or says != before[2]
+        news = before is None or level is not before[0] or obstacles is not before[1] or (says, way) != before[2:]
         due = news and monotonic() - self._asked_at >= CHECK_SPACING
         if due and not self.tools.dragging:
-            self._asked, self._asked_at = (level, obstacles, says), monotonic()
+            self._asked, self._asked_at = (level, obstacles, says, way), monotonic()
             self._checks.ask(self._asked)
         if not self.tools.history.in_stroke and self.draft.objects is not self._objects:
             self._tell_of_exits()

@@ -16,7 +16,7 @@ import pygame
 from ninja_game.editor.certify import PathPoints, TestMap
 from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, object_type_name, points
-from ninja_game.formats.messages import parse_messages
+from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
@@ -282,8 +282,9 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 def said_places(draft: Draft) -> list[Point]:
     """The centres of the cells with messages, and beside the ninja or the object of other moments, px."""
     messages = parse_messages(draft.says)
-    things = (said_at(draft, when) for when in dict.fromkeys(message.when for message in messages))
-    return [message.place for message in messages if message.place] + [(at[0] + 16, at[1] - 18) for at in things if at]
+    things = (said_at(draft, message) for message in messages if not message.place)
+    beside = dict.fromkeys((at[0] + 16, at[1] - 18) for at in things if at)
+    return [message.place for message in messages if message.place] + list(beside)
 
 
 _SAID_AT = {
@@ -292,10 +293,15 @@ _SAID_AT = {
 }  # fmt: skip
 
 
-def said_at(draft: Draft, when: str) -> Point | None:
-    """Where the ninja is at a moment of a message, px: what it has just touched; None where that is unknown."""
+def things_of(draft: Draft, when: str) -> list[Point]:
+    """What the ninja touches at a moment of a message, px; nothing where that is unknown."""
     name, part = _SAID_AT.get(when, ("", BODY))
-    return next((points(spec).get(part) for spec in draft.objects if object_type_name(spec) == name), None)
+    return [at for spec in draft.objects if object_type_name(spec) == name and (at := points(spec).get(part))]
+
+
+def said_at(draft: Draft, message: LevelMessage) -> Point | None:
+    """Where the ninja is when a message comes, px: what it has just touched; None where that is unknown."""
+    return next((at for at in things_of(draft, message.when) if message.is_about(*at)), None)
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:

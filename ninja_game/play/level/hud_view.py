@@ -18,7 +18,7 @@ from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.schema.world_fields import World
-from ninja_game.view.hud import EndPanel, HudView, PlacedMessage
+from ninja_game.view.hud import EndPanel, HudView, placed_message
 from ninja_game.view.places import MUST, Things
 
 _FADE_TICKS = 8  # until the panel of an ended run is solid
@@ -41,13 +41,10 @@ def hud_view(play: LevelPlay) -> HudView:
     gold = f"{attempt.gold} / {play.all_gold}"
     end = None
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.messages.text
-    # The text of the start, and the one for a player who is stuck, stay in place and may cover open space.
-    covers = play.messages.is_start or "\n" in text
-    place, spot = play.messages.place, play.message_spot
-    # A text with a place lies beside it, and never over the ninja that has just come there.
-    things = (*play.things, (*spot, MUST)) if place and spot else play.things
-    layout = context.level.tiles, things, place or spot, covers, place is not None
-    message = PlacedMessage(named_keys(text, key), *layout) if text else None
+    # The text for a player who is stuck stays in place, too.
+    layout = context.level.tiles, play.things, play.messages.place, play.message_spot
+    of_start = play.messages.is_start or "\n" in text
+    message = placed_message(named_keys(text, key), *layout, of_start=of_start) if text else None
     if play.phase is Phase.DEAD:
         cause, help_text = cause_of_death(play)
         end = EndPanel(cause, [*filter(None, [help_text]), _after_death(play, key)], *_covering(play))

@@ -102,6 +102,8 @@ class LevelPlay:
         self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
         self.messages = MessageQueue(messages, self.attempt.simulation.tiles, helps=context.shows_hints)
+        for _ in range(context.deaths):
+            self.messages.on_death()
         self.shown_lifetime = float(self.attempt.lifetime)
         self.ghosts: list[Ghost] = []
         self.tries: deque[bytes] = deque(maxlen=MAX_TRIES)  #: inputs of the failed ones
@@ -125,6 +127,18 @@ class LevelPlay:
         if runs != [(ghost.inputs, ghost.pace) for ghost in self.ghosts]:
             self.ghosts = [Ghost(run, self.context.level, self.context.body, pace=pace) for run, pace in runs]
             self.view.ghosts = self.ghosts
+        if self.context.lead:
+            self.messages.say_again()
+        for keys in self.context.lead:
+            self.attempt.tick(keys)
+            self.tools.on_tick()
+            self._say()
+        self.view.on_seek()
+
+    def _say(self) -> None:
+        """Let the texts follow a tick."""
+        if self.messages.on_tick(self.attempt.simulation.world):
+            self.changed, self.message_spot = True, None if self.messages.is_start else self.ninja_place()
 
     def ninja_place(self) -> tuple[float, float]:
         ninja = self.attempt.simulation.world.ninja
@@ -161,7 +175,6 @@ class LevelPlay:
         self.tools.restarted()
         self.shown_lifetime = float(self.attempt.lifetime)
         self._wait_at_start()
-        self.view.on_seek()
         self._held_before = ignored
 
     def give_up(self) -> None:
@@ -262,8 +275,8 @@ class LevelPlay:
             self.attempt.tick(self.keys, invincible=self.invincible)
             self.view.on_tick()
             self.tools.on_tick()
-            if self.phase is Phase.PLAY and self.messages.on_tick(self.attempt.simulation.world):
-                self.changed, self.message_spot = True, None if self.messages.is_start else self.ninja_place()
+            if self.phase is Phase.PLAY:
+                self._say()
             self._note_end()
         if due and self.phase is Phase.PLAY:
             self.attempt.check_time()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import lru_cache
 from math import hypot
+from typing import NamedTuple
 
 from ninja_game.formats.messages import LevelMessage, arrow_targets
 from ninja_game.sim.collision.rays import sees, solid_at
@@ -12,7 +13,7 @@ from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLO
 from ninja_game.sim.grid import Point
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
-from ninja_game.sim.schema.world_fields import TileMap, World
+from ninja_game.sim.schema.world_fields import Event, TileMap, World
 from ninja_game.sim.states import SLIDING
 from ninja_game.simulation import Simulation
 
@@ -152,8 +153,9 @@ class MessageQueue:
             self._left = min(self._left, _FADE_TICKS)
         if self._left <= 0:
             self._say(*self._next)
-        happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
-        if "switch" in happened:
+        events = world.events[: world.event_count]
+        happened = {message for e in events for message in self._messages if _is_of(message, e)}
+        if any(event.kind == EXIT_OPENED for event in events):
             # The player has understood the goal: do not repeat the text of the start.
             self._shown.update(message for message in self._messages if message.when == "start")
         free = not self.is_unread
@@ -161,7 +163,7 @@ class MessageQueue:
             message
             for message in self._messages
             if message not in self._shown
-            and (message.when in happened or (free and (self._is_at(world, message) or _is_due(world, message))))
+            and (message in happened or (free and (self._is_at(world, message) or _is_due(world, message))))
         ]
         if new:
             self._shown.update(new)
@@ -211,26 +213,48 @@ def read_ticks(text: str) -> int:
     return TICKS_PER_SECOND * (2 - -len(text) // 20)
 
 
-def waits(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[int | None]:
-    """Ticks for which each message waits for others in a run; None: it is never shown because of them."""
+class Heard(NamedTuple):
+    """When a message comes in a run, and where the ninja is then, px."""
+
+    due: int  #: the tick in which it comes as the only one, from 0
+    tick: int | None  #: the same beside the others; None: never, because of them
+    spot: Point
+
+
+def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[Heard | None]:
+    """When each message comes in a run; None: its moment never does."""
     # Only the lengths of the texts matter, in steps of 20 letters: what is typed seldom runs the level again.
     texts = [str(number).ljust(-(-len(line.text) // 20) * 20) for number, line in enumerate(messages)]
     lines = tuple(line._replace(text=text) for line, text in zip(messages, texts, strict=True))
     together, alone = _heard(lines, level, inputs)
-    return [0 if text not in alone else together[text] - alone[text] if text in together else None for text in texts]
+    return [
+        Heard(alone[text][0], *together.get(text, (None, alone[text][1]))) if text in alone else None for text in texts
+    ]
+
+
+def late_text(moment: Heard) -> str:
+    """How late a message comes in a level's known run because others are read first; '' if it is in time."""
+    if moment.tick is None:
+        return "not shown in the known run: others are read then"
+    late = (moment.tick - moment.due) // TICKS_PER_SECOND
+    return f"{late} s late in the known run: others are read first" if late else ""
+
+
+_Comings = dict[str, tuple[int, Point]]
+"""The tick in which a text first comes, and the ninja's place then, px."""
 
 
 @lru_cache(maxsize=8)
-def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[dict[str, int], dict[str, int]]:
-    """The ticks of a run in which texts first come: beside each other, and each as if it were the only one."""
-    run, together, alone = Simulation(level), dict[str, int](), dict[str, int]()
+def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[_Comings, _Comings]:
+    """When texts first come in a run: beside each other, and each as if it were the only one."""
+    run, together, alone = Simulation(level), _Comings(), _Comings()
     queues = [(MessageQueue([line], run.tiles), alone) for line in messages]
     queues.append((MessageQueue(messages, run.tiles), together))
     for tick, keys in enumerate(inputs):
         run.step_keys(keys)
-        for queue, ticks in queues:
+        for queue, comings in queues:
             queue.on_tick(run.world)
-            ticks.setdefault(queue.text, tick)
+            comings.setdefault(queue.text, (tick, (run.world.ninja.x, run.world.ninja.y)))
     return together, alone
 
 
@@ -248,6 +272,10 @@ def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
         (line.text, line.seconds * TICKS_PER_SECOND or shown_ticks(line.when, len(messages), line.text), line)
         for line in messages
     ]
+
+
+def _is_of(message: LevelMessage, event: Event) -> bool:
+    return _WHEN.get(event.kind) == message.when and message.is_about(event.x, event.y)
 
 
 def _is_due(world: World, message: LevelMessage) -> bool:

@@ -276,7 +276,7 @@ def test_an_exit_in_one_wall_with_its_switch_is_one_problem(room: Maker) -> None
     found = []
     for shut in (walls[0] | walls[1], walls[1]):
         level = room.draft.with_tiles(dict.fromkeys(shut, 1)).level
-        found.append([each.code for each in _examine((level, (), ""))[1] if exit_ in each.records])
+        found.append([each.code for each in _examine((level, (), "", b""))[1] if exit_ in each.records])
     assert found == [["unreachable"], ["unreachable-switch"]]
 
 
@@ -297,9 +297,9 @@ def test_a_search_for_an_exit_that_cannot_be_reached_is_asked_about(
     assert started == [room.draft.level]
     exit_ = next(n for n, spec in enumerate(room.draft.objects) if spec.kind == EXIT)
     never = level_finding("unreached-exit", (exit_,))
-    odd = _examine((room.draft.level, (never,), ""))[1]
+    odd = _examine((room.draft.level, (never,), "", b""))[1]
     assert [each.code for each in odd if exit_ in each.records] == ["unreachable"]
-    assert _examine((ROOM.level, (never,), ""))[1] == [never]
+    assert _examine((ROOM.level, (never,), "", b""))[1] == [never]
 
 
 @pytest.mark.skipif(not compiled_available(), reason="needs Numba")

@@ -12,7 +12,9 @@ import pytest
 
 from ninja_game.editor import packs
 from ninja_game.editor.certify import place_before, search_of
+from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, put
+from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_messages
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
@@ -20,6 +22,8 @@ from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor.messages import _WHEN, PICTURE, TEXT, TIME, Message, MessagesScreen, messages_of
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
+from ninja_game.play.level.hud_view import hud_view
+from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.messages import MessageQueue, read_ticks
 from ninja_game.play.menu_screen import Menu
 from ninja_game.player.playthrough import Playthrough
@@ -28,8 +32,11 @@ from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import EXIT, GOLD, MINE
 from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.text_entry import TextArea, TextEntry
-from ninja_game.ui.theme import Palette
+from ninja_game.ui.theme import TEXT_SIZES, Palette, Theme
+from ninja_game.ui.widgets import PAD, TEXT as TEXT_PX, Button
 from ninja_game.view.hud import Box, Hud
 from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.draw_log import drawn
@@ -71,13 +78,13 @@ def in_picture(column: int, row: int) -> tuple[float, float]:
 def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     room.choose_in_menu("Messages...")
     screen = room.shown(MessagesScreen)
-    room.choose("Add a message")
+    room.choose("Add")
     room.type("run")
-    room.choose("Add a message")
+    room.choose("Add")
     choice = screen._row_widgets[1][0]
     room.mouse(*choice.centre)
     room.choose("Exit opens")
-    room.choose("Add a message")
+    room.choose("Add")
     room.type("on")
     room.mouse(*screen._row_widgets[1][-1].centre)
     room.type("out")
@@ -93,7 +100,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
 
 def test_what_is_typed_goes_to_the_text_of_the_row_and_changes_no_moment(room: Maker) -> None:
     screen = opened(room)
-    room.choose("Add a message")
+    room.choose("Add")
     screen.focus = screen._row_widgets[0][0]
     room.type("a b")
     assert (screen.messages[0].when, screen.messages[0].text) == ("start", "a b")
@@ -101,7 +108,7 @@ def test_what_is_typed_goes_to_the_text_of_the_row_and_changes_no_moment(room: M
 
 def test_all_moments_are_listed_and_one_is_taken(room: Maker) -> None:
     screen = opened(room)
-    room.choose("Add a message")
+    room.choose("Add")
     room.type("a")
     for when, (name, _) in _WHEN.items():
         before = screen.messages[0].when
@@ -120,15 +127,15 @@ def test_those_of_one_moment_are_numbered_with_their_seconds(room: Maker) -> Non
     room.editor.session.tools.history.change(replace(draft, says="start: a | gold: b | start: c | switch: d"))
     opened(room)
     shown = drawn(room.app)
-    for text, times in (("No. 1 of 2", 1), ("6 s", 3), ("No. 2 of 2", 1), ("12 s", 1)):
+    for text, times in (("No. 1 of 2", 1), ("auto (6 s)", 3), ("No. 2 of 2", 1), ("auto (12 s)", 1)):
         assert shown.count(f"text '{text}'") == times
 
 
 def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usual(room: Maker) -> None:
     screen = opened(room)
-    room.choose("Add a message")
+    room.choose("Add")
     room.type("on")
-    assert "text '12 s'" in drawn(room.app)
+    assert "text 'auto (12 s)'" in drawn(room.app)
     room.mouse(*screen._row_widgets[0][TIME].centre)
     room.type("0")
     room.choose("OK")
@@ -144,9 +151,9 @@ def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usua
 def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
     screen = opened(room)
     for name in "abcdefgh":
-        room.choose("Add a message")
+        room.choose("Add")
         room.type(name)
-    assert not room.button("Remove one first").enabled
+    assert not room.button("Add").enabled
     assert [widget in screen.widgets for widget in (screen._row_widgets[3][0], screen._row_widgets[4][0])] == [0, 1]
     assert "text 'Page 2 of 2'" in drawn(room.app)
     room.choose("Page 2 of 2")
@@ -155,7 +162,7 @@ def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
     screen.messages[5].text = ""
     room.choose("OK")
     assert screen.focus is screen._row_widgets[5][TEXT], "what is wrong is shown, on whatever page it is"
-    room.mouse(*screen._row_widgets[5][-2].centre)
+    room.choose("Remove")
     assert [message.text for message in screen.messages] == ["az", *"bcdegh"]
 
 
@@ -175,7 +182,7 @@ def test_all_places_are_seen_and_a_click_on_one_selects_its_message(room: Maker)
 
 def test_a_word_that_is_not_known_is_named_at_its_field_while_it_is_typed(room: Maker) -> None:
     screen = opened(room)
-    room.choose("Add a message")
+    room.choose("Add")
     for text in ("{fl", "y}"):
         assert "There is no" not in drawn(room.app)
         pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=text))
@@ -191,7 +198,7 @@ def test_every_message_comes_back_as_it_was(room: Maker) -> None:
     room.frames()
     screen = opened(room)
     assert len(screen.messages) == MAX_MESSAGES
-    assert not room.button("Remove one first").enabled
+    assert not room.button("Add").enabled
     room.choose("OK")
     assert room.draft.says == ALL
     opened(room)
@@ -237,7 +244,7 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     tools = room.editor.session.tools
     room.mouse(*room.at(24 * 7 + 5, 24 * 9 + 5), click=False)
     screen = opened(room)
-    room.choose("Add a message")
+    room.choose("Add")
     room.type("here")
     room.choose("At the start...")
     room.choose("Near a place")
@@ -338,21 +345,16 @@ def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room:
     block = Stamp(dict.fromkeys([(column, 19) for column in range(14, 26)], 1))
     draft = put(put(room.draft, block), Stamp({}, mines))
     # On a block: from the side of the start, though both sides are alike.
-    assert place_before(draft, (), (19 * 24 + 12.0, 18 * 24 + 12.0)) == (16 * 24 + 12.0, 18 * 24 + 12.0)
-    assert place_before(draft, (), (5 * 24 + 12.0, 540.0)) is None, "that near is the level's start"
+    assert place_before(draft, (19 * 24 + 12.0, 18 * 24 + 12.0)) == (16 * 24 + 12.0, 18 * 24 + 12.0)
+    assert place_before(draft, (5 * 24 + 12.0, 540.0)) is None, "that near is the level's start"
     # Both sides of this one are deadly, so it is the level's start.
-    assert place_before(draft, (), (14 * 24 + 12.0, 540.0)) == (17 * 24 + 12.0, 540.0)
-    assert place_before(draft, (), (8 * 24 + 12.0, 540.0)) == (5 * 24 + 12.0, 540.0)
+    assert place_before(draft, (14 * 24 + 12.0, 540.0)) == (17 * 24 + 12.0, 540.0)
+    assert place_before(draft, (8 * 24 + 12.0, 540.0)) == (5 * 24 + 12.0, 540.0)
     wide, high = (18 * 24 + 12.0, 18 * 24 + 12.0), (19 * 24 + 12.0, 17 * 24 + 12.0)
-    assert place_before(draft, (), wide, (7, 1)) == (14 * 24 + 12.0, 18 * 24 + 12.0), "outside its frame"
-    assert place_before(draft, (), high, (1, 7)) == (18 * 24 + 12.0, 17 * 24 + 12.0), "beside its frame"
+    assert place_before(draft, wide, (7, 1)) == (14 * 24 + 12.0, 18 * 24 + 12.0), "outside its frame"
+    assert place_before(draft, high, (1, 7)) == (18 * 24 + 12.0, 17 * 24 + 12.0), "beside its frame"
     tight = put(draft, Stamp({}, (ObjectSpec(MINE, (5 * 24 + 12.0, 540.0)),)))
-    assert place_before(tight, (), (8 * 24 + 12.0, 540.0)) is None
-    # Where a run comes in from the right in a jump, it is where the run last stood.
-    came = tuple((500.0 - 4 * k, 542.0) for k in range(20)) + tuple((420.0 - 4 * k, 540.0 - k) for k in range(40))
-    for routes in ((came,), ((), came)):
-        assert place_before(draft, routes, (300.0, 500.0)) == (424.0, 542.0)
-    assert place_before(draft, ((came[0], *came[30:]),), (300.0, 500.0)) == (372.0, 492.0), "it never stood"
+    assert place_before(tight, (8 * 24 + 12.0, 540.0)) == (6 * 24 + 12.0, 540.0), "nearer, without room"
 
 
 def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Maker) -> None:
@@ -422,7 +424,7 @@ def test_escape_and_cancel_ask_about_changed_messages(room: Maker, button: bool)
         leave()
         assert isinstance(room.top(), EditorScreen), "nothing is changed"
         screen = opened(room)
-        room.choose("Add a message")
+        room.choose("Add")
         room.type("on")
         leave()
         room.choose(answer)
@@ -450,7 +452,7 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
 def test_the_text_of_the_start_stays_in_its_place_while_it_is_shown() -> None:
     told = MessageQueue(parse_messages("start: Go"))
     assert told.is_start
-    assert not told.on_tick(SimpleNamespace(events=[SimpleNamespace(kind=EXIT_OPENED)], event_count=1))  # type: ignore[arg-type]
+    assert not told.on_tick(SimpleNamespace(events=[SimpleNamespace(kind=EXIT_OPENED, x=60.0, y=60.0)], event_count=1))  # type: ignore[arg-type]
     assert (told.text, told.is_start) == ("Go", True), "it may lie where it did"
     told.at_start()
     assert told.text == ""
@@ -458,7 +460,7 @@ def test_the_text_of_the_start_stays_in_its_place_while_it_is_shown() -> None:
 
 def test_a_locked_door_and_a_trap_have_their_words() -> None:
     told = MessageQueue(parse_messages("lock: The door is open | trap: Shut"))
-    world = SimpleNamespace(events=[SimpleNamespace(kind=LOCK_OPENED)], event_count=1)
+    world = SimpleNamespace(events=[SimpleNamespace(kind=LOCK_OPENED, x=60.0, y=60.0)], event_count=1)
     assert told.on_tick(world)  # type: ignore[arg-type]
     assert told.text == "The door is open"
     world.events[0].kind = TRAP_CLOSED
@@ -499,13 +501,233 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
     assert shown[-1] == start, "broken into lines as in play, though the letters of the preview are others"
 
 
+DOORS = parse_ascii_level(
+    "\n".join(
+        ["ninja-game level 1", *["|" + "." * 31 + "|"] * 21, "|..@.o.x.&.&.!....o......X......|", "|" + "." * 31 + "|",
+         "exit 25,22 switch 7,22", "locked door 31,9 top switch 9,22", "locked door 31,5 top switch 11,22",
+         "trap door 31,7 top switch 13,22"]
+    )
+).level  # fmt: skip
+"""Gold, the switches of the exit, of two locked doors and of a trap door, gold and the exit, right of the ninja."""
+
+RIGHT = with_press_bits(bytes([2]) * 125)
+"""Passes it: the exit opens in tick 36, the doors unlock in 46 and 56, the trap closes in 66."""
+
+
+@pytest.fixture
+def doors(room: Maker, monkeypatch: pytest.MonkeyPatch) -> Maker:
+    """In the level DOORS with a floor; RIGHT is known to pass it."""
+    floor = Stamp(dict.fromkeys([(column, 23) for column in range(1, 32)], 1))
+    draft = put(Draft(DOORS, "Doors", "me"), floor)
+    room.editor.session.tools.history.change(draft)
+    monkeypatch.setattr(type(room.editor.session), "way", property(lambda _: RIGHT))
+    return room
+
+
+def said(maker: Maker, says: str) -> None:
+    maker.editor.session.tools.history.change(replace(maker.draft, says=says))
+    maker.frames()
+
+
+@pytest.mark.parametrize(
+    "says, x",
+    [("lock: Now", 9), ("lock 11,22: Now", 11), ("trap: Now", 13), ("gold 18,22: Now", 18), ("at 20,22 1x1: Now", 20)],
+)
+def test_a_test_begins_in_the_known_run_a_second_before_the_message(
+    doors: Maker, monkeypatch: pytest.MonkeyPatch, says: str, x: int
+) -> None:
+    monkeypatch.setattr(doors.app.controls, "poll", lambda: 2)
+    said(doors, f"start: Go | {says}")
+    screen = opened(doors)
+    doors.mouse(*screen._row_widgets[1][TEXT].centre)
+    doors.choose("Test")
+    trying = doors.shown(TryScreen)
+    play = trying.play
+    for _ in range(2):
+        began = play.attempt.simulation.tick
+        assert play.phase is Phase.READY
+        assert bytes(play.attempt.inputs) == RIGHT[:began]
+        play.begin()
+        while play.messages.text != "Now" and play.attempt.outcome == "running":
+            play.run_ticks(1)
+        assert 40 <= play.attempt.simulation.tick - began + (began == 0) * 40 <= 60
+        assert abs(play.attempt.simulation.ninja.x - 24 * x - 12) < 40
+        play.retry()
+    play.begin()
+    while play.attempt.outcome != "exit":
+        play.run_ticks(1)
+    assert play.notices == ["It can be passed"], "its beginning was the solver's"
+
+
+def test_a_test_of_what_is_said_after_deaths_or_seconds_begins_there(doors: Maker) -> None:
+    said(doors, "start: Go | death 3: Three | after 9 s: Nine")
+    screen, texts = opened(doors), []
+    for row in (1, 2):
+        doors.mouse(*screen._row_widgets[row][TEXT].centre)
+        doors.choose("Test")
+        trying = doors.shown(TryScreen)
+        texts.append((trying.play.messages.text, trying.attempt.simulation.tick))
+        doors.press("escape")
+    assert texts == [("Three", 0), ("Go", 8 * 40 - 1)], "the run is over by then: the ninja stands"
+
+
+def test_without_a_known_run_a_test_goes_on_from_the_last_one(doors: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(type(doors.editor.session), "way", property(lambda _: b""))
+    said(doors, "trap: Now")
+    opened(doors)
+    doors.choose("Test")
+    assert doors.shown(TryScreen).attempt.simulation.ninja.x == 24 * 10 + 12.0, "beside the switch"
+    doors.press("escape")
+    doors.editor.session.tried(doors.draft.level, RIGHT, over=True)
+    doors.choose("Test")
+    assert bytes(doors.shown(TryScreen).attempt.inputs) == RIGHT[:26]
+
+
+def test_a_click_in_the_picture_names_the_one_door_that_is_meant(doors: Maker) -> None:
+    said(doors, "lock: One | gold: Two | start: Go")
+    screen = opened(doors)
+    assert "A click in the picture on one of them: only when it is that one." in drawn(doors.app)
+    doors.mouse(*in_picture(11, 22))
+    assert screen.messages[0].detail == "11,22"
+    assert "text '11,22'" in drawn(doors.app)
+    doors.mouse(*screen._row_widgets[1][TEXT].centre)
+    doors.mouse(*in_picture(18, 22))
+    doors.mouse(*screen._row_widgets[2][TEXT].centre)
+    doors.mouse(*in_picture(13, 22))
+    assert screen.source == "lock 11,22: One | gold 18,22: Two | start: Go"
+    doors.choose("OK")
+    assert doors.draft.says == screen.source
+    assert said_places(doors.draft) == [(11 * 24 + 28, 522.0), (18 * 24 + 28, 522.0), (100.0, 522.0)]
+    run = Simulation(doors.draft.level)
+    queue, heard_at = MessageQueue(parse_messages("lock 11,22: One | gold 18,22: Two")), dict[str, int]()
+    for tick, keys in enumerate(RIGHT):
+        run.step_keys(keys)
+        queue.on_tick(run.world)
+        heard_at.setdefault(queue.text, tick)
+    assert heard_at["One"] == 56, "not with the first door"
+
+
+def test_messages_are_copied_and_moved_by_buttons_and_keys(room: Maker) -> None:
+    said(room, "start: a | switch: b | after 9 s for 4 s: c")
+    screen = opened(room)
+
+    def order() -> str:
+        return "".join(message.text for message in screen.messages)
+
+    room.mouse(*screen._row_widgets[2][TEXT].centre)
+    room.choose("Up")
+    assert (order(), screen._selected) == ("acb", 1)
+    room.choose("Copy")
+    assert (order(), screen._selected) == ("accb", 2)
+    assert screen.source == "start: a | after 9 s for 4 s: c | after 9 s for 4 s: c | switch: b"
+    room.mouse(*screen._row_widgets[2][TEXT].centre)
+    room.type("d")
+    assert order() == "accdb", "a copy of its own"
+    room.chord("down", pygame.KMOD_LCTRL)
+    assert (order(), screen.focus) == ("acbcd", screen._row_widgets[3][TEXT])
+    room.chord("down", pygame.KMOD_LCTRL)
+    assert order() == "acbcd", "it is the last"
+    with patch.object(pygame.key, "get_mods", lambda: pygame.KMOD_SHIFT):
+        room.chord("up", pygame.KMOD_LCTRL | pygame.KMOD_LSHIFT)
+    assert (order(), screen._selected) == ("cdacb", 0)
+    room.chord("d", pygame.KMOD_LCTRL)
+    assert (order(), screen._selected) == ("cdcdacb", 1)
+    screen.focus = next(widget for widget in screen.widgets if getattr(widget, "text", "") == "Down")
+    room.press("return", "return")
+    assert (order(), screen._selected) == ("cdaccdb", 3), "the button keeps the focus"
+    for _ in range(9):
+        room.chord("d", pygame.KMOD_LCTRL)
+    assert len(screen.messages) == MAX_MESSAGES
+    screen.messages = []
+    screen.enter()
+    assert [room.button(text).enabled for text in ("Add", "Copy", "Up", "Down", "Remove")] == [True] + 4 * [False]
+    room.chord("up", pygame.KMOD_LCTRL)
+
+
+def test_seconds_are_called_automatic_until_they_are_set(room: Maker) -> None:
+    screen = opened(room)
+    room.choose("Add")
+    room.type("on")
+    assert "text 'auto (12 s)'" in drawn(room.app)
+    room.mouse(*screen._row_widgets[0][TIME].centre)
+    room.type("7")
+    screen.messages[0].text = "long " * 24
+    screen.enter()
+    assert "auto" not in drawn(room.app)
+    assert screen.messages[0].time == "7"
+
+
+@pytest.mark.parametrize("size", TEXT_SIZES.values())
+@pytest.mark.parametrize("width", [792, 1584])
+def test_names_of_moments_and_buttons_are_never_cut(room: Maker, size: int, width: int) -> None:
+    said(room, "lock for 1 s: a | start: b | at 1,1: c | gold: d | switch: e")
+    screen = opened(room)
+    theme = Theme(room.app.theme.palette, Canvas((width, width * 600 // 792)), size)
+    names = [f"{name}..." for name, _ in _WHEN.values()]
+    moment = screen._row_widgets[0][0]
+    buttons = [(text, moment) for text in names] + [(w.text, w) for w in screen.widgets if isinstance(w, Button)]
+    for text, button in buttons:
+        assert isinstance(button, Button)
+        assert theme.fit(text, button.area[2] - 2 * PAD, button.size, bold=True) == text
+    entries = [w for w in screen.widgets if isinstance(w, TextEntry) and not isinstance(w, TextArea)]
+    assert all(theme.fit(w.prompt, w.area[2] - 2 * PAD, TEXT_PX) == w.prompt for w in entries)
+
+
+MOMENTS = (
+    "start", "switch", "gold", "death 1", "lock", "lock 11,22", "trap", "gold 18,22", "after 2 s", "at 9,22",
+    "at 20,20",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("moment", MOMENTS)
+def test_a_message_of_any_moment_lies_where_the_preview_shows_it(
+    doors: Maker, monkeypatch: pytest.MonkeyPatch, moment: str
+) -> None:
+    boxes: list[Box] = []
+
+    def show(_: Hud, __: pygame.Surface, box: Box, *___: object) -> pygame.Rect:
+        boxes.append(box)
+        return pygame.Rect(0, 0, 1, 1)
+
+    said(doors, f"{moment}: {LONG}")
+    with monkeypatch.context() as patched:
+        patched.setattr(Hud, "draw_message", show)
+        opened(doors)
+        doors.frames()
+        doors.choose("OK")
+    doors.press("f5")
+    play = doors.shown(TryScreen).play
+    if moment == "death 1":
+        play.messages.on_death()
+        play.messages.at_start()
+    monkeypatch.setattr(doors.app.controls, "poll", lambda: 2)
+    play.begin()
+    while not play.messages.text and play.phase is Phase.PLAY:
+        play.run_ticks(1)
+    message = hud_view(play).message
+    assert message
+    assert Hud(doors.app.theme).box(message) == boxes[-1]
+
+
+def test_a_message_that_waits_for_another_is_a_problem_with_its_place(doors: Maker) -> None:
+    session = doors.editor.session
+    session.certifier.search = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
+    said(doors, "gold: One | gold: Two | lock 11,22: Three | at 20,20: Four | death 1: Five | trap for 9 s: Six")
+    late = [finding for finding in session.examine() if finding.code == "late-message"]
+    assert [(finding.text, finding.cells) for finding in late] == [
+        ("the message 'Three' is not shown in the known run: others are read then", ((10, 22),)),
+        ("the message 'Four' is not shown in the known run: others are read then", ((20, 20),)),
+        ("the message 'Six' is not shown in the known run: others are read then", ((13, 22),)),
+    ]
+
+
 @pytest.mark.parametrize("count", range(MAX_MESSAGES + 1))
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
-    fixed = [widget.area for widget in screen.widgets[-4:]]
+    fixed = [widget.area for widget in screen.widgets[-8:]]
     screen.messages = [Message("at", "8,21", "x") for _ in range(count)]
     screen.enter()
-    assert [widget.area for widget in screen.widgets[-4:]] == fixed
+    assert [widget.area for widget in screen.widgets[-8:]] == fixed
     areas = [pygame.Rect(*map(round, area)) for area in (PICTURE, *(widget.area for widget in screen.widgets))]
     assert all(area.collidelistall(areas) == [place] for place, area in enumerate(areas))
     assert not screen.offers_back, "OK and Cancel are the ways out"
@@ -522,7 +744,7 @@ def test_each_moment_is_explained_by_its_row(room: Maker) -> None:
 
 def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Maker, painted: list[str]) -> None:
     opened(room)
-    room.choose("Add a message")
+    room.choose("Add")
     room.type("all of it")
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "only what a text names"

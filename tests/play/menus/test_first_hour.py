@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import hypot
+from pathlib import Path
 from unittest.mock import patch
 
 import pygame
 import pytest
 
 from ninja_game.formats.ascii.reader import room_level
+from ninja_game.formats.load import load_levels
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
-from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER, Phase
+from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER, Phase, things_at_start
 from ninja_game.play.level.messages import (
     _FADE_TICKS,
     CLIMB,
@@ -34,7 +36,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
 from ninja_game.runs.deaths import SELF
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
-from ninja_game.sim.grid import cell_of
+from ninja_game.sim.grid import cell_of, middle_of
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
@@ -42,8 +44,8 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import CLASSIC, Theme
 from ninja_game.ui.widgets import Button
-from ninja_game.view.hud import _CLEAR, _IN_BORDER, Hud, PlacedMessage
-from ninja_game.view.places import MUST, away_from, solid_place, tag_top
+from ninja_game.view.hud import _CLEAR, _IN_BORDER, Hud, PlacedMessage, placed_message
+from ninja_game.view.places import MUST, away_from, hidden_by, solid_place, tag_top
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
 from tests.support.players import deadly_level, entry, short_level
@@ -779,3 +781,15 @@ def test_a_word_without_end_stays_in_the_window_in_the_largest_letters(*, near: 
     assert left + w <= 768
     assert top + h <= 600
     assert surface.get_rect().contains(hud.draw_message(surface, box))
+
+
+@pytest.mark.parametrize(
+    "name, cell", [("03-3-the-zoo", (16, 14)), ("32-1-the-combination", (30, 7)), ("13-2-skyline", (17, 15))]
+)
+def test_a_short_text_beside_a_place_hides_no_exit_no_switch_and_no_enemy(name: str, cell: tuple[int, int]) -> None:
+    level = load_levels(str(Path(__file__).parents[3] / "levels" / f"{name}.txt"))[0].level
+    things, place = things_at_start(level, Simulation(level).world, [], b""), middle_of(cell)
+    hud = Hud(Theme(CLASSIC, Canvas((792, 600))))
+    box = hud.box(placed_message("Jump here", level.tiles, things, place, place, of_start=False))
+    assert MUST not in hidden_by(things, *box.area)
+    assert away_from(place, *box.area) <= 2.2 * CELL
