@@ -21,15 +21,6 @@ TWO_MEANINGS = {
 }
 """Names that two modules share with a good reason: both are plain words that are read beside their module."""
 
-NOT_YET = {
-    "ACTIONS", "AHEAD", "AUTHOR", "BAR", "BEHIND", "COLUMNS", "COMPILING", "DOWN", "FAILED", "FAR", "FLOOR", "GAP",
-    "HEIGHT", "HELP", "IN_MENU", "KINDS", "LANDED", "LANES", "MARGIN", "MAX_BYTES", "MAX_COLUMNS", "MAX_ENDS",
-    "MAX_FORMULA", "MAX_LETTERS", "MAX_NAME", "MAX_ROWS", "MAX_SECONDS", "NAMES", "PICTURE", "PICTURE_WIDTH", "PREVIEW",
-    "RECORDS", "RIGHT", "ROW", "SIZE", "SPACING", "SPEEDS", "STEPS", "SWITCH", "TABLE", "TEXT", "TOP", "UNREACHABLE",
-    "USUAL", "WIDE", "WIDTH",
-}  # fmt: skip
-"""Names that two modules still share without a reason: none is added."""
-
 
 def modules() -> dict[str, ast.Module]:
     """The modules of the package by their files, as syntax trees."""
@@ -64,7 +55,7 @@ def test_no_two_public_constants_of_one_name_have_different_values() -> None:
         for name, value in (pair for node in tree.body for pair in values(node)):
             files[name][value].append(file)
     shared = {name: dict(by_value) for name, by_value in files.items() if len(by_value) > 1}
-    allowed = TWO_MEANINGS.keys() | NOT_YET
+    allowed = TWO_MEANINGS.keys()
     assert not {name: by_value for name, by_value in shared.items() if name not in allowed}, (
         "say in the name what it is of (MAX_TRACE_TICKS), or begin it with _ if only its module uses it"
     )

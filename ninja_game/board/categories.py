@@ -19,17 +19,17 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_number, parse_truth
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
-NAMES: dict[str, Callable[[Run], float]] = {
+_NAMES: dict[str, Callable[[Run], float]] = {
     "ticks": lambda run: run.tick, "gold": lambda run: run.gold, "score": lambda run: run.score,
     "all_gold": lambda run: run.entry.all_gold, "jumps": lambda run: run.jumps, "presses": lambda run: run.presses,
 }  # fmt: skip
 """The values of a run for formulas: ticks to the exit, gold, score (ticks), gold of the level, jumps, keys pressed."""
 
-MAX_BYTES = 2**20  # of a ``board.toml``
+_MAX_BYTES = 2**20  # of a ``board.toml``
 MAX_CATEGORIES = 12
 MAX_RANKS = 4  # most formulas that rank a category
-MAX_NAME = 40
-FAR = 5 * TICKS_PER_SECOND
+_MAX_NAME = 40
+_FAR = 5 * TICKS_PER_SECOND
 
 _KEYS: Mapping[str, type] = {"name": str, "rank": list, "when": str, "episodes": bool}
 _WORSE = {
@@ -37,7 +37,7 @@ _WORSE = {
     "presses": "more presses",
 }  # fmt: skip
 """The words for a run that is worse by a formula."""
-_ARGUMENTS = dict.fromkeys(NAMES, 0)
+_ARGUMENTS = dict.fromkeys(_NAMES, 0)
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Category:
 
     def values(self, runs: Sequence[Run]) -> list[tuple[float, ...] | None]:
         """The numbers that rank each run, the smaller the better; None for a run outside of the category."""
-        view = {name: _all(np.array([value(run) for run in runs], np.float64)) for name, value in NAMES.items()}
+        view = {name: _all(np.array([value(run) for run in runs], np.float64)) for name, value in _NAMES.items()}
         with np.errstate(all="ignore"):
             columns = [np.broadcast_to(number.value(view), len(runs)) for number in (self._truth, *self._numbers)]
         table = np.stack(columns, axis=1)
@@ -93,7 +93,7 @@ class Category:
         >>> HIGHEST.measured(-3657), Category("Fewest keys", ("presses",)).measured(1)
         ('91.425 points', '1 press')
         """
-        counts = {"Time": "s", "Score": "points"}.get(self.unit, self._shown if self._shown in NAMES else "")
+        counts = {"Time": "s", "Score": "points"}.get(self.unit, self._shown if self._shown in _NAMES else "")
         text = f"{self.text(value)} {counts}".rstrip()
         return {"1 presses": "1 press", "1 jumps": "1 jump"}.get(text, text)
 
@@ -118,7 +118,7 @@ class Category:
         >>> FASTEST.far(900, 344), FASTEST.far(60, 23), HIGHEST.far(900, 344)
         (True, False, False)
         """
-        return self.unit == "Time" and value > max(2 * first, first + FAR)
+        return self.unit == "Time" and value > max(2 * first, first + _FAR)
 
     def gain(self, amount: float) -> str:
         """The improvement over the record before, or the deciding criterion if the first numbers are equal.
@@ -145,14 +145,14 @@ def read_rules(path: Path) -> tuple[str, tuple[Category, ...]]:
     Raises FormatError with the place and the problem, FileError, OSError.
     """
     file = str(path)
-    text = read_utf8(path, MAX_BYTES)
+    text = read_utf8(path, _MAX_BYTES)
     try:
         table = parse_toml(text)
     except ValueError as error:
         raise FormatError(f"no TOML: {error}", file) from None
     tables, title = table.get("category"), table.pop("name", "")
-    if not isinstance(title, str) or len(title) > MAX_NAME:
-        raise FormatError("not the name of a board", file, expected=f"a text of at most {MAX_NAME} characters")
+    if not isinstance(title, str) or len(title) > _MAX_NAME:
+        raise FormatError("not the name of a board", file, expected=f"a text of at most {_MAX_NAME} characters")
     if set(table) != {"category"} or not isinstance(tables, list) or not 1 <= len(tables) <= MAX_CATEGORIES:
         raise FormatError(
             "no categories of a board", file, expected=f"1 to {MAX_CATEGORIES} tables [[category]], and a name"
@@ -173,8 +173,8 @@ def _category(table: Any, place: str) -> Category:
         if not isinstance(value, _KEYS[key]):
             raise FormatError(f"{key!r} is of the wrong type", place, expected=_KEYS[key].__name__)
     name, rank = table["name"], table["rank"]
-    if not name.strip() or len(name) > MAX_NAME:
-        raise FormatError("a name that is empty or too long", place, expected=f"1 to {MAX_NAME} characters")
+    if not name.strip() or len(name) > _MAX_NAME:
+        raise FormatError("a name that is empty or too long", place, expected=f"1 to {_MAX_NAME} characters")
     if not 1 <= len(rank) <= MAX_RANKS or not all(isinstance(part, str) for part in rank):
         raise FormatError(
             "'rank' is no list of formulas", place, expected=f'1 to {MAX_RANKS}, such as ["gold", "ticks"]'

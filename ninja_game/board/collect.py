@@ -27,7 +27,7 @@ from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
 from ninja_game.sim.level import Level
 
-MAX_BYTES = 2**20  # of a file: a hundred times a long run
+_MAX_BYTES = 2**20  # of a file: a hundred times a long run
 
 SETTLED = 2 * 10**9  # nanoseconds until a file's time is certain to show a change
 
@@ -104,7 +104,7 @@ class RunFolder:
         """Read a file by its path in the folder."""
         path = self.folder / name
         try:
-            return SentFile(name, read_bytes(path, MAX_BYTES))
+            return SentFile(name, read_bytes(path, _MAX_BYTES))
         except NinjaGameError as error:
             return SentFile(name, problem=str(error).removeprefix(f"{path}: "))
         except OSError as error:

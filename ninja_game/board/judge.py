@@ -17,10 +17,10 @@ from ninja_game.board.copies import without_copies
 from ninja_game.board.memo import Memo, program, values_digest
 from ninja_game.board.players import UNNAMED, Players, folded
 from ninja_game.board.runs import (
-    KINDS,
     NO_LEDGER,
     OWN,
     PLAYED,
+    REJECTED_KINDS,
     Dates,
     Judged,
     Ledger,
@@ -254,7 +254,7 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
     with suppress(TypeError, ValueError):
         rows = [Judged(*row) for row in noted]
         for row in rows:
-            known = row.kind in KINDS if row.kind else row.level in shown.entries
+            known = row.kind in REJECTED_KINDS if row.kind else row.level in shown.entries
             if not known or not all(map(isinstance, vars(row).values(), _TYPES)):
                 return []
             parse_provenance(row.made)

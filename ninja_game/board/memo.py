@@ -11,7 +11,7 @@ from ninja_game.errors import DAMAGED
 from ninja_game.files.reading import digest_of, read_bytes
 from ninja_game.files.writing import write_atomically
 
-MAX_BYTES = 2**30  # the memo of a million runs has half as many
+_MAX_BYTES = 2**30  # the memo of a million runs has half as many
 MAX_MEMOS = 100  # the newest stay
 
 
@@ -39,7 +39,7 @@ class Memo:
         self._before: dict[str, Any] = {}
         self._now: dict[str, Any] = {}
         try:
-            pages = json.loads(read_bytes(path, MAX_BYTES)) if path else {}
+            pages = json.loads(read_bytes(path, _MAX_BYTES)) if path else {}
             self._before = pages if isinstance(pages, dict) else {}
         except (*DAMAGED, OSError):
             pass

@@ -14,11 +14,11 @@ from ninja_game.board.players import folded
 from ninja_game.board.ranking import Ranking
 from ninja_game.board.runs import (
     DECISIONS,
-    KINDS,
     NO_LEDGER,
     OWN,
     PLAYED,
     REJECTED,
+    REJECTED_KINDS,
     Dates,
     Decision,
     Key,
@@ -296,7 +296,7 @@ def counts(judged: ValidatedRuns) -> str:
 
 def summary(judged: ValidatedRuns) -> str:
     kinds = Counter(item.kind for item in judged.rejected)
-    rejected = ", ".join(f"{kinds[kind]} {KINDS[kind][0]}" for kind in sorted(kinds))
+    rejected = ", ".join(f"{kinds[kind]} {REJECTED_KINDS[kind][0]}" for kind in sorted(kinds))
     near = [run.file for run in judged.runs if run.waits]
     files = [f"--confirm {plain(file)}" for file in dict.fromkeys(near)]
     some = " ".join([*files[:MAX_NAMED], *(["..."] if len(files) > MAX_NAMED else [])])

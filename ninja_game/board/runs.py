@@ -34,7 +34,7 @@ DISOWNED = "disowned"
 DECISIONS = (REJECTED, DISOWNED, PLAYED, ASSISTED)
 """The decisions of a board's keeper on a run: it does not count, it is not by its player, its ladder."""
 
-KINDS = {
+REJECTED_KINDS = {
     "moderated": ("by the keeper", "Rejected by the keeper", "Rejected by the keeper"),
     "practice": ("of practice", "Practice runs", "Practice run"),
     "copy": ("copied", "Copies of runs", "Copy"),

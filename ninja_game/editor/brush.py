@@ -6,7 +6,7 @@ from collections.abc import Collection
 from typing import NamedTuple
 
 from ninja_game.editor.motion import TILE_IDS, Motion
-from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, settled, with_word, word
+from ninja_game.editor.specs import SWITCH_PART, carried, has_switch, object_type_name, points, settled, with_word, word
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.object_lines import SIDES, ListedObject, natural_offset, read_object_line
 from ninja_game.sim import kinds
@@ -145,8 +145,8 @@ def _placed_door(spec: ObjectSpec, x: float, y: float, at: tuple[float, float], 
 
 def with_switch(spec: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
     px, py = snapped(x, y, snap)
-    old = points(spec)[SWITCH] if has_switch(spec) else (px, py)
-    return carried(spec, Motion(dx=px - old[0], dy=py - old[1]), (SWITCH,))
+    old = points(spec)[SWITCH_PART] if has_switch(spec) else (px, py)
+    return carried(spec, Motion(dx=px - old[0], dy=py - old[1]), (SWITCH_PART,))
 
 
 def cells_between(a: Cell, b: Cell) -> list[Cell]:

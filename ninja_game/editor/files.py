@@ -112,7 +112,7 @@ def draft_of_text(text: str, about: Draft) -> Draft:
 
 AUTOSAVE_SUFFIX = ".json"
 
-SPACING = 0.4
+_SPACING = 0.4
 """Least seconds between two autosaves."""
 
 
@@ -164,7 +164,7 @@ class Autosave(RecoveryFile):
         """Save the draft, with its history, if it has changed and it is time; one equal to its file needs none."""
         draft = history.draft
         draft_now = None if draft == source.draft else draft
-        if draft_now is not self._kept and time.monotonic() - self._asked_at >= SPACING and self._job.idle:
+        if draft_now is not self._kept and time.monotonic() - self._asked_at >= _SPACING and self._job.idle:
             self._asked_at = time.monotonic()
             self._kept = draft_now
             self._job.ask((source, history.copy()) if draft_now else None)
@@ -172,7 +172,7 @@ class Autosave(RecoveryFile):
     def flush(self, history: History[Draft], source: Source) -> None:
         """Save the draft now, if it has changed, and wait for the disk."""
         self._job.finish()
-        self._asked_at = -SPACING
+        self._asked_at = -_SPACING
         self.poll(history, source)
         self._job.finish()
 

@@ -14,7 +14,7 @@ from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KIND_NAMES, LAU
 from ninja_game.sim.level import ObjectSpec, makes_object, well_formed
 from ninja_game.sim.rules import CELL, HALF
 
-BODY, SWITCH = 0, 1
+BODY_PART, SWITCH_PART = 0, 1
 """Parts of an object: its body, and its switch."""
 
 
@@ -95,22 +95,22 @@ def points(spec: ObjectSpec) -> dict[int, Point]:
         return {}
     x, y = spec.values[:2]
     if spec.kind not in (EXIT, DOOR) or not well_formed(spec):
-        return {BODY: (x, y)} if isfinite(x) and isfinite(y) else {}
+        return {BODY_PART: (x, y)} if isfinite(x) and isfinite(y) else {}
     if spec.kind == EXIT:
-        places = {BODY: (x, y), SWITCH: (spec.values[2], spec.values[3])}
+        places = {BODY_PART: (x, y), SWITCH_PART: (spec.values[2], spec.values[3])}
     else:
-        places = {BODY: door_middle(spec.values)} | ({SWITCH: (x, y)} if has_switch(spec) else {})
+        places = {BODY_PART: door_middle(spec.values)} | ({SWITCH_PART: (x, y)} if has_switch(spec) else {})
     return {part: point for part, point in places.items() if all(map(isfinite, point))}
 
 
-def carried(spec: ObjectSpec, motion: Motion, parts: Collection[int] = (BODY, SWITCH)) -> ObjectSpec:
+def carried(spec: ObjectSpec, motion: Motion, parts: Collection[int] = (BODY_PART, SWITCH_PART)) -> ObjectSpec:
     """A spec after a motion of some of its parts; directions turn with the body."""
     kind, values = spec.kind, list(spec.values)
     if not points(spec):
         return spec
     if well_formed(spec) and kind in (EXIT, DOOR):
         return _carried_in_parts(spec, motion, parts)
-    if BODY not in parts:
+    if BODY_PART not in parts:
         return spec
     if kind == FLOOR_GUARD and motion.turns:
         # It stands on the floor of its cell, also after a turn.
@@ -134,14 +134,14 @@ def _carried_in_parts(spec: ObjectSpec, motion: Motion, parts: Collection[int]) 
     """An exit or a door: each part moves by itself, the door from side to side of cells."""
     values = list(spec.values)
     if spec.kind == EXIT:
-        if BODY in parts:
+        if BODY_PART in parts:
             values[:2] = motion.point(*values[:2])
-        if SWITCH in parts:
+        if SWITCH_PART in parts:
             values[2:] = motion.point(*values[2:])
         return spec._replace(values=tuple(values))
-    if SWITCH in parts or not has_switch(spec):
+    if SWITCH_PART in parts or not has_switch(spec):
         values[:2] = motion.point(*values[:2])
-    if BODY in parts:
+    if BODY_PART in parts:
         # A door moves by whole cells.
         whole = motion if motion.turns else motion._replace(dx=_whole(motion.dx), dy=_whole(motion.dy))
         x, y = whole.point(CELL * values[4] + HALF, CELL * values[5] + HALF)

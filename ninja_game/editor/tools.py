@@ -14,7 +14,7 @@ from ninja_game.document import History
 from ninja_game.editor import brush, stamp as stamps
 from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.specs import BODY, has_switch, points, properties, with_word, word
+from ninja_game.editor.specs import BODY_PART, has_switch, points, properties, with_word, word
 from ninja_game.formats.ascii.object_lines import SIDES
 from ninja_game.formats.messages import messages_at, parse_messages, with_message_moved
 from ninja_game.sim.grid import Cell, cell_of, is_inside, middle_of
@@ -58,14 +58,14 @@ OTHER_KINDS = tuple(kind.name for kind in brush.OBJECT_TYPES if kind.spec.kind n
 
 
 def can_be_remade(spec: ObjectSpec) -> bool:
-    return brush.object_type_of(spec) in OTHER_KINDS and BODY in points(spec)
+    return brush.object_type_of(spec) in OTHER_KINDS and BODY_PART in points(spec)
 
 
 def remade(spec: ObjectSpec, name: str) -> ObjectSpec:
     """An object as one of OTHER_KINDS, with its place, direction and movement; an object of another kind stays."""
     if not can_be_remade(spec):
         return spec
-    place, made = points(spec)[BODY], brush.object_of_type(name)
+    place, made = points(spec)[BODY_PART], brush.object_of_type(name)
     for shared in properties(made).keys() & properties(spec).keys() - {"type"}:
         if word(spec, shared) in properties(made)[shared].words:
             made = with_word(made, shared, word(spec, shared))

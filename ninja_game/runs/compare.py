@@ -30,7 +30,7 @@ _NAMES = {
     "gold-taken": "gold", "exit-opened": "switch of exit", "lock-opened": "locked door", "trap-closed": "trap door",
     "door-opened": "door", "won": "exit", "died": "death",
 }  # fmt: skip
-BLOCK = 1024  # ticks that are looked ahead for events
+_BLOCK = 1024  # ticks that are looked ahead for events
 
 SPLIT_EVENTS = tuple(_NAMES)  # the events that are splits (`ninja_game/sim/events.py`)
 
@@ -116,7 +116,7 @@ def run_splits(
     places: list[NDArray[np.float64]] = [np.empty(0)]
     counts: dict[tuple[str, int | None], int] = {}
     while world.tick() < len(inputs) and not world.outcome():
-        for keys in _spans(world, inputs[world.tick() : world.tick() + BLOCK], events):
+        for keys in _spans(world, inputs[world.tick() : world.tick() + _BLOCK], events):
             places.append(np.asarray(world.run(keys).places))
             for event in world.events():
                 name, id_ = EVENT_NAMES[event.kind], event.slot - 1 if event.slot else None

@@ -63,7 +63,7 @@ def named_replay(run: Replay, command: str, *, name: str = "", author: str = "",
     return replace(run, name=name, author=author, level_name=name, level_author=level_author, made=made)
 
 
-AUTHOR = "ninja-game check"
+_AUTHOR = "ninja-game check"
 
 
 def read_certificate(
@@ -100,7 +100,7 @@ def update_certificates(level: NamedLevel, run: Replay) -> None:
 
 
 def write_certificate(level: NamedLevel, path: Path, run: Replay) -> None:
-    replay = named_replay(run, "check", name=level.name, author=AUTHOR, level_author=level.author)
+    replay = named_replay(run, "check", name=level.name, author=_AUTHOR, level_author=level.author)
     Tree(path.parent).write(path.name, write_replay(replay))
 
 

@@ -22,11 +22,11 @@ from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import AUTOMATIC, LOCKED
 from ninja_game.sim.traces import is_open
 
-SPACING = 6.0
+_SPACING = 6.0
 """Px between points. Cell sides (multiples of 24 px) lie on points: blocking these points closes a door."""
 ACROSS = 133
-DOWN = 101
-POINTS = ACROSS * DOWN
+_DOWN = 101
+POINTS = ACROSS * _DOWN
 
 CLEARANCE = 9.0
 """Px; a point is free if this circle around it is. A little less than the ninja's radius, since the ninja slides."""
@@ -53,8 +53,8 @@ def free_points(levels: Any, costs: Costs) -> None:
     """Set the cost factor of every point: 1 if the ninja fits among the tiles, 0 if not."""
     level = levels[0]
     for point in range(POINTS):
-        x = SPACING * (point % ACROSS)
-        y = SPACING * (point // ACROSS)
+        x = _SPACING * (point % ACROSS)
+        y = _SPACING * (point // ACROSS)
         inside = CELL < x < WORLD_WIDTH - CELL and CELL < y < WORLD_HEIGHT - CELL
         free = inside and not solid_at(level, x, y)
         if free:
@@ -91,7 +91,7 @@ def spread(costs: Costs, blocked: Blocks, field: DistanceField, queue: NDArray[n
             # The field spreads against the move: from its end to its start.
             i = column - MOVE_X[k]
             j = row - MOVE_Y[k]
-            if not (0 <= i < ACROSS and 0 <= j < DOWN):
+            if not (0 <= i < ACROSS and 0 <= j < _DOWN):
                 continue
             start = j * ACROSS + i
             if costs[start] == 0.0 or (blocked[start] >> k) & 1:
@@ -108,27 +108,27 @@ def spread(costs: Costs, blocked: Blocks, field: DistanceField, queue: NDArray[n
 @fast
 def point_at(x: float, y: float) -> int:
     """Index of the point nearest to a place; a place outside the world counts as at its border."""
-    i = int((x + 3.0) / SPACING) if x > 0.0 else 0
-    j = int((y + 3.0) / SPACING) if y > 0.0 else 0
+    i = int((x + 3.0) / _SPACING) if x > 0.0 else 0
+    j = int((y + 3.0) / _SPACING) if y > 0.0 else 0
     i = min(i, ACROSS - 1)
-    j = min(j, DOWN - 1)
+    j = min(j, _DOWN - 1)
     return j * ACROSS + i
 
 
 def points_at(places: NDArray[np.float64]) -> NDArray[np.int64]:
     """``point_at`` of many places, (count, 2), px; NaN is 0."""
-    limits = np.array([[ACROSS - 1], [DOWN - 1]])
-    i, j = (np.nan_to_num(places).T / SPACING + 0.5).clip(0, limits).astype(np.int64)
+    limits = np.array([[ACROSS - 1], [_DOWN - 1]])
+    i, j = (np.nan_to_num(places).T / _SPACING + 0.5).clip(0, limits).astype(np.int64)
     points: NDArray[np.int64] = j * ACROSS + i
     return points
 
 
 def widened(field: DistanceField, steps: int = 3) -> DistanceField:
     """Add values for impassable points beside passable ones: the ninja may rest between points."""
-    grid = field.reshape(DOWN, ACROSS).copy()
+    grid = field.reshape(_DOWN, ACROSS).copy()
     for _ in range(steps):
         padded = np.pad(grid, 1, constant_values=UNREACHED)
-        around = [padded[1 + dy : 1 + dy + DOWN, 1 + dx : 1 + dx + ACROSS] for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
+        around = [padded[1 + dy : 1 + dy + _DOWN, 1 + dx : 1 + dx + ACROSS] for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
         nearest = np.minimum.reduce(around) + np.float32(2.0)
         grid = np.where(grid >= UNREACHED, np.minimum(nearest, UNREACHED), grid)
     return grid.reshape(-1)
@@ -136,12 +136,12 @@ def widened(field: DistanceField, steps: int = 3) -> DistanceField:
 
 def points_about(x: float, y: float, radius: float) -> list[int]:
     """List the points within ``radius`` px of a place."""
-    reach = int(radius / SPACING) + 1
+    reach = int(radius / _SPACING) + 1
     points = set()
     for i in range(-reach, reach + 1):
         for j in range(-reach, reach + 1):
-            point = point_at(x + i * SPACING, y + j * SPACING)
-            dx, dy = SPACING * (point % ACROSS) - x, SPACING * (point // ACROSS) - y
+            point = point_at(x + i * _SPACING, y + j * _SPACING)
+            dx, dy = _SPACING * (point % ACROSS) - x, _SPACING * (point // ACROSS) - y
             if dx * dx + dy * dy < radius * radius:
                 points.add(point)
     return sorted(points)
@@ -332,10 +332,10 @@ class Heuristics:
     def _bar_one_way(self, x: float, y: float, face_x: float, face_y: float) -> None:
         """Forbid the moves through a one-way platform's face; the ninja's centre meets it 22 px from its middle."""
         for point in points_about(x, y, 40.0):
-            px, py = SPACING * (point % ACROSS), SPACING * (point // ACROSS)
+            px, py = _SPACING * (point % ACROSS), _SPACING * (point // ACROSS)
             along = abs(px - x) if face_x == 0.0 else abs(py - y)
             depth = (px - x) * face_x + (py - y) * face_y
-            if along > 14.0 or not 22.0 <= depth < 22.0 + SPACING:
+            if along > 14.0 or not 22.0 <= depth < 22.0 + _SPACING:
                 continue
             for k in range(8):
                 if MOVE_X[k] * face_x + MOVE_Y[k] * face_y < 0.0:

@@ -21,8 +21,8 @@ from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import OUTCOME_RUNNING
 from ninja_game.sim.world import step
 
-AHEAD = 128  # ticks by which a moment may be ahead of the known run
-BEHIND = 24  # ticks by which a moment may be behind the known run
+_AHEAD = 128  # ticks by which a moment may be ahead of the known run
+_BEHIND = 24  # ticks by which a moment may be behind the known run
 SLOW = 0.5
 """Px/tick; the least speed that a known run is given, even where it is slower."""
 
@@ -86,8 +86,8 @@ def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
     vy = n.y - n.prev_y
     best = -1
     least = UNREACHED
-    k = min(ticks, w.tick + AHEAD)
-    last = max(0, w.tick - BEHIND)
+    k = min(ticks, w.tick + _AHEAD)
+    last = max(0, w.tick - _BEHIND)
     while k > last and ticks - k < least:
         k -= 1
         dx = abs(n.x - run.moves[k, 0])  # Numba would count references to a row object in every step of the loop

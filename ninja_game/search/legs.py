@@ -193,7 +193,7 @@ def _move_a_segment(tour: list[int], start: Distances, between: Distances, end: 
     return moved
 
 
-FAILED = 200.0
+_FAILED = 200.0
 """Least ticks for a way that a leg did not find."""
 # Legs take longer than distance fields say, which know no run-ups; fitted to gold tours whose figures were not kept.
 SLOWER = 1.4  # factor of the ticks
@@ -225,7 +225,7 @@ class PieceTicks:
         """Record that a leg did not reach a piece: the piece counts as farther from now on."""
         row = _last_piece(before)
         known = np.nan_to_num(self._measured[row, piece], nan=0.0)
-        self._measured[row, piece] = min(FARTHEST, max(FAILED, 1.5 * known))
+        self._measured[row, piece] = min(FARTHEST, max(_FAILED, 1.5 * known))
 
     def estimate(self, checkpoint: Checkpoint) -> tuple[Distances, Distances, Distances]:
         """Ticks from piece to piece, from a checkpoint to the pieces, and from the pieces to the exit."""

@@ -28,7 +28,7 @@ CHUNK = 32  # words in a chunk
 BUCKETS = 1 << 14
 """Buckets of the open list, by priority: one per tick, two per tick in a search along a run."""
 LARGE_STATE = 10_000  # words; the states of all levels of N are smaller
-MAX_ENDS = 96
+_MAX_ENDS = 96
 """Ends of a leg that are kept, with room for those of the last expansion."""
 
 
@@ -214,7 +214,7 @@ def new_arrays(nodes: int) -> SearchArrays:
         chunk_index=np.empty(nodes * CHUNK, np.int32),
         chunk_value=np.empty(nodes * CHUNK, np.int64),
         buckets=np.empty(BUCKETS, np.int32),
-        ends=np.zeros(MAX_ENDS, np.int32),
+        ends=np.zeros(_MAX_ENDS, np.int32),
         counters=zeroed(Counters, 1),
     )
 

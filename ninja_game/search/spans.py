@@ -23,7 +23,7 @@ NODES = 300_000
 PART = 500_000
 """Ticks between two looks at the clock."""
 
-CELLS, SPEEDS, MACROS, JITTERS = (3.0, 4.0, 6.0, 8.0), (0.2, 0.35, 0.5), (1, 2, 3, 4), (3, 5, 8)
+CELLS, _SPEEDS, MACROS, JITTERS = (3.0, 4.0, 6.0, 8.0), (0.2, 0.35, 0.5), (1, 2, 3, 4), (3, 5, 8)
 DELAYS, DISTANCES = (4.0, 8.0, 16.0, 30.0), (48.0, 64.0, 96.0, 160.0)
 PLACE_PRICES, SPEED_PRICES = (0.6, 0.9, 1.2), (0.5, 1.0, 2.0, 4.0)
 ENEMY_CELLS = (0.0, 24.0)
@@ -51,7 +51,7 @@ class SpanSettings(NamedTuple):
 def draw_settings(random: np.random.Generator) -> SpanSettings:
     resolution = Resolution(
         cell=float(random.choice(CELLS)),
-        speed=float(random.choice(SPEEDS)),
+        speed=float(random.choice(_SPEEDS)),
         macro=int(random.choice(MACROS)),
         jitter=int(random.choice(JITTERS)),
         enemy_cell=float(random.choice(ENEMY_CELLS)),

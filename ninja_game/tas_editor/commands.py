@@ -34,17 +34,17 @@ BY_PAD = {
 }  # fmt: skip
 """Commands by buttons of a pad; while the player plays on by hand, only those that step."""
 
-TABLE = CommandTable(bundled_commands("tas-editor.txt"), BY_PAD)
+TAS_COMMANDS = CommandTable(bundled_commands("tas-editor.txt"), BY_PAD)
 """All commands with a key, unless the player plays on by hand: then the keys of the game count."""
 
 SPLICES = {
     "splice_start": "Its beginning, then my rest", "splice_here": "My beginning, then its rest",
     "splice": "The selected ticks",
 }  # fmt: skip
-IN_MENU = {"save", "save_as", "open_other", "help"}
+_IN_MENU = {"save", "save_as", "open_other", "help"}
 
 
-HELP = """\
+_HELP = """\
 A row of the roll is a tick: click L, R or J to change a key, drag to paint, click the number of a tick to go there. \
 The level shows the world after that tick. Enter takes over: play on yourself, Enter again ends it.
 Select some ticks and press F to search for better keys there; a click on a result puts it into the run.
@@ -77,10 +77,10 @@ class RunCommands(DocumentCommands):
         return {"menu": self.menu, "help": self.help, "save": self.save, "save_as": self.save_as}
 
     def help(self) -> None:
-        self.app.push(HelpPage(self.app, "The TAS editor", HELP, TABLE.commands))
+        self.app.push(HelpPage(self.app, "The TAS editor", _HELP, TAS_COMMANDS.commands))
 
     def menu(self) -> None:
-        key = {name: key_text(command) for name, command in TABLE.by_name.items()}
+        key = {name: key_text(command) for name, command in TAS_COMMANDS.by_name.items()}
         rows: list[MenuRow] = [
             ("Save", self.save, key["save"]), ("Save as...", self.save_as, key["save_as"]),
             ("Open another run...", lambda: self._run("open_other"), f"Beside this one: {key['open_other']}"),
@@ -92,11 +92,11 @@ class RunCommands(DocumentCommands):
             ("Keep as a replay", self.keep, "Among yours"), ("Copy a link", self.copy_link, "Opens the run"),
             ("Help", self.help, key["help"]), ("Leave", self.leave, ""),
         ]  # fmt: skip
-        self.app.push(CommandMenu(self.app, "Run", rows, TABLE, IN_MENU, self._run))
+        self.app.push(CommandMenu(self.app, "Run", rows, TAS_COMMANDS, _IN_MENU, self._run))
 
     def splice(self) -> None:
         rows: list[MenuRow] = [
-            (text, partial(self._run, name), f"At the cursor. {key_text(TABLE.by_name[name])}")
+            (text, partial(self._run, name), f"At the cursor. {key_text(TAS_COMMANDS.by_name[name])}")
             for name, text in SPLICES.items()
         ]
         self.app.push(Menu(self.app, "Take from the other run", [*rows, ("Back", nothing, "")]))

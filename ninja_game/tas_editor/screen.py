@@ -17,7 +17,7 @@ from ninja_game.play.workspace import Commands, WorkspaceScreen
 from ninja_game.tas.files import OpenedRun, new_run, same_level
 from ninja_game.tas.journal import RecoveredRun
 from ninja_game.tas.session import TasSession
-from ninja_game.tas_editor.commands import TABLE, RunCommands
+from ninja_game.tas_editor.commands import TAS_COMMANDS, RunCommands
 from ninja_game.tas_editor.editor import Splitters, TasEditor, TasPart
 from ninja_game.tas_editor.level.part import LevelPart
 from ninja_game.tas_editor.roll.commands import first_change
@@ -40,7 +40,7 @@ class TasScreen(WorkspaceScreen):
     a run that another window has recovered.
     """
 
-    table = TABLE
+    table = TAS_COMMANDS
     small_notices = True
 
     def __init__(

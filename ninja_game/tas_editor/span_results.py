@@ -22,7 +22,7 @@ from ninja_game.tas_editor.editor import OtherRun, TasEditor
 
 CLOSING_SECONDS = 0.5  # longest wait for a cancelled search when the TAS editor is left
 
-COMPILING = (
+_COMPILING = (
     "Searches are loaded; the first time on a machine they are compiled, some minutes (`ninja-game compile` does it "
     "beforehand). Meanwhile you can play, look around and edit; only an edit in the ticks that are searched, or before "
     "them, ends the search."
@@ -233,7 +233,7 @@ class SpanResults:
             whole = "" if self.running or isinstance(search, RunSearch) else " Try Whole run, in Presets."
             return f"Nothing better {yet}than the run's own keys: {score_text(self.task, search.own)}.{whole}"
         if not search.ticks_run:
-            return COMPILING if self.running else NOT_BEGUN
+            return _COMPILING if self.running else NOT_BEGUN
         return NOTHING_YET if self.running else NOTHING
 
     @property

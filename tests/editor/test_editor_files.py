@@ -292,7 +292,7 @@ def test_an_autosave_names_its_file_wherever_the_next_editor_starts(
 
 
 def test_an_autosave_goes_when_the_draft_is_saved_or_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ninja_game.editor.files.SPACING", 0.0)
+    monkeypatch.setattr("ninja_game.editor.files._SPACING", 0.0)
     source = new_source()
     draft = source.draft.with_tiles({(9, 9): 1})
     autosave = Autosave(tmp_path)

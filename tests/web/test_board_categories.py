@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.board.categories import FASTEST, MAX_CATEGORIES, NAMES, USUAL, Category, read_rules
+from ninja_game.board.categories import _NAMES, FASTEST, MAX_CATEGORIES, USUAL, Category, read_rules
 from ninja_game.board.judge import judge
 from ninja_game.board.ranking import Ranking
 from ninja_game.board.runs import ASSISTED, PLAYED
@@ -19,7 +19,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.levels.published import published_levels
 from ninja_game.web.board.pages import BoardPages
-from ninja_game.web.board.parts import UNKNOWN
+from ninja_game.web.board.parts import UNKNOWN_ORIGIN
 from ninja_game.web.pages.gallery import path_data
 from tests.support.board import DIGEST, Tags, board, put, slow_walk
 from tests.support.forgeries import GOLD_LATER, WALKING, replay
@@ -115,7 +115,7 @@ def test_a_level_says_its_ladder_once_why_a_run_is_played_and_who_was_refused(
         (site / "board" / name).read_text("utf-8") for name in (f"levels/{DIGEST[:16]}.html", "rejected.html")
     )
     assert "<h2>Fastest; Highest score, assisted</h2>" in level
-    assert UNKNOWN in level, "Ann's run does not say how it was made"
+    assert UNKNOWN_ORIGIN in level, "Ann's run does not say how it was made"
     assert '<span class="with"> with Eve</span>' in level
     assert [f"{name}</a>, The walk" in rejected or f">{name}</a>" in rejected for name in ("Ann", "Nobody")] == [
         True, False,
@@ -174,7 +174,7 @@ def test_categories_of_a_mebibyte_are_too_many(tmp_path: Path, levels: Path, run
 
 def test_every_name_of_a_formula_is_in_the_documents() -> None:
     text = Path("docs/board.md").read_text("utf-8")
-    assert all(f"`{name}`" in text for name in NAMES)
+    assert all(f"`{name}`" in text for name in _NAMES)
 
 
 def test_no_record_depends_on_the_clock(runs: Path, levels: Path, tmp_path: Path) -> None:

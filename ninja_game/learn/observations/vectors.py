@@ -62,7 +62,7 @@ _FAR = 1.0e18  # px², farther than any distance
 MAX_EXITS = 60  # exits per level that are looked at: the first ones
 
 
-class Exit(NamedTuple):
+class ExitPlace(NamedTuple):
     """An exit and its switch: slot and places, px."""
 
     slot: int
@@ -95,17 +95,17 @@ class StateVector(Part):
         world's objects, which are far away in memory.
         """
 
-        def exits(number: int) -> list[Exit]:
+        def exits(number: int) -> list[ExitPlace]:
             switches = context.fresh[number].objects
             seen = context.objects(number, EXIT)
-            return [Exit(o.slot, o.x, o.y, switches[o.partner].x, switches[o.partner].y) for o in seen]
+            return [ExitPlace(o.slot, o.x, o.y, switches[o.partner].x, switches[o.partner].y) for o in seen]
 
         box = self.box
         divisors = np.array([scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()])
         return (
             observe_state,
             context.ranges(box.low, box.high, divisors),
-            *context.rows(exits, Exit),
+            *context.rows(exits, ExitPlace),
             *context.rows(lambda number: context.objects(number, GOLD), InitialObject),
             context.changed,
             *(context.table([0] * context.count, np.int64) for _ in range(2)),

@@ -27,7 +27,7 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
-from ninja_game.play.editor.session import UNREACHABLE, EditorSession
+from ninja_game.play.editor.session import UNREACHABLE_CODES, EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.level.messages import heard
@@ -47,11 +47,11 @@ from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import following
 
-TABLE = CommandTable(bundled_commands("level-editor.txt"))
+EDITOR_COMMANDS = CommandTable(bundled_commands("level-editor.txt"))
 """All commands with a key. Other keys choose tiles and objects."""
 
 
-HELP = """\
+_HELP = """\
 A first level: draw a floor with the left mouse button. Take the ninja from the objects at the right and click where \
 it begins; take the exit, click where it is, then where its switch is. Test plays the level, Certify lets the solver \
 look for a run, Save (in File) puts it into the menu Levels.
@@ -70,7 +70,7 @@ Begun = tuple[bytes, int]
 
 NOTHING: Begun = b"", 0
 
-IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
+_IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
 
 IN_MORE = ("reach", "tests", "paths", "lines", "list", "slopes", "next_finding")
 
@@ -92,7 +92,7 @@ _UNDO = "Undo brings back what was here"
 
 
 class EditorCommands(DocumentCommands):
-    """Runs commands by name (``TABLE``)."""
+    """Runs commands by name (``EDITOR_COMMANDS``)."""
 
     def __init__(self, app: App, session: EditorSession, view: EditorView, palette: PaletteView) -> None:
         super().__init__(app, session)
@@ -115,7 +115,7 @@ class EditorCommands(DocumentCommands):
     def _table(self) -> dict[str, Action]:
         tools, view = self.session.tools, self.view
         return {
-            "help": lambda: self.app.push(HelpPage(self.app, "The editor", HELP, TABLE.commands)),
+            "help": lambda: self.app.push(HelpPage(self.app, "The editor", _HELP, EDITOR_COMMANDS.commands)),
             "menu": self.menu, "file": self.file_menu, "more": self.more,
             "test": self.test, "test_here": lambda: self.test(tools.pointer), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
@@ -311,7 +311,7 @@ class EditorCommands(DocumentCommands):
             self.app.notify(f"{'Stopped. ' if certifier.search.run else ''}{certifier.text}", here=True)
             return
         start, findings = partial(certifier.start, level), self.session.examine()
-        odd = [number for finding in findings if finding.code in UNREACHABLE for number in finding.records]
+        odd = [number for finding in findings if finding.code in UNREACHABLE_CODES for number in finding.records]
         if any(finding.code in ("no-ninja", "no-exit") for finding in findings):
             self.app.notify("Place a ninja and an exit with its switch first")
         elif any(level.objects[number].kind == EXIT for number in odd):
@@ -345,8 +345,12 @@ class EditorCommands(DocumentCommands):
         def ask() -> None:
             self.view.taker, self.view.hint = test_at, "Click where the ninja begins; Esc gives up"
 
-        at = ("Test with the ninja at a click", ask, f"Key at the pointer: {key_text(TABLE.by_name['test_here'])}")
-        commands = map(TABLE.by_name.__getitem__, IN_MORE)
+        at = (
+            "Test with the ninja at a click",
+            ask,
+            f"Key at the pointer: {key_text(EDITOR_COMMANDS.by_name['test_here'])}",
+        )
+        commands = map(EDITOR_COMMANDS.by_name.__getitem__, IN_MORE)
         rows = [(command.label, partial(self.run, command.name), f"Key: {key_text(command)}") for command in commands]
         self.app.push(Menu(self.app, "More", [at, *rows, CANCEL]))
 
@@ -367,7 +371,7 @@ class EditorCommands(DocumentCommands):
             ("Ten good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
-        self.app.push(CommandMenu(self.app, "Level", rows, TABLE, IN_MENU, self.run))
+        self.app.push(CommandMenu(self.app, "Level", rows, EDITOR_COMMANDS, _IN_MENU, self.run))
 
     @property
     def _stamps(self) -> Path:

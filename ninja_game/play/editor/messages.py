@@ -50,11 +50,11 @@ from ninja_game.view.hud import Hud, HudView, placed_message
 from ninja_game.view.places import Things
 from ninja_game.view.sprites.thumbnail import open_exit, thumbnail
 
-ROW, TOP, WIDE = 112, 60, 294
+_ROW, _TOP, _WIDE = 112, 60, 294
 SHOWN = 4
 """Rows that are shown at once."""
-END = TOP + ROW * SHOWN
-PICTURE: Area = (342, TOP, 422, 422 * HEIGHT / WIDTH)
+END = _TOP + _ROW * SHOWN
+_PICTURE: Area = (342, _TOP, 422, 422 * HEIGHT / WIDTH)
 """Where the level is shown with the selected message."""
 
 _WHEN = {
@@ -85,7 +85,7 @@ _HELP = (
     "at an exit alone once it is open.",
 )
 
-DETAIL, TIME, TEXT = 1, -2, -1
+DETAIL, TIME, _TEXT = 1, -2, -1
 """Places of the fields in a row."""
 
 GRIP = 9.0
@@ -126,10 +126,10 @@ class Message:
         if self.time and not self.seconds:
             return TIME, _TIME_HINT
         if not self.text.strip():
-            return TEXT, "Type what is said, or remove the message"
+            return _TEXT, "Type what is said, or remove the message"
         if BAR in self.text:
-            return TEXT, f"A message has no {BAR}"
-        return TEXT, self.unknown and f"{self.unknown} is not one of {_WORDS}"
+            return _TEXT, f"A message has no {BAR}"
+        return _TEXT, self.unknown and f"{self.unknown} is not one of {_WORDS}"
 
     @property
     def unknown(self) -> str:
@@ -227,7 +227,7 @@ class MessagesScreen(MenuScreen):
             self._wanted = ""
             self._select(place)
 
-    def _select(self, number: int, field: int = TEXT) -> None:
+    def _select(self, number: int, field: int = _TEXT) -> None:
         """Show the row of a message, with the focus on a field of it."""
         self._selected = number
         self.enter()
@@ -260,8 +260,8 @@ class MessagesScreen(MenuScreen):
         return self._selected // SHOWN * SHOWN
 
     def _row(self, number: int) -> list[Widget]:
-        message, y = self.messages[number], TOP + ROW * (number % SHOWN)
-        text = TextArea((36, y + 31, WIDE, 60), "What is said", message.text, lambda _: None, longest=MAX_LETTERS)
+        message, y = self.messages[number], _TOP + _ROW * (number % SHOWN)
+        text = TextArea((36, y + 31, _WIDE, 60), "What is said", message.text, lambda _: None, longest=MAX_LETTERS)
 
         def put(typed: str) -> None:
             message.text = typed
@@ -300,10 +300,10 @@ class MessagesScreen(MenuScreen):
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
         drags = event.type == pygame.MOUSEMOTION and event.buttons[0] and self._dragged is None
         x, y = self.theme.canvas.logical(event.pos) if pressed or drags else (0.0, 0.0)
-        if not inside(PICTURE, x, y):
+        if not inside(_PICTURE, x, y):
             super()._handle_mouse(event)
             return
-        x, y = ((at - start) * WIDTH / PICTURE[2] for at, start in zip((x, y), PICTURE, strict=False))
+        x, y = ((at - start) * WIDTH / _PICTURE[2] for at, start in zip((x, y), _PICTURE, strict=False))
         column, row = cell_of(x, y)
         eyes = ((k, self._eye(message)) for k, message in enumerate(self.messages))
         there = {k: dist(eye, (x, y)) for k, eye in eyes if eye}
@@ -411,11 +411,11 @@ class MessagesScreen(MenuScreen):
         theme = self.theme
         self._selected = next((k for k, row in enumerate(self._row_widgets) if self.focus in row), self._selected)
         for number, message in list(enumerate(self.messages))[self._first : self._first + SHOWN]:
-            row, length = TOP + ROW * (number % SHOWN), len(message.text)
+            row, length = _TOP + _ROW * (number % SHOWN), len(message.text)
             theme.text(surface, str(number + 1), 32, row + 36, size=9, bold=True, align="right")
             colour = theme.palette.faint if length < MAX_LETTERS else theme.palette.bad
             count = f"{length} of {MAX_LETTERS}"
-            theme.text(surface, count, 36 + WIDE, row + 95, size=8.5, colour=colour, align="right")
+            theme.text(surface, count, 36 + _WIDE, row + 95, size=8.5, colour=colour, align="right")
             wrong = message.problem[1] if self._refused else ""
             if message.unknown:
                 wrong = f"There is no {message.unknown}: the words are at the right"
@@ -424,7 +424,9 @@ class MessagesScreen(MenuScreen):
                 wrong = next((f"Never shown: {finding.text.rpartition(': ')[2]}" for finding in unseen), "")
                 wrong = wrong or self._wait_of(message)
             colour = theme.palette.bad if wrong else theme.palette.faint
-            theme.text(surface, wrong or self._turn_of(message), 36, row + 95, size=8.5, colour=colour, width=WIDE - 56)
+            theme.text(
+                surface, wrong or self._turn_of(message), 36, row + 95, size=8.5, colour=colour, width=_WIDE - 56
+            )
             if message is self.selected:
                 theme.canvas.fill_rect(surface, theme.palette.accent, 32.5, row, 2, 91)
         count = f"{len(self.messages)} of {MAX_MESSAGES}"
@@ -438,7 +440,7 @@ class MessagesScreen(MenuScreen):
         if len(self._things_of(selected)) > 1:
             help_texts.append("A click in the picture on one of them: only when it is that one.")
         advice = [finding.advice for finding in self._unseen(selected)]
-        x, y, w, h = PICTURE
+        x, y, w, h = _PICTURE
         below = x, y + h + 10, w, END - y - h - 10
         lines = (*help_texts, *advice, *_HELP[bool(advice) :])
         theme.paragraph(surface, lines, below, 11, 15, colour=theme.palette.faint)
@@ -470,7 +472,7 @@ class MessagesScreen(MenuScreen):
 
     def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
         """The level with a message as in play. The level is drawn once, the message in each picture."""
-        theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*PICTURE)
+        theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*_PICTURE)
         size, opened = (place.width, theme, self.app.settings.text_size), bool(message and message.when == "switch")
         palette = self.app.palette_in(self._look)
         key = palette.name, size, opened
@@ -503,7 +505,7 @@ class MessagesScreen(MenuScreen):
         surface.blit(picture, place)
         for number, other in enumerate(self.messages, 1):
             if other is not message and (eye := self._eye(other)):
-                x, y = (start + at * PICTURE[2] / WIDTH for start, at in zip(PICTURE, eye, strict=False))
+                x, y = (start + at * _PICTURE[2] / WIDTH for start, at in zip(_PICTURE, eye, strict=False))
                 theme.canvas.circle(surface, theme.palette.accent, (x, y), 6)
                 theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
 

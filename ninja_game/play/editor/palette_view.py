@@ -11,7 +11,7 @@ import pygame
 
 from ninja_game.editor import brush
 from ninja_game.editor.motion import TILE_IDS
-from ninja_game.editor.specs import BODY, points, properties, word
+from ninja_game.editor.specs import BODY_PART, points, properties, word
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.sim import kinds
@@ -100,7 +100,9 @@ class ObjectPictures:
         if len(self._kept) > _KEPT:
             self._kept.clear()
         unknown = [model for model in dict.fromkeys(models.values()) if model not in self._kept]
-        self._kept |= {model: [(BODY, _standing(), 0.0, 0.0)] if model.kind == kinds.NINJA else [] for model in unknown}
+        self._kept |= {
+            model: [(BODY_PART, _standing(), 0.0, 0.0)] if model.kind == kinds.NINJA else [] for model in unknown
+        }
         drawn = [model for model in unknown if well_formed(model) and model.kind != kinds.NINJA]
         for start in range(0, len(drawn), _TOGETHER):
             self._learn(drawn[start : start + _TOGETHER])
@@ -110,8 +112,8 @@ class ObjectPictures:
         places = points(spec)
         if spec.kind == kinds.FLOOR_GUARD and places:
             # It sinks to the floor of its cell.
-            x, y = places[BODY]
-            places = {BODY: (x, CELL * cell_of(x, y)[1] + 18.0)}
+            x, y = places[BODY_PART]
+            places = {BODY_PART: (x, CELL * cell_of(x, y)[1] + 18.0)}
         sprites = [(key, places[at][0] + x, places[at][1] + y) for at, key, x, y in self._kept[model] if at in places]
         canvas, book = self.target.canvas, self.target.book
         rects, cells = [], [cell_of(*place) for place in places.values()]
@@ -148,7 +150,7 @@ class ObjectPictures:
 
 TILE, OBJECT, KEY = 16.0, 28.0, 8.0
 """Sides of the squares of tiles and objects, and the height of the key below an object, px."""
-BLOCK, BLOCK_ROW = 42.5, 35.0
+_BLOCK, BLOCK_ROW = 42.5, 35.0
 """Distance between two families of tiles, across and down, px."""
 _OBJECTS = 104.0
 """Distance from the top to the objects, px."""
@@ -209,7 +211,7 @@ class PaletteView(Widget):
             areas.append((tile, (x + 104 + number * (TILE + 14), y + 1, TILE, TILE)))
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
-            left, top = x + 11 + column * BLOCK, y + 21 + row * BLOCK_ROW
+            left, top = x + 11 + column * _BLOCK, y + 21 + row * BLOCK_ROW
             for k, tile in enumerate(family.tiles):
                 areas.append((tile, (left + k % 2 * TILE, top + k // 2 * TILE, TILE, TILE)))
         for number, object_type in enumerate(brush.OBJECT_TYPES):
@@ -273,7 +275,7 @@ class PaletteView(Widget):
             theme.text(surface, text, x + 1, top + 2, size=10, bold=lit)
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
-            at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW
+            at = x + 3 + column * _BLOCK, y + 32 + row * BLOCK_ROW
             self._draw_key(surface, theme, family.key, at)
         for entry, area in self.places():
             canvas.fill_rect(surface, palette.background, *area)
@@ -316,7 +318,7 @@ def object_icon(spec: ObjectSpec, size: tuple[int, int], scale: float, palette: 
     """An object in the middle of a small picture; a door or an exit without its switch."""
     canvas = Canvas((round(792 * scale), round(600 * scale)))
     far = brush.with_switch(spec, 700.0, 500.0, "half")
-    x, y = points(far)[BODY]
+    x, y = points(far)[BODY_PART]
     px, py = canvas.point(x, y)
     canvas.origin = size[0] // 2 - px, size[1] // 2 - py
     target = DrawTarget(canvas, PALETTES[palette], SpriteBook(canvas.scale, PALETTES[palette]))

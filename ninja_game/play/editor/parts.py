@@ -10,7 +10,16 @@ import pygame
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
-from ninja_game.editor.specs import BODY, SWITCH, carried, has_switch, object_type_name, points, properties, word
+from ninja_game.editor.specs import (
+    BODY_PART,
+    SWITCH_PART,
+    carried,
+    has_switch,
+    object_type_name,
+    points,
+    properties,
+    word,
+)
 from ninja_game.editor.tools import CURVES, NEAREST, OTHER_KINDS, SPACINGS, TAKES, EditorTools, can_be_remade, remade
 from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted
@@ -19,7 +28,7 @@ from ninja_game.formats.ascii.places import place_text, read_place
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.formats.messages import messages_at
 from ninja_game.levels.findings import Finding
-from ninja_game.play.editor.commands import TABLE
+from ninja_game.play.editor.commands import EDITOR_COMMANDS
 from ninja_game.play.editor.palette_view import PaletteView, live_changes
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
@@ -34,7 +43,7 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice, Label, Widget
 
-ROW = 22.5
+_ROW = 22.5
 
 FIRST_STEPS = (
     "First draw a floor; put the ninja",
@@ -73,7 +82,9 @@ def _title(verb: str, cells: int, objects: int) -> str:
 
 def _turning(view: EditorView) -> Callable[[Area], Sequence[Widget]]:
     turns = {"mirror": MIRROR, "flip": FLIP, "turn": CLOCKWISE}
-    return _row([(name.capitalize(), partial(view.turn, turn), TABLE.hint(name)) for name, turn in turns.items()])
+    return _row(
+        [(name.capitalize(), partial(view.turn, turn), EDITOR_COMMANDS.hint(name)) for name, turn in turns.items()]
+    )
 
 
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
@@ -82,7 +93,9 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     rows: list[Callable[[Area], Widget | Sequence[Widget]]] = []
     if tools.tool == "select" and not tools.ghost:
         taken = list(zip(("takes: all", "takes: only tiles", "takes: only objects"), TAKES, strict=True))
-        rows.append(lambda area: Choice(area, "", taken, lambda: tools.takes, tools.take, hint=TABLE.hint("takes")))
+        rows.append(
+            lambda area: Choice(area, "", taken, lambda: tools.takes, tools.take, hint=EDITOR_COMMANDS.hint("takes"))
+        )
     if tools.ghost:
         title = _title("A click pastes", len(tools.ghost.tiles), len(tools.ghost.objects))
         rows.append(_turning(view))
@@ -96,7 +109,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         last: list[MenuRow] = [
             ("Move...", partial(_ask_move, view), "Move what is selected by columns and rows, or by px"),
             ("Kind...", remake, "What the selected objects become, in their places: not ninjas, exits, doors"),
-            ("Delete", tools.delete, TABLE.hint("delete")),
+            ("Delete", tools.delete, EDITOR_COMMANDS.hint("delete")),
         ]
         rows.append(_row(last))
     elif tools.selection or tools.draws_objects:
@@ -120,9 +133,11 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         texts = ["1 to 8: shape", "Q W A S: its solid corner", "9: full    0: empty", "H, J, U: mirror, flip, turn"]
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
         modes, set_slopes = [("slopes: by hand", False), ("slopes: by themselves", True)], view.session.set_slopes
-        rows.append(lambda area: Choice(area, "", modes, lambda: tools.slopes, set_slopes, hint=TABLE.hint("slopes")))
+        rows.append(
+            lambda area: Choice(area, "", modes, lambda: tools.slopes, set_slopes, hint=EDITOR_COMMANDS.hint("slopes"))
+        )
     head = Label((x, y, w, 15), title, size=10)
-    row = min(ROW, (area[3] - 17) / max(1, len(rows)))
+    row = min(_ROW, (area[3] - 17) / max(1, len(rows)))
     made = [make((x, y + 17 + row * k, w, row - 3)) for k, make in enumerate(rows)]
     return [head, *(widget for widgets in made for widget in (widgets if isinstance(widgets, Sequence) else [widgets]))]
 
@@ -223,17 +238,17 @@ def _place(tools: EditorTools, part: int) -> Callable[[Area], Sequence[Widget]]:
             tools.change_each(lambda spec: carried(spec, Motion(dx=x - old[0], dy=y - old[1]), (part,)))
 
     text = place_text(*points(tools.subjects[0])[part])
-    hint = f"Where {'its switch' if part == SWITCH else 'it'} is: column,row as in 5,7 or px as in 60,564px"
+    hint = f"Where {'its switch' if part == SWITCH_PART else 'it'} is: column,row as in 5,7 or px as in 60,564px"
 
     def make(area: Area) -> Sequence[Widget]:
-        (x, y, w, h), name = area, "switch at" if part == SWITCH else "at"
+        (x, y, w, h), name = area, "switch at" if part == SWITCH_PART else "at"
         field = TextEntry((x + 46, y, w - 46, h), "place", text, put, hint=hint)
         return [Label((x, y + 4, 44, h), name, size=9.5), field]
 
     return make
 
 
-TOP, TALL, GAP = 4.0, 21.0, 2.0
+_TOP, TALL, _GAP = 4.0, 21.0, 2.0
 
 _BUTTONS = (
     ("file", "File", 34, 0), ("undo", "Undo", 36, 0), ("redo", "Redo", 36, 4),
@@ -249,7 +264,7 @@ class ToolButton(Button):
     """A button of a command, highlighted while the command is active."""
 
     def __init__(self, area: Area, name: str, text: str, run: Callable[[str], object], view: EditorView) -> None:
-        super().__init__(area, text, lambda: run(name), hint=TABLE.hint(name), size=9)
+        super().__init__(area, text, lambda: run(name), hint=EDITOR_COMMANDS.hint(name), size=9)
         self.name, self.view = name, view
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
@@ -291,9 +306,9 @@ class Toolbar(EditorPart):
         super().__init__(view)
         x, buttons = 6.0, []
         for name, text, width, gap in _BUTTONS:
-            area = (x, TOP, width, TALL)
+            area = (x, _TOP, width, TALL)
             buttons.append(ToolButton(area, name, text, partial(lambda at, name: run(name, at), area), view))
-            x += width + GAP + gap
+            x += width + _GAP + gap
         self.widgets = buttons
 
     def render_key(self) -> tuple[object, ...]:
@@ -587,7 +602,7 @@ class ObjectList(EditorPart):
         number = self.shown[place]
         places = points(tools.draft.objects[number])
         parts = frozenset((number, part) for part in places)
-        self.view.follow(*places.get(BODY, tools.pointer))
+        self.view.follow(*places.get(BODY_PART, tools.pointer))
         tools.choose(parts ^ tools.selection.parts if _shift() else parts)
         tools.tool = "select"
 

@@ -11,7 +11,7 @@ from ninja_game.editor.files import Source
 from ninja_game.editor.specs import PROPERTIES, properties, word
 from ninja_game.editor.stamp import Selection
 from ninja_game.play.app import App
-from ninja_game.play.editor.commands import TABLE, EditorCommands
+from ninja_game.play.editor.commands import EDITOR_COMMANDS, EditorCommands
 from ninja_game.play.editor.palette_view import PaletteView, entry_of_key, live_changes
 from ninja_game.play.editor.parts import FilePart, Findings, ObjectList, PalettePart, Properties, StatusLine, Toolbar
 from ninja_game.play.editor.session import EditorSession
@@ -28,7 +28,7 @@ from ninja_game.ui.widgets import following
 class EditorScreen(WorkspaceScreen):
     """The level editor. ``session``: the edited level; ``view``: the level in the middle."""
 
-    table = TABLE
+    table = EDITOR_COMMANDS
     small_notices = True
     foot_high = HEIGHT - LAYOUT.findings[1]  # in the level's lower border
 

@@ -69,7 +69,7 @@ from ninja_game.view.sprites.thumbnail import thumbnail
 LOOK_SPACING = 0.5
 """Seconds between two checks of the level's file."""
 
-UNREACHABLE = "unreachable", "unreachable-switch"
+UNREACHABLE_CODES = "unreachable", "unreachable-switch"
 """Codes of the findings about places that the ninja cannot reach."""
 
 CHECK_SPACING = 0.1
@@ -78,7 +78,7 @@ CHECK_SPACING = 0.1
 REST = 1.0
 """Seconds without a change after which a search begins again with the level as it is."""
 
-PICTURE_WIDTH = 1584
+_PICTURE_WIDTH = 1584
 
 Question = tuple[Level, tuple[Finding, ...], str, bytes]
 """A level to examine, what the solver has found about it, its messages, and the inputs of its known run, if any."""
@@ -89,7 +89,7 @@ def _examine(question: Question) -> Examined:
     level, searched, says, way = question
     odd = [*level_findings(level, says), *_late_messages(level, says, way)]
     # An unreachable exit needs no finding of the solver too.
-    out_of_reach = {number for finding in odd if finding.code in UNREACHABLE for number in finding.records}
+    out_of_reach = {number for finding in odd if finding.code in UNREACHABLE_CODES for number in finding.records}
     # One finding is enough for an enclosed exit: its switch gets one once the exit can be reached.
     shut = {number for finding in odd if finding.code == "unreachable" for number in finding.records}
     odd = [finding for finding in odd if finding.code != "unreachable-switch" or not shut.issuperset(finding.records)]
@@ -412,7 +412,7 @@ class EditorSession:
         keep_history(self.app.player.folder, self.source.digest, self.tools.history)
 
     def export_picture(self) -> None:
-        surface = thumbnail(self.draft.level, self.app.theme.palette, PICTURE_WIDTH)
+        surface = thumbnail(self.draft.level, self.app.theme.palette, _PICTURE_WIDTH)
         self.app.write_export(self.name, ".png", lambda path: save_picture(surface, path))
 
     def copy_string(self) -> None:

@@ -15,7 +15,7 @@ import pygame
 
 from ninja_game.editor.certify import PathPoints, TestMap
 from ninja_game.editor.draft import Draft, changed_cells
-from ninja_game.editor.specs import BODY, SWITCH, has_switch, object_type_name, points
+from ninja_game.editor.specs import BODY_PART, SWITCH_PART, has_switch, object_type_name, points
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
@@ -288,14 +288,14 @@ def said_places(draft: Draft) -> list[Point]:
 
 
 _SAID_AT = {
-    "start": ("ninja", BODY), "switch": ("exit", SWITCH), "gold": ("gold", BODY),
-    "lock": ("locked door", SWITCH), "trap": ("trap door", SWITCH),
+    "start": ("ninja", BODY_PART), "switch": ("exit", SWITCH_PART), "gold": ("gold", BODY_PART),
+    "lock": ("locked door", SWITCH_PART), "trap": ("trap door", SWITCH_PART),
 }  # fmt: skip
 
 
 def things_of(draft: Draft, when: str) -> list[Point]:
     """What the ninja touches at a moment of a message, px; nothing where that is unknown."""
-    name, part = _SAID_AT.get(when, ("", BODY))
+    name, part = _SAID_AT.get(when, ("", BODY_PART))
     return [at for spec in draft.objects if object_type_name(spec) == name and (at := points(spec).get(part))]
 
 
@@ -325,7 +325,7 @@ def finding_points(level: Level, finding: Finding) -> list[Point]:
     places = list(map(middle_of, finding.cells))
     for number in finding.records:
         parts = points(level.objects[number]) if number < len(level.objects) else {}
-        place = parts.get(SWITCH if finding.about_switch else BODY)
+        place = parts.get(SWITCH_PART if finding.about_switch else BODY_PART)
         places += [place] if place else []
     return [(min(max(x, 12.0), 780.0), min(max(y, 12.0), 588.0)) for x, y in places]
 
@@ -352,7 +352,7 @@ def level_marks(
         if has_switch(spec):
             places = points(spec)
             if len(places) == 2 and all(is_near(*point) for point in places.values()):
-                line = partial(line_mark, canvas, palette.switch, places[SWITCH], places[BODY], 0.8)
+                line = partial(line_mark, canvas, palette.switch, places[SWITCH_PART], places[BODY_PART], 0.8)
                 add(("switch", spec), line)
     for route, colour in routes:
         add(("route", id(route), str(colour)), partial(route_mark, canvas, colour, route))

@@ -10,7 +10,7 @@ import pygame
 from ninja_game.editor.certify import SQUARE, PathPoints, Reach, TestMap
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.specs import BODY, SWITCH, carried, points
+from ninja_game.editor.specs import BODY_PART, SWITCH_PART, carried, points
 from ninja_game.editor.stamp import Stamp, area_between, nearest
 from ninja_game.editor.tools import PICK_REACH, EditorTools
 from ninja_game.formats.messages import messages_at
@@ -90,8 +90,8 @@ class Overlay:
             places = points(spec) if spec else {}
             if part in places and all(is_near(*place) for place in places.values()):
                 self.target.sprite(_ring("accent"), *places[part])
-                if SWITCH in places:
-                    self.target.line(self.sheet.palette.accent, *places[BODY], *places[SWITCH], 1.2)
+                if SWITCH_PART in places:
+                    self.target.line(self.sheet.palette.accent, *places[BODY_PART], *places[SWITCH_PART], 1.2)
         if tools.marquee:
             self._frame(area_between(*tools.marquee), self.sheet.palette.good)
         if hovering:
@@ -169,9 +169,9 @@ class Overlay:
                 self._frame((*motion.cell(tools.cell), 1, 1), self.sheet.palette.accent)
             return
         spec = tools.placed(*tools.pointer)
-        x, y = points(spec).get(BODY, tools.pointer)
+        x, y = points(spec).get(BODY_PART, tools.pointer)
         there = nearest(tools.draft, x, y, NEAR_SWITCH_PX)
-        if there is None or there[1] != SWITCH:
+        if there is None or there[1] != SWITCH_PART:
             images = [spec] if spec.kind in (NINJA, EXIT) else [carried(spec, motion) for motion in motions]
             for sprites in self.sheet.pictures.sprites_of(images).values():
                 sprites.draw(self.target, alpha=GHOST)

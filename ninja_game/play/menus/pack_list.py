@@ -16,8 +16,8 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Widget
 
-ROW = 88
-PICTURE = 104
+_ROW = 88
+_PICTURE = 104
 
 
 class PackList(ThumbnailScreen):
@@ -30,7 +30,7 @@ class PackList(ThumbnailScreen):
         self._packs, self._choose = packs, choose
         self.shown = packs
         self.list = ListView(
-            (44, 106, 704, 5 * ROW), ROW, self._draw_row, self._choose_row, empty="No pack is called so"
+            (44, 106, 704, 5 * _ROW), _ROW, self._draw_row, self._choose_row, empty="No pack is called so"
         )
         self.field = self.search = TextEntry((44, 64, 300, 32), "Search name or author", "", self._find)
 
@@ -58,8 +58,8 @@ class PackList(ThumbnailScreen):
         x, y, w, h = area
         pack, chosen, faint = self.shown[index], index == self.list.index, theme.palette.faint
         theme.row(surface, (x, y + 1, w, h - 2), chosen=chosen, focused=focused)
-        self.thumbnails.draw_pack(surface, pack.levels, x + 6, y + 4, PICTURE)
-        left, room = x + PICTURE + 20, w - PICTURE - 30
+        self.thumbnails.draw_pack(surface, pack.levels, x + 6, y + 4, _PICTURE)
+        left, room = x + _PICTURE + 20, w - _PICTURE - 30
         theme.text(surface, shown_text(pack.name), left, y + 16, size=13, bold=chosen, width=room)
         theme.text(surface, _description(pack), left, y + 38, size=10, colour=faint, width=room)
         number = counted(len(pack.levels), "level"), counted(len(pack.episodes), "episode")

@@ -19,7 +19,7 @@ from ninja_game.ui.theme import Area, Theme, wrapped
 
 WIDE, HIGH = 93, 106
 
-GAP = 12
+_GAP = 12
 """px by which cells move aside for a dragged one."""
 
 PULL = 6
@@ -89,7 +89,7 @@ class Rack(ListView):
     def shift(self, index: int) -> float:
         """How far a cell moves aside, px."""
         line, first = divmod(self.gap, self.columns)
-        return GAP * (0 < first <= index % self.columns and index // self.columns == line)
+        return _GAP * (0 < first <= index % self.columns and index // self.columns == line)
 
     def at(self, x: float, y: float) -> int | None:
         return self._index_at(x, y) if self.contains(x, y) else None

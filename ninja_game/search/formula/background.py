@@ -127,7 +127,7 @@ class SpanSearch:
 
 TIDYING_SECONDS = 0.1
 """Seconds per report for the removal of idle keys."""
-MAX_SECONDS = 1e6
+_MAX_SECONDS = 1e6
 """The time limit, s, of a search that ends only when it is cancelled."""
 MAX_JOBS = 4
 """Jobs of a search of a whole run; a job may take a gigabyte."""
@@ -152,7 +152,7 @@ class RunSearch(SpanSearch):
             task.level,
             task.body,
             gold,
-            MAX_SECONDS,
+            _MAX_SECONDS,
             jobs=min(jobs or cores(), MAX_JOBS),
             first=fit_inputs(task.inputs, task.length),
             others=task.others,

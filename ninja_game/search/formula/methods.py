@@ -35,7 +35,7 @@ WORLDS = 1024
 """Worlds that are tried at once."""
 KEPT = 8
 """Results that are kept."""
-ACTIONS = np.array([0, 1, 2, 4, 5, 6], np.uint8)
+_ACTIONS = np.array([0, 1, 2, 4, 5, 6], np.uint8)
 """Left, right or neither, each with and without jump."""
 ROUNDS, ROUNDS_BESIDE_LEGS = 40, 4
 """Rounds of small changes per turn; the second number holds while nothing is found and LegSearch is more useful."""
@@ -43,9 +43,9 @@ TURNS_BESIDE = 6
 """Searches along other runs per turn. Not tuned."""
 REPORT_TICKS = 100_000
 """Ticks of a beam between two reports: a second on a slow machine."""
-STEPS = (4, 6, 3, 8, 2, 12, 1)
+_STEPS = (4, 6, 3, 8, 2, 12, 1)
 """Ticks between two choices of a beam, one step size per beam."""
-MAX_ENDS = 2_000_000
+_MAX_ENDS = 2_000_000
 """Number of key sequences up to which all are tried."""
 
 
@@ -149,7 +149,7 @@ def search_span(
             if along and results.going and (keys := along.search(results.spend)):
                 results.try_some(keys, own_route=False)
         if method != "local":
-            beam(task, STEPS[turn % len(STEPS)], results, rng, noise=0.1 * (turn // len(STEPS)))
+            beam(task, _STEPS[turn % len(_STEPS)], results, rng, noise=0.1 * (turn // len(_STEPS)))
         if legs and not results.best and results.going and (keys := legs.search(results.spend)):
             results.try_some(keys)
         if method != "beam" and results.going:
@@ -159,7 +159,7 @@ def search_span(
 
 
 CUTS = 20, 60, 180, 540  # numbers of last ticks of a run that are left out, one after the other
-AHEAD = 600  # ticks after the cut within which the exit must be reached
+_AHEAD = 600  # ticks after the cut within which the exit must be reached
 
 
 def to_exit(
@@ -184,7 +184,7 @@ def to_exit(
             began.append(time.monotonic())
             return goes_on(ticks) and not results and began[-1] - began[0] < seconds / len(CUTS)
 
-        task = SpanTask(level, inputs, first, first + AHEAD, goal="won", body=body)
+        task = SpanTask(level, inputs, first, first + _AHEAD, goal="won", body=body)
         if results := search_span(task, report, seed=seed, threads=threads):
             return results[0].inputs
     return None
@@ -193,21 +193,21 @@ def to_exit(
 def count_ways(task: SpanTask, every: int) -> int:
     """Count the ways through a span. Raises ArgumentError for too many; the message has the limit."""
     choices = -(-task.length // every)
-    if len(ACTIONS) ** choices > MAX_ENDS:
+    if len(_ACTIONS) ** choices > _MAX_ENDS:
         few = fewest_ticks(task.length)
-        what = f"{task.length} ticks with a choice every {every} have over {MAX_ENDS:,} ways through"
+        what = f"{task.length} ticks with a choice every {every} have over {_MAX_ENDS:,} ways through"
         raise ArgumentError(f"{what}; a choice every {few} ticks has few enough")
-    return int(len(ACTIONS) ** choices)
+    return int(len(_ACTIONS) ** choices)
 
 
 def exhaust(task: SpanTask, every: int, results: Results) -> None:
     """Try all keys that change every ``every`` ticks."""
     ways, choices = count_ways(task, every), -(-task.length // every)
-    weights = len(ACTIONS) ** np.arange(choices)[:, np.newaxis]
+    weights = len(_ACTIONS) ** np.arange(choices)[:, np.newaxis]
     for first in range(0, ways, WORLDS):
         numbers = np.arange(first, first + WORLDS) % ways
-        digits = numbers // weights % len(ACTIONS)
-        results.try_all(np.repeat(ACTIONS[digits], every, axis=0)[: task.length])
+        digits = numbers // weights % len(_ACTIONS)
+        results.try_all(np.repeat(_ACTIONS[digits], every, axis=0)[: task.length])
         if not results.going:
             return
 
@@ -242,8 +242,8 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
     keys = np.zeros((task.length, batch.count), np.uint8)
     sequences: list[Keys] = []
     for tick in range(0, task.length, step):
-        parents = np.repeat(survivors, len(ACTIONS))[: batch.count]
-        chosen = np.tile(ACTIONS, len(survivors))[: len(parents)]
+        parents = np.repeat(survivors, len(_ACTIONS))[: batch.count]
+        chosen = np.tile(_ACTIONS, len(survivors))[: len(parents)]
         used = np.arange(len(parents))
         batch.copy(parents, used)
         keys[:, used] = keys[:, parents]
@@ -264,7 +264,7 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
         promising = (margin if worlds.measure is None else -score) * rng.normal(1.0, noise, len(margin))
         alive = used[batch.outcomes[used] == OUTCOME_RUNNING]
         halves = [alive[np.argsort(-scores[alive], kind="stable")] for scores in (margin, promising)]
-        survivors = _different(batch, halves, batch.count // len(ACTIONS))
+        survivors = _different(batch, halves, batch.count // len(_ACTIONS))
         if not len(survivors) or not results.going:
             break
     if sequences:
@@ -298,4 +298,4 @@ def fewest_ticks(length: int) -> int:
     >>> fewest_ticks(8), fewest_ticks(40)
     (1, 5)
     """
-    return next(every for every in range(1, length + 1) if len(ACTIONS) ** -(-length // every) <= MAX_ENDS)
+    return next(every for every in range(1, length + 1) if len(_ACTIONS) ** -(-length // every) <= _MAX_ENDS)

@@ -16,7 +16,7 @@ from ninja_game.play.workspace import Commands
 from ninja_game.sim.grid import Point
 from ninja_game.sim.kinds import EXIT, KIND_NAMES, SWITCH
 from ninja_game.simulation import ObjectView, Simulation
-from ninja_game.tas_editor.commands import TABLE
+from ninja_game.tas_editor.commands import TAS_COMMANDS
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.tas_editor.level import paths
 from ninja_game.tas_editor.level.other_runs import OtherRuns
@@ -103,7 +103,7 @@ class LevelPart(TasPart):
         }  # fmt: skip
 
     def meaning(self, event: InputEvent) -> str:
-        return self.take_over.meaning(event) if self.take_over.on else TABLE.meaning(event)
+        return self.take_over.meaning(event) if self.take_over.on else TAS_COMMANDS.meaning(event)
 
     @property
     def ghosts(self) -> list[RunGhost]:

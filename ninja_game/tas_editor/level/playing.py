@@ -8,7 +8,7 @@ from ninja_game.play.replay.playback import RunClock
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.tas.timeline import AFTERMATH
-from ninja_game.tas_editor.commands import BY_PAD, TABLE
+from ninja_game.tas_editor.commands import BY_PAD, TAS_COMMANDS
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.level.picture import LevelPicture
 from ninja_game.ui.input.bindings import InputEvent
@@ -77,7 +77,7 @@ _WHILE_PLAYING = {
     "play", "take_over", "step", "step_back", "faster", "slower", "ghosts", "whole_level", *OVERLAY_ACTIONS
 }  # fmt: skip
 _BY_KEY = {"escape": "take_over"} | {
-    key: command.name for command in TABLE.commands if command.name in _WHILE_PLAYING for key in command.keys
+    key: command.name for command in TAS_COMMANDS.commands if command.name in _WHILE_PLAYING for key in command.keys
 }
 """The commands during play by hand."""
 _BY_PAD = {button: name for button, name in BY_PAD.items() if name in ("step", "step_back")}

@@ -18,7 +18,7 @@ from ninja_game.tas.tracks import InputTrack, first_difference, marker_name
 from ninja_game.tas_editor.editor import Span, TasEditor
 from ninja_game.tas_editor.roll.facts import changes, compared
 
-BEHIND = "Nothing here: the run ends earlier"  # where nothing can be copied or taken out
+_BEHIND = "Nothing here: the run ends earlier"  # where nothing can be copied or taken out
 
 
 class RollCommands:
@@ -113,7 +113,7 @@ class RollCommands:
     def clear(self) -> None:
         first, last = self._filled()
         if first >= last:
-            self._editor.app.notify(BEHIND)
+            self._editor.app.notify(_BEHIND)
         else:
             self._editor.edit_selected(lambda track: track.replaced(first, last, bytes(last - first)))
 
@@ -125,7 +125,7 @@ class RollCommands:
     def remove(self) -> None:
         first, last = self._filled()
         if first >= last:
-            self._editor.app.notify(BEHIND)
+            self._editor.app.notify(_BEHIND)
         elif self._editor.edit_selected(lambda track: track.replaced(first, last, b"")):
             self._editor.go(first)
 
@@ -173,7 +173,7 @@ class RollCommands:
             title = self._editor.session.origin.name or "inputs"
             copy_text(self._editor.app, text, title=title, suffix=".inputs.txt", notice=notice)
         else:
-            self._editor.app.notify(BEHIND)
+            self._editor.app.notify(_BEHIND)
 
     def cut(self) -> None:
         self.copy()

@@ -20,7 +20,7 @@ from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.values_tab import colour_of
 from ninja_game.ui.theme import Palette
 
-PREVIEW, BEFORE = -1, -2
+_PREVIEW, BEFORE = -1, -2
 """Instead of the number of another run."""
 
 
@@ -34,7 +34,7 @@ class Compared(NamedTuple):
     def colour(self, palette: Palette) -> pygame.Color:
         if self.number == BEFORE:
             return palette.ghost
-        return palette.exit if self.number == PREVIEW else colour_of(self.number, palette)
+        return palette.exit if self.number == _PREVIEW else colour_of(self.number, palette)
 
 
 def compared(editor: TasEditor) -> Compared | None:
@@ -45,7 +45,7 @@ def compared(editor: TasEditor) -> Compared | None:
     if not editor.ghosts:
         return None
     if editor.preview is not None:
-        return Compared(editor.preview.track, editor.preview.name, PREVIEW)
+        return Compared(editor.preview.track, editor.preview.name, _PREVIEW)
     if editor.others:
         number = editor.chosen % len(editor.others)
         return Compared(editor.others[number].track, editor.others[number].name, number)
@@ -164,7 +164,7 @@ def _values(editor: TasEditor, first: int, last: int) -> list[Values]:
     return [Values(*row) for row in zip(*(values.tolist() for values in rows), strict=True)]
 
 
-MAX_ROWS = 400
+_MAX_ROWS = 400
 """Most spans of equal keys whose changes are found one by one."""
 
 
@@ -177,7 +177,7 @@ def changed_ticks(track: InputTrack, saved: InputTrack) -> bytes:
     old_rows, rows = ([(keys, len(list(ticks))) for keys, ticks in groupby(inputs)] for inputs in (theirs, ours))
     starts = [list(accumulate((ticks for _, ticks in rows), initial=0)) for rows in (old_rows, rows)]
     spans: list[tuple[str, int, int, int, int]] = [("replace", 0, len(old_rows), 0, len(rows))]
-    if max(len(old_rows), len(rows)) <= MAX_ROWS:
+    if max(len(old_rows), len(rows)) <= _MAX_ROWS:
         spans = list(SequenceMatcher(None, old_rows, rows, autojunk=False).get_opcodes())
     changed = bytearray(len(ours))
     for what, *bounds in spans:

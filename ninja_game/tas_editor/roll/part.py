@@ -12,11 +12,11 @@ from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.tas_editor.roll.commands import RollCommands
 from ninja_game.tas_editor.roll.facts import compared, different_rows, key_difference_text, row_facts, row_text
-from ninja_game.tas_editor.roll.rows import COLUMNS, Column, RollLayout, RowSheet, layout_of
+from ninja_game.tas_editor.roll.rows import ROLL_COLUMNS, Column, RollLayout, RowSheet, layout_of
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Theme, mixed
 
-MARGIN = 4  # the rows scroll when the cursor is in the first or the last of so many parts of the roll
+_MARGIN = 4  # the rows scroll when the cursor is in the first or the last of so many parts of the roll
 
 WHEEL_ROWS = 4
 SCROLL_MS = 25
@@ -51,7 +51,7 @@ class Roll(TasPart):
         cursor, rows = self.editor.cursor, self.layout.rows
         moved, self._followed = cursor - self._followed, cursor
         # The first visible tick must be from ``lowest`` to ``highest`` for room above and below the cursor.
-        lowest, highest = cursor + 1 + rows // MARGIN - rows, cursor - rows // MARGIN
+        lowest, highest = cursor + 1 + rows // _MARGIN - rows, cursor - rows // _MARGIN
         if moved and not self.top <= cursor < self.top + rows:
             near = abs(moved) <= rows
             self.top = min(max(self.top, lowest), highest) if near else cursor - rows // 2
@@ -73,7 +73,7 @@ class Roll(TasPart):
 
         rows = [
             (f"{col.meaning}: {'hidden' if col.name in self.hidden else 'shown'}", partial(switch, col.name), "")
-            for col in COLUMNS
+            for col in ROLL_COLUMNS
             if col.meaning
         ]
         self.editor.app.push(Menu(self.editor.app, "Columns", [*rows, ("Done", nothing, "")]))

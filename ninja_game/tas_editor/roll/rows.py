@@ -18,8 +18,8 @@ from ninja_game.ui.theme import Area, Palette, Theme, mixed
 
 # Logical px.
 HEAD = 16.0  # height of the heads
-ROW = 11.0  # height of a row
-BAR = 12.0  # width of the scroll bar
+_ROW = 11.0  # height of a row
+_BAR = 12.0  # width of the scroll bar
 
 
 class Column(NamedTuple):
@@ -36,7 +36,7 @@ class Column(NamedTuple):
     meaning: str = ""
 
 
-COLUMNS = (
+ROLL_COLUMNS = (
     Column("tick", "tick", 28),
     Column("left", "L", 13, key=KEY_LEFT),
     Column("right", "R", 13, key=KEY_RIGHT),
@@ -85,11 +85,11 @@ class RollLayout:
 def layout_of(canvas: Canvas, area: Area, hidden: Collection[str]) -> RollLayout:
     """Heads, rows and scroll bar in an area, logical px. All rows have the same height, whole px."""
     whole = canvas.rect(*area)
-    head, row, bar = canvas.px(HEAD), max(6, int(ROW * canvas.scale)), canvas.px(BAR)
+    head, row, bar = canvas.px(HEAD), max(6, int(_ROW * canvas.scale)), canvas.px(_BAR)
     rows = max(1, (whole.height - head) // row)
     body = pygame.Rect(whole.left, whole.top + head, whole.width - bar, rows * row)
-    shown = [column for column in COLUMNS if column.name not in hidden]
-    free = area[2] - BAR - sum(column.width for column in shown)
+    shown = [column for column in ROLL_COLUMNS if column.name not in hidden]
+    free = area[2] - _BAR - sum(column.width for column in shown)
     places, x = [], 0.0
     for column in shown:
         left, x = x, x + (column.width or free)
@@ -173,9 +173,9 @@ class Digits:
         return made
 
 
-SIZE = 8.0  # size of the letters, logical px
+_SIZE = 8.0  # size of the letters, logical px
 MIN_NAME_ROOM = 20.0  # least room for a name, logical px
-MAX_LETTERS = 6
+_MAX_LETTERS = 6
 _KEY_LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
 
 
@@ -189,11 +189,11 @@ class RowSheet:
         self.theme, self.layout, self.mark = theme, layout, mark
         self._picture = pygame.Surface(layout.body.size)
         self._drawn: list[RowFacts | None] = [None] * layout.rows
-        self._digits = Digits(theme, SIZE)
+        self._digits = Digits(theme, _SIZE)
         self._grounds: dict[tuple[bool, ...], tuple[pygame.Surface, pygame.Color, pygame.Color]] = {}
         self._blits: list[Blit] = []
         self._margin = theme.canvas.px(2)
-        self._lift = (layout.row - theme.lettering.rendered("0", SIZE, theme.palette.text).get_height() + 1) // 2
+        self._lift = (layout.row - theme.lettering.rendered("0", _SIZE, theme.palette.text).get_height() + 1) // 2
 
     def draw(self, surface: pygame.Surface, rows: Sequence[RowFacts]) -> int:
         """Draw rows, one below the other, from the upper edge on; the number of changed ones."""
@@ -277,7 +277,7 @@ class RowSheet:
             # A recording may jump without the press, and press without the jump.
             letter = "!" if row.keys & JUMP_PRESSED else "-"
         if letter:
-            picture = self.theme.lettering.rendered(letter, SIZE, palette.panel, bold=True)
+            picture = self.theme.lettering.rendered(letter, _SIZE, palette.panel, bold=True)
             middle = left + 1 + (place.width - picture.get_width()) // 2
             self._blits.append((picture, (middle, y + self._lift)))
 
@@ -294,7 +294,7 @@ class RowSheet:
     def _value(self, values: Values, place: Place, left: int, y: int, ink: pygame.Color) -> None:
         name, theme = place.column.name, self.theme
         if name == "state":
-            word = theme.lettering.rendered(STATES[values.state], SIZE, ink)
+            word = theme.lettering.rendered(STATES[values.state], _SIZE, ink)
             self._blits.append((word, (left + theme.canvas.px(2), y + self._lift)))
         elif name == "contacts":
             self._contacts(values.contacts, place, left, y, ink)
@@ -323,12 +323,12 @@ class RowSheet:
         events = sorted(map(EVENTS.__getitem__, row.events.split())) if row.events else []
         if row.death:
             killer, room = row.death.partition(" at ")[0], (right - x - gap) / self.theme.canvas.scale
-            events[0] = events[0]._replace(word=self.theme.fit(killer, room, SIZE, bold=True))
+            events[0] = events[0]._replace(word=self.theme.fit(killer, room, _SIZE, bold=True))
         if row.lead is not None and events:
             events.insert(1, EventWord(0, f"{row.lead:+d}", "panel", "good" if row.lead >= 0 else "bad"))
         for event in events[:1] if row.name else events:
             dark = getattr(palette, event.ink) if event.chip else ink
-            word = self.theme.lettering.rendered(event.word, SIZE, dark, bold=bool(event.chip))
+            word = self.theme.lettering.rendered(event.word, _SIZE, dark, bold=bool(event.chip))
             if x + word.get_width() > right:
                 break
             if event.chip:
@@ -338,8 +338,8 @@ class RowSheet:
             x += word.get_width() + 2 * gap
         room = (right - x - 2 * gap) / self.theme.canvas.scale
         if row.name and room >= MIN_NAME_ROOM:
-            text = self.theme.fit(row.name, room, SIZE, bold=True)
-            name = self.theme.lettering.rendered(text, SIZE, palette.panel, bold=True)
+            text = self.theme.fit(row.name, room, _SIZE, bold=True)
+            name = self.theme.lettering.rendered(text, _SIZE, palette.panel, bold=True)
             right -= name.get_width() + 2 * gap
             self._picture.fill(palette.ghost, (right, y, left + width - right, height))
             self._blits.append((name, (right + gap, y + self._lift)))
@@ -348,9 +348,9 @@ class RowSheet:
 def shortened(value: float, decimals: int) -> str:
     """A number in at most six characters: with fewer decimals if it is long, "-" if that is not enough."""
     text = f"{value:.{decimals}f}"
-    if len(text) > MAX_LETTERS:
-        text = f"{value:.{max(0, decimals + MAX_LETTERS - len(text))}f}"
-    return text if len(text) <= MAX_LETTERS and isfinite(value) else "-"
+    if len(text) > _MAX_LETTERS:
+        text = f"{value:.{max(0, decimals + _MAX_LETTERS - len(text))}f}"
+    return text if len(text) <= _MAX_LETTERS and isfinite(value) else "-"
 
 
 def _inks(palette: Palette, row: RowFacts) -> tuple[pygame.Color, pygame.Color]:

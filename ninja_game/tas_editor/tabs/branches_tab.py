@@ -12,7 +12,7 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
 
-MAX_NAME = 60  # characters of a name
+_MAX_NAME = 60  # characters of a name
 
 _INDENT, _DEEPEST = 9, 12
 _COLUMNS = (174, 112, 64)
@@ -77,7 +77,7 @@ class BranchesTab(Tab):
             self.refresh()
             self.list.index = [branch for branch, _ in self.tree].index(number)
 
-        ask_text(self.editor.app, "Keep the run as a branch", "its name", name, "Keep", kept, MAX_NAME)
+        ask_text(self.editor.app, "Keep the run as a branch", "its name", name, "Keep", kept, _MAX_NAME)
 
     def checkout(self) -> None:
         number = self.chosen
@@ -98,7 +98,7 @@ class BranchesTab(Tab):
         def renamed(text: str) -> None:
             session.rename_branch(number, text.strip() or old)
 
-        ask_text(app, "Rename the branch", "its name", old, "Rename", renamed, MAX_NAME)
+        ask_text(app, "Rename the branch", "its name", old, "Rename", renamed, _MAX_NAME)
 
     def drop(self) -> None:
         number = self.chosen

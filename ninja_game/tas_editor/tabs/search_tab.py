@@ -31,7 +31,7 @@ from ninja_game.tas.goals import (
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
 from ninja_game.tas_editor.span_results import WITHOUT_REST, SpanResults
-from ninja_game.tas_editor.tabs.tab import ROW, SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
+from ninja_game.tas_editor.tabs.tab import SMALL, TAB_ROW, UNPLACED, EntryField, Rows, Tab, what_is_wrong
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice, Widget
@@ -40,7 +40,7 @@ PATIENCE = 5.0  # seconds of a search before pieces of its span are proposed
 FORGET = "Forget earlier"
 PIECES = "Nothing better so far. A click searches one of these, best first:"
 
-MAX_FORMULA = 300  # characters of a formula
+_MAX_FORMULA = 300  # characters of a formula
 MAX_TITLE = 30  # characters of it in the name of a branch
 
 EARLIEST, GREATEST, SMALLEST = "earliest", "greatest", "smallest"
@@ -111,7 +111,7 @@ class SearchTab(Tab):
         self._splits = NewestJob[Cut, Splits](lambda cut: (cut[0], run_splits(cut[1], tuple(GOALS)).splits))
         fields = ("x > 400, taken(12), distance(300, 200) < 6 ...", "speed; vx, y, gold ...")
         self.goal, self.measure = (
-            EntryField(prompt, self.start, longest=MAX_FORMULA, hint=_NAMES, put=self._typed) for prompt in fields
+            EntryField(prompt, self.start, longest=_MAX_FORMULA, hint=_NAMES, put=self._typed) for prompt in fields
         )
         self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
         self._forget = Button(UNPLACED, "", self.earlier.clear, size=8, hint="The results of earlier searches")
@@ -388,7 +388,7 @@ class SearchTab(Tab):
             theme.text(surface, note, x + _LEFT + 4, y + 88, size=8, colour=palette.faint, width=w - 104)
         text, top = (
             (results.advice if results else "") if self.list.count else note,
-            y + 97 + (ROW + 4) * self.list.count,
+            y + 97 + (TAB_ROW + 4) * self.list.count,
         )
         lines = wrapped(theme, text, w - 28, 10)
         for k, line in enumerate(lines if top + 15 * len(lines) <= y + h else ()):

@@ -11,7 +11,7 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.workspace import Commands, key_text
 from ninja_game.search.formula.language import FormulaError
-from ninja_game.tas_editor.commands import TABLE
+from ninja_game.tas_editor.commands import TAS_COMMANDS
 from ninja_game.tas_editor.editor import OtherRun, TasEditor, TasPart
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
@@ -20,7 +20,7 @@ from ninja_game.ui.widgets import Button, following
 from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays
 
 SMALL = 9.0  # size of the text in lists and buttons, px
-ROW = 16  # height of a row of a list, px
+TAB_ROW = 16  # height of a row of a list, px
 UNPLACED: Area = (0, 0, 0, 0)  # the area of widgets that are not arranged yet
 _SHORT = 60  # longer lists of expected words are left out of a line
 
@@ -99,8 +99,8 @@ class TabStrip(TasPart):
             for tab in tabs
         ]
         switches = [
-            LitButton(key, partial(overlays.toggle, name), partial(self._is_on, name), hint=TABLE.hint(name))
-            for name, key in ((action, key_text(TABLE.by_name[action])) for action in OVERLAY_ACTIONS)
+            LitButton(key, partial(overlays.toggle, name), partial(self._is_on, name), hint=TAS_COMMANDS.hint(name))
+            for name, key in ((action, key_text(TAS_COMMANDS.by_name[action])) for action in OVERLAY_ACTIONS)
         ]
         self.widgets = [*names, *switches]
 
@@ -152,7 +152,7 @@ class Rows(ListView):
         keeps: bool = True,
         opens: bool = False,
     ) -> None:
-        super().__init__(UNPLACED, ROW, self._draw_row, choose, empty=empty, hint=hint, opens=opens)
+        super().__init__(UNPLACED, TAB_ROW, self._draw_row, choose, empty=empty, hint=hint, opens=opens)
         self.over = -1
         self._keeps = keeps
         self._draw = draw_row

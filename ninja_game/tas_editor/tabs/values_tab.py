@@ -187,8 +187,8 @@ def proposal(id_: int, kind: int) -> str:
     return f"object_x({id_})" if KIND_OF[kind].moves else f"status({id_})"
 
 
-USUAL = ("speed", "vx", "vy")  # watched by default
-LANES = 4  # values whose plot is shown at once
+_USUAL = ("speed", "vx", "vy")  # watched by default
+_LANES = 4  # values whose plot is shown at once
 
 
 @dataclass(eq=False)
@@ -205,7 +205,7 @@ def watched_values(texts: Sequence[str]) -> Iterator[Watched]:
     """Saved formulas; invalid ones are left out."""
     for number, text in enumerate(texts):
         with suppress(NinjaGameError):
-            yield Watched(parse_watch(text), number, plotted=number < LANES)
+            yield Watched(parse_watch(text), number, plotted=number < _LANES)
 
 
 def shown_value(watched: Watched, tick: int) -> str:
@@ -217,7 +217,7 @@ def shown_value(watched: Watched, tick: int) -> str:
     return f"{value:.6g}"
 
 
-MAX_FORMULA = 200  # characters of a formula
+_MAX_FORMULA = 200  # characters of a formula
 
 _STILL = 3.0  # less movement of the mouse than this, px, is a click
 
@@ -227,7 +227,7 @@ class ValuesTab(Tab):
 
     def __init__(self, editor: TasEditor) -> None:
         super().__init__(editor)
-        self.watched = list(watched_values(editor.session.branches.watched or USUAL))
+        self.watched = list(watched_values(editor.session.branches.watched or _USUAL))
         self.window = TickRange()
         self._plot: Area = UNPLACED
         self.events: list[tuple[int, str]] = []
@@ -269,7 +269,7 @@ class ValuesTab(Tab):
     def ask(self, text: str = "") -> None:
         self.editor.tab = self.name
         prompt = "speed, x > 400, object_x(12) ..."
-        ask_text(self.editor.app, "Watch a value", prompt, text, "Watch", self.add, MAX_FORMULA)
+        ask_text(self.editor.app, "Watch a value", prompt, text, "Watch", self.add, _MAX_FORMULA)
 
     def add(self, text: str) -> None:
         """Watch a formula; an invalid one is reported and can be corrected."""
@@ -306,7 +306,7 @@ class ValuesTab(Tab):
     def _few_lanes(self, latest: Watched) -> None:
         """If too many values are plotted, hide the first other one."""
         others = [watched for watched in self.watched if watched.plotted and watched is not latest]
-        if latest.plotted and len(others) >= LANES:
+        if latest.plotted and len(others) >= _LANES:
             others[0].plotted = False
 
     def update(self, real_ms: int) -> None:

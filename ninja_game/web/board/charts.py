@@ -15,15 +15,15 @@ from ninja_game.web.pages.frame import Markup, css_colour, joined, tag
 from ninja_game.web.pages.gallery import PICTURE_HEIGHT, PICTURE_WIDTH
 
 # A chart, px, before scaling to the page.
-WIDTH, HEIGHT, MARGIN = 640, 200, 12
-BESIDE, BELOW, RIGHT = 72, 28, WIDTH - MARGIN  # room for the labels; the right end
+_WIDTH, _HEIGHT, _MARGIN = 640, 200, 12
+BESIDE, BELOW, _RIGHT = 72, 28, _WIDTH - _MARGIN  # room for the labels; the right end
 
 PLACE = "place-"  # the anchor of a numbered place in a picture
 MARK_APART = 14  # least px between two numbers
 
-FLOOR, LANES, DEEP = 130, (152, 176, 200), 240  # of speeds, of the keys, and of both together
-ROW_TICKS, MAX_ROWS = 10 * TICKS_PER_SECOND, 6  # a row of speeds and keys; a long run has longer ones
-MAX_COLUMNS = 400  # of a row
+_FLOOR, _LANES, DEEP = 130, (152, 176, 200), 240  # of speeds, of the keys, and of both together
+ROW_TICKS, _MAX_ROWS = 10 * TICKS_PER_SECOND, 6  # a row of speeds and keys; a long run has longer ones
+_MAX_COLUMNS = 400  # of a row
 LABELS_APART = 26  # least px between two numbers of splits
 
 
@@ -39,32 +39,32 @@ def steps(
     ``text``: of a value; ``days``: of the first and the last moment; ``label``: the line's text for screen readers.
     """
     x, y = np.array(points, np.float64).T
-    low, high, floor = float(y.min()), float(y.max()), HEIGHT - BELOW
-    x = BESIDE + (RIGHT - BESIDE) * _share(x)
-    y = floor - (floor - MARGIN) * _share(y)
+    low, high, floor = float(y.min()), float(y.max()), _HEIGHT - BELOW
+    x = BESIDE + (_RIGHT - BESIDE) * _share(x)
+    y = floor - (floor - _MARGIN) * _share(y)
     moves = "".join(f"H{left:.1f}V{up:.1f}" for left, up in zip(x[1:], y[1:], strict=True))
-    line = tag("path", d=f"M{x[0]:.1f} {y[0]:.1f}{moves}H{RIGHT}", class_="record")
+    line = tag("path", d=f"M{x[0]:.1f} {y[0]:.1f}{moves}H{_RIGHT}", class_="record")
     dots = [
         tag("circle", tag("title", name), cx=f"{left:.1f}", cy=f"{up:.1f}", r="4")
         for left, up, name in zip(x, y, names, strict=True)
     ]
-    ends = zip(days, (BESIDE, RIGHT), ("start", "end"), strict=True)
-    dates = (tag("text", day, x=at, y=HEIGHT - 4, text_anchor=anchor) for day, at, anchor in ends)
-    return _chart(label, HEIGHT, *_scale(text, low, high, floor), *dates, line, *dots)
+    ends = zip(days, (BESIDE, _RIGHT), ("start", "end"), strict=True)
+    dates = (tag("text", day, x=at, y=_HEIGHT - 4, text_anchor=anchor) for day, at, anchor in ends)
+    return _chart(label, _HEIGHT, *_scale(text, low, high, floor), *dates, line, *dots)
 
 
 def _chart(label: str, height: int, *contents: Markup) -> Markup:
     """A chart; ``label``: its text for screen readers."""
-    return tag("svg", *contents, viewBox=f"0 0 {WIDTH} {height}", class_="chart", role="img", aria_label=label)
+    return tag("svg", *contents, viewBox=f"0 0 {_WIDTH} {height}", class_="chart", role="img", aria_label=label)
 
 
 def _scale(
-    text: Callable[[float], str], low: float, high: float, floor: float, top: float = MARGIN
+    text: Callable[[float], str], low: float, high: float, floor: float, top: float = _MARGIN
 ) -> Iterator[Markup]:
     """Lines across a chart with their values beside them: the least one at ``floor``, the greatest one at ``top``."""
     for share in (0.0, 0.5, 1.0):
         up = floor - (floor - top) * share
-        yield tag("path", d=f"M{BESIDE} {up:.0f}H{RIGHT}", class_="grid")
+        yield tag("path", d=f"M{BESIDE} {up:.0f}H{_RIGHT}", class_="grid")
         yield _beside(text(low + share * (high - low)), up)
 
 
@@ -133,19 +133,19 @@ def speed_and_keys(speeds: NDArray[np.float64], inputs: bytes, splits: Sequence[
     ``speeds``: float64 (ticks,); ``splits``: their ticks, which are numbered from 1.
     """
     keys = np.frombuffer(inputs, np.uint8)[: len(speeds)]
-    length = min(len(speeds), max(ROW_TICKS, -(-len(speeds) // MAX_ROWS)))
-    wide, step, top = (RIGHT - BESIDE) / length, -(-length // MAX_COLUMNS), float(speeds.max()) or 1.0
+    length = min(len(speeds), max(ROW_TICKS, -(-len(speeds) // _MAX_ROWS)))
+    wide, step, top = (_RIGHT - BESIDE) / length, -(-length // _MAX_COLUMNS), float(speeds.max()) or 1.0
     rows = []
     for start in range(0, len(speeds), length):
         end = min(start + length, len(speeds))
         columns = np.arange(0, end - start, step)
         x = BESIDE + wide * columns
-        y = FLOOR - (FLOOR - 2 * MARGIN) * np.maximum.reduceat(speeds[start:end], columns) / top
+        y = _FLOOR - (_FLOOR - 2 * _MARGIN) * np.maximum.reduceat(speeds[start:end], columns) / top
         points = "L".join(f"{left:.1f} {up:.0f}" for left, up in zip(x, y, strict=True))
-        drawn = [*_scale("{:.1f}".format, 0, top, FLOOR, 2 * MARGIN), *_numbers(splits, start, end, wide)]
+        drawn = [*_scale("{:.1f}".format, 0, top, _FLOOR, 2 * _MARGIN), *_numbers(splits, start, end, wide)]
         drawn += [*_seconds(start, end, wide, DEEP - 6), tag("path", d=f"M{points}", class_="speed")]
         down = np.bitwise_or.reduceat(keys[start:end], columns)
-        for (name, key), lane in zip(MOVES, LANES, strict=True):
+        for (name, key), lane in zip(MOVES, _LANES, strict=True):
             spans = np.flatnonzero(np.diff(down & key != 0, prepend=False, append=False)).reshape(-1, 2) * wide * step
             strokes = "".join(f"M{BESIDE + left:.1f} {lane}h{right - left:.1f}" for left, right in spans.tolist())
             drawn += [_beside(name.capitalize(), lane), tag("path", d=strokes, class_="keys")]
@@ -160,20 +160,20 @@ def _numbers(splits: Sequence[int], start: int, end: int, wide: float) -> Iterat
     for number, tick in enumerate(splits, 1):
         if start <= tick < end:
             left = BESIDE + wide * (tick - start)
-            yield tag("path", d=f"M{left:.1f} {2 * MARGIN}V{LANES[-1] + 8}", class_="split")
+            yield tag("path", d=f"M{left:.1f} {2 * _MARGIN}V{_LANES[-1] + 8}", class_="split")
             if left - last >= LABELS_APART:
                 last = left
-                yield tag("text", number, x=f"{left:.0f}", y=MARGIN + 6, text_anchor="middle")
+                yield tag("text", number, x=f"{left:.0f}", y=_MARGIN + 6, text_anchor="middle")
 
 
 def lead_chart(ticks: Sequence[int], late: Sequence[tuple[int, Sequence[int | None]]], label: str) -> Markup:
     """Lines of how many ticks runs, by their colours' numbers, are later at these ticks of another one; None: a gap."""
     known = [0, *(lead for _, leads in late for lead in leads if lead is not None)]
-    low, high, floor = min(known), max(known), HEIGHT - BELOW
-    up, wide = (floor - MARGIN) / ((high - low) or 1), (RIGHT - BESIDE) / (ticks[-1] or 1)
+    low, high, floor = min(known), max(known), _HEIGHT - BELOW
+    up, wide = (floor - _MARGIN) / ((high - low) or 1), (_RIGHT - BESIDE) / (ticks[-1] or 1)
     drawn = [
         *_scale(lambda lead: f"{lead / TICKS_PER_SECOND:.2f}", low, high, floor),
-        *_seconds(0, ticks[-1], wide, HEIGHT - 6),
+        *_seconds(0, ticks[-1], wide, _HEIGHT - 6),
     ]
     for number, leads in reversed(late):
         moves, gap = "", True
@@ -182,4 +182,4 @@ def lead_chart(ticks: Sequence[int], late: Sequence[tuple[int, Sequence[int | No
                 moves += f"{'M' if gap else 'L'}{BESIDE + wide * tick:.1f} {floor - up * (lead - low):.0f}"
             gap = lead is None
         drawn.append(tag("path", d=moves, class_="way", stroke=css_colour(run_colour(number))))
-    return _chart(label, HEIGHT, *drawn)
+    return _chart(label, _HEIGHT, *drawn)

@@ -26,7 +26,7 @@ from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, aligned, run_splits, split_table, sum_of_best
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.web.board.charts import PLACE, lead_chart, paths, signed, speed_and_keys, steps, swatch
-from ninja_game.web.board.parts import LESSER, NEAR, RUN_HEADS, UNKNOWN, Parts, player_page
+from ninja_game.web.board.parts import LESSER, NEAR, RUN_HEADS, UNKNOWN_ORIGIN, Parts, player_page
 from ninja_game.web.pages.frame import Content, Markup, joined, on_this_page, section, table, tag
 from ninja_game.web.pages.gallery import BOARD, UP, level_page, page_name, path_data, picture, picture_name, run_page
 
@@ -36,10 +36,10 @@ ENOUGH_SPLITS = 5  # with fewer, splits do not show where time is lost
 MAX_LEADS = 160  # of a line in a chart
 COARSE = 4  # one of so many ticks is compared place by place: all would take a third of the time of a board
 MAX_ALIGNED_TICKS = 8000  # ticks of a run; longer ones would take too much memory
-MAX_SECONDS = 30 * TICKS_PER_SECOND  # a longer run has fewer rows, some seconds apart
+_MAX_SECONDS = 30 * TICKS_PER_SECOND  # a longer run has fewer rows, some seconds apart
 MAX_SPLITS = 60  # rows of splits; beyond it gold is left out
 
-RECORDS = "records"
+_RECORDS = "records"
 SPLITS = "splits"
 SPLITS_OF = "Seconds, and px per tick; numbers are those in the pictures above"
 
@@ -167,7 +167,7 @@ class LevelPages:
         drawn, beside = self._side_by_side(category, first_runs)
         marks = {run.key: swatch(number) for number, run in enumerate(first_runs)} if beside else {}
         beaten = [part for part in tables if len(self.ranking.history[entry.digest, part]) > 1]
-        anchors = RECORDS, *[""] * len(beaten)
+        anchors = _RECORDS, *[""] * len(beaten)
         first, *others = map(self._progression, repeat(entry), beaten, anchors) if beaten else [None]
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
         merged: dict[Any, list[_Ranks]] = defaultdict(list)
@@ -182,11 +182,11 @@ class LevelPages:
             shown.append(self._left_out("Better, and waiting", [row for ranks in same for row in ranks.waiting]))
             leaders |= {ranks.leaderboard: self._leader(ranks, anchor) for ranks in same}
         near = any(row.run.waits for same in merged.values() for ranks in same for row in (*ranks.rows, *ranks.waiting))
-        leads = [(name, name.capitalize()) for name, content in ((RECORDS, first), (SPLITS, beside)) if content]
+        leads = [(name, name.capitalize()) for name, content in ((_RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
         top = tag("ul", *(leaders[part] for part in tables), class_="cards"), on_this_page(leads) if leads else None
         unknown = any(not row.run.made for same in merged.values() for ranks in same for row in ranks.rows)
-        shown.append(tag("p", UNKNOWN) if unknown else None)
+        shown.append(tag("p", UNKNOWN_ORIGIN) if unknown else None)
         return joined(*top), drawn, joined(*shown, note, link, first, folded, beside)
 
     def _left_out(self, what: str, rows: Sequence[Ranked]) -> Content:
@@ -305,7 +305,7 @@ class LevelPages:
         if max(run.tick for _, run, _ in runs) >= MAX_ALIGNED_TICKS:
             return []
         length = first.tick + 1
-        seconds = range(step := TICKS_PER_SECOND * (1 + length // MAX_SECONDS), length, step)
+        seconds = range(step := TICKS_PER_SECOND * (1 + length // _MAX_SECONDS), length, step)
         ticks = sorted({*range(0, length, 1 + length // MAX_LEADS), *seconds, first.tick})
         late = [dict(zip(ticks, self._late(first, other, ticks), strict=True)) for _, other, _ in others]
         sentences = []

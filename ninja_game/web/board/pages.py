@@ -18,7 +18,7 @@ from ninja_game.board.collect import is_in
 from ninja_game.board.memo import Memo
 from ninja_game.board.ranking import Ranked, Ranking, Record, Standing
 from ninja_game.board.report import counts, unnamed
-from ninja_game.board.runs import KINDS, Key, Run
+from ninja_game.board.runs import REJECTED_KINDS, Key, Run
 from ninja_game.errors import FileError
 from ninja_game.files.reading import SUFFIXES
 from ninja_game.files.shown_text import counted, shown_text
@@ -438,13 +438,15 @@ class BoardPages:
         return sections
 
     def _rejected(self) -> None:
-        parts, rejected, order = self.parts, self.ranking.judged.rejected, list(KINDS)
+        parts, rejected, order = self.parts, self.ranking.judged.rejected, list(REJECTED_KINDS)
         counts = Counter(item.kind for item in rejected)
-        kinds = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title, _) in KINDS.items() if counts[kind])
+        kinds = ", ".join(
+            f"{title.lower()}: {counts[kind]}" for kind, (_, title, _) in REJECTED_KINDS.items() if counts[kind]
+        )
         rows: list[tuple[Content, ...]] = [
             (
                 stack(
-                    tag("b", KINDS[item.kind][2]),
+                    tag("b", REJECTED_KINDS[item.kind][2]),
                     _file(item.file, item.record),
                     joined(self._known_player(item.player), f", {item.level}" if item.level else None),
                     item.added.partition("T")[0],

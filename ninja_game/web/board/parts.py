@@ -28,7 +28,7 @@ from ninja_game.web.pages.gallery import (
 
 PER_PAGE = 100  # rows of a table on one page: a page has at most 100 KB
 
-MAX_NAME = 40  # characters of a name in a table
+_MAX_NAME = 40  # characters of a name in a table
 
 RUN_HEADS = ("Watch", "Made", "Gold", "Date", "Medal", "File")
 LESSER = {"No.", "Behind", "Better by", "Score", "With", "On", *RUN_HEADS[2:], *map(str.capitalize, MEDALS)}
@@ -45,7 +45,7 @@ NEAR = (
 HOW_TO_CONFIRM = (
     "The commands in a row confirm or reject its run; the keeper runs them where the folder and the ledger lie."
 )
-UNKNOWN = (
+UNKNOWN_ORIGIN = (
     "Made unknown: the run does not say how it was made, and nobody can check it. It is ranked among the played ones "
     "until the keeper of the board moves it. "
 )
@@ -134,7 +134,7 @@ class Parts:
     def shown_name(self, player: str) -> str:
         """A player's name in a table, with the earlier player whose name looks like it."""
         first = self.ranking.judged.alike.get(player)
-        return shown_text(player, MAX_NAME) + (f" (not {shown_text(first, MAX_NAME)})" if first else "")
+        return shown_text(player, _MAX_NAME) + (f" (not {shown_text(first, _MAX_NAME)})" if first else "")
 
     def player_link(self, player: str, up: str = "") -> Content:
         return tag("a", self.shown_name(player), href=f"{up}{player_page(player)}.html") if player else ""
@@ -146,7 +146,9 @@ class Parts:
         """
         gold, medal = f"{run.gold} of {run.entry.all_gold}", medal_mark(run.medal if timed else "")
         about = made_text(run), gold, run.day, medal, self.run_link(run, UP)
-        others = tag("span", f" with {shown_text(run.co_authors, MAX_NAME)}", class_="with") if run.co_authors else None
+        others = (
+            tag("span", f" with {shown_text(run.co_authors, _MAX_NAME)}", class_="with") if run.co_authors else None
+        )
         summary = tag("summary", "Waits" if run.waits else "Remark")
         note = tag("details", summary, run.remark, class_="note") if run.remark else None
         player, linked = self.player_link(run.player, UP), self.run_link(run, UP, str(results[0]))
@@ -164,7 +166,7 @@ def player_page(player: str) -> str:
 
 
 def level_link(entry: Entry, up: str = "") -> Markup:
-    return tag("a", shown_text(entry.title, MAX_NAME), href=up + page_name(entry.digest))
+    return tag("a", shown_text(entry.title, _MAX_NAME), href=up + page_name(entry.digest))
 
 
 def card(entry: Entry, *facts: Content) -> Markup:

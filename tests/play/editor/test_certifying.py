@@ -17,10 +17,10 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.brush import object_of_type, placed, with_switch
-from ninja_game.editor.certify import LANDED, Ask, Certification, find_reach, passed_by, search_of
+from ninja_game.editor.certify import _LANDED, Ask, Certification, find_reach, passed_by, search_of
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import open_source
-from ninja_game.editor.specs import BODY, SWITCH, points
+from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay, parse_replay
@@ -270,7 +270,7 @@ def test_a_pass_with_help_certifies_nothing(room: Maker) -> None:
 
 def test_an_exit_in_one_wall_with_its_switch_is_one_problem(room: Maker) -> None:
     exit_ = next(n for n, spec in enumerate(room.draft.objects) if spec.kind == EXIT)
-    (column, row), (at, on) = (cell_of(*points(room.draft.objects[exit_])[part]) for part in (BODY, SWITCH))
+    (column, row), (at, on) = (cell_of(*points(room.draft.objects[exit_])[part]) for part in (BODY_PART, SWITCH_PART))
     around = {(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)} - {(0, 0)}
     walls = [{(a + i, b + j) for i, j in around if is_inside((a + i, b + j))} for a, b in ((column, row), (at, on))]
     found = []
@@ -308,7 +308,7 @@ def test_who_stands_goes_nowhere_before_the_jump_and_steers_in_the_air() -> None
     lefts, ups, rights = (arcs[k : k + 2] for k in (0, 2, 4))
     for way, both in ((-1, lefts), (0, ups), (1, rights)):
         for arc in both:
-            assert {x for x, _ in arc[: LANDED + 1]} == {396.0}
+            assert {x for x, _ in arc[: _LANDED + 1]} == {396.0}
             assert (arc[-1][0] - 396) * way > 24 if way else arc[-1][0] == 396
         low, high = (min(y for _, y in arc) for arc in both)
         assert high < low - 24, "who holds the key jumps higher"

@@ -7,7 +7,7 @@ import pytest
 
 from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.files import Source
-from ninja_game.editor.specs import BODY, points
+from ninja_game.editor.specs import BODY_PART, points
 from ninja_game.editor.stamp import Selection, Stamp, put
 from ninja_game.files.bundled import bundled_levels
 from ninja_game.formats.load import load_levels
@@ -54,8 +54,8 @@ def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Ma
     room.frames(3)
     tools = room.editor.session.tools
     tools.tool, tools.snap = "select", "px"
-    tools.selection = Selection(None, frozenset((n, BODY) for n in range(len(tools.draft.objects))))
-    before = [points(spec)[BODY] for spec in tools.draft.objects]
+    tools.selection = Selection(None, frozenset((n, BODY_PART) for n in range(len(tools.draft.objects))))
+    before = [points(spec)[BODY_PART] for spec in tools.draft.objects]
     x, y = before[100]
     places = [room.app.canvas.point(*room.at(x + k, y)) for k in range(30)]
     moves: list[float] = []
@@ -77,7 +77,7 @@ def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Ma
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=places[9], rel=(0, 0), buttons=(1, 0, 0), touch=False))
     pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=places[9], button=1, touch=False))
     room.frames()
-    gone = points(tools.draft.objects[100])[BODY][0] - x
+    gone = points(tools.draft.objects[100])[BODY_PART][0] - x
     assert abs(gone - 9) <= 1
-    assert points(tools.draft.objects[0])[BODY] == (before[0][0] + gone, before[0][1])
+    assert points(tools.draft.objects[0])[BODY_PART] == (before[0][0] + gone, before[0][1])
     assert not tools.dragging

@@ -15,10 +15,10 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.document import History
 from ninja_game.editor import packs
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed, tile_key
-from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Certification, Reach, with_ninja_at
+from ninja_game.editor.certify import _LANDED, SQUARE, STARTS, Certification, Reach, with_ninja_at
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, new_source, open_source
-from ninja_game.editor.specs import BODY, SWITCH, points
+from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
 from ninja_game.editor.stamp import Selection, Stamp, chosen_in, copied, put
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.load import load_levels
@@ -26,7 +26,7 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
-from ninja_game.play.editor.commands import TABLE, TryScreen
+from ninja_game.play.editor.commands import EDITOR_COMMANDS, TryScreen
 from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import sign_mark
@@ -210,7 +210,7 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
     room.frames()
     assert (len(session.tries), session.last_death) == (2, (died,)), "those of the level with the mine"
     tools = session.tools
-    tools.selection = Selection(parts=frozenset({(len(session.draft.objects) - 1, BODY)}))
+    tools.selection = Selection(parts=frozenset({(len(session.draft.objects) - 1, BODY_PART)}))
     tools.nudge(-1, 0)
     session.tried(session.draft.level, bytes([2] * 20), over=True)
     assert len([*session.tries]) == 1, "a test in the picture of the change is of the changed level alone"
@@ -300,7 +300,7 @@ def test_the_buttons_of_mirror_grid_and_snap_list_what_there_is(room: Maker, nam
 
 
 def test_every_command_runs_and_help_names_all_keys(room: Maker) -> None:
-    for command in TABLE.commands:
+    for command in EDITOR_COMMANDS.commands:
         if command.name not in ("certify", "menu", "test", "test_here"):
             room.editor.commands.run(command.name)
             room.frames()
@@ -308,7 +308,7 @@ def test_every_command_runs_and_help_names_all_keys(room: Maker) -> None:
                 room.app.pop()
     room.press("f1")
     assert isinstance(room.top(), HelpPage)
-    keys = [key for command in TABLE.commands for key in command.keys]
+    keys = [key for command in EDITOR_COMMANDS.commands for key in command.keys]
     assert len(keys) == len(set(keys))
 
 
@@ -509,7 +509,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     # A jump straight up is the world's own: the highest square is where the highest of a run is.
     jump = run_level(
         with_ninja_at(room.draft, room.editor.session.tools.pointer),
-        with_press_bits(bytes([0] * LANDED + [4] * (40 - LANDED))),
+        with_press_bits(bytes([0] * _LANDED + [4] * (40 - _LANDED))),
         memory="plain",
     )
     top = min(y for _, y, _ in standing.spans)
@@ -714,7 +714,7 @@ def test_the_panel_follows_what_is_dragged(room: Maker) -> None:
     place = next(
         each for each in room.editor.properties.widgets if isinstance(each, TextEntry) and "switch" in each.hint
     )
-    assert place.text == place_text(*points(room.draft.objects[1])[SWITCH])
+    assert place.text == place_text(*points(room.draft.objects[1])[SWITCH_PART])
     assert [each.text for each in room.editor.properties.widgets if isinstance(each, Label)][1:] == ["at", "switch at"]
 
 
@@ -848,7 +848,7 @@ def test_the_sign_of_a_finding_leaves_its_cause_visible(room: Maker) -> None:
 
 def test_a_key_beside_an_entry_of_the_palette_takes_it_whatever_was_used_before(room: Maker) -> None:
     tools, palette = room.editor.session.tools, room.editor.palette
-    commands = {key for command in TABLE.commands for key in command.keys}
+    commands = {key for command in EDITOR_COMMANDS.commands for key in command.keys}
     digits = {str(number): number for number in (*range(10), *range(1, 9))}
     letters = {f"shift+{each.key}": each for each in OBJECT_TYPES}
     assert (len(letters), (digits.keys() | letters.keys()) & commands) == (len(OBJECT_TYPES), set())
@@ -856,7 +856,7 @@ def test_a_key_beside_an_entry_of_the_palette_takes_it_whatever_was_used_before(
     for key in (*digits, *letters):
         for used in before:
             if used is None:
-                tools.choose(frozenset({(0, BODY)}))
+                tools.choose(frozenset({(0, BODY_PART)}))
             else:
                 tools.pick_up(used)
             room.press(key)
@@ -941,7 +941,7 @@ def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) 
     room.drag((300, 540))
     assert not session.drone_round
     session.tools.history.change(put(ROOM, Stamp({}, (placed(drone, 300, 540, "cell"),))))
-    session.tools.choose(frozenset({(len(room.draft.objects) - 1, BODY)}))
+    session.tools.choose(frozenset({(len(room.draft.objects) - 1, BODY_PART)}))
     room.wait(lambda: session.drone_round, "the round of the drone that is selected")
 
 

@@ -318,7 +318,7 @@ def test_a_path_that_somebody_put_among_the_autosaves_by_hand_counts_for_nothing
 def test_what_is_drawn_when_a_signal_ends_the_program_is_kept(
     room: Maker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ninja_game.editor.files.SPACING", 1e9)
+    monkeypatch.setattr("ninja_game.editor.files._SPACING", 1e9)
     room.drag((300, 300))
     session = room.editor.session
 

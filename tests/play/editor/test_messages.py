@@ -19,7 +19,7 @@ from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_message
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
 from ninja_game.play.editor.commands import TryScreen
-from ninja_game.play.editor.messages import _WHEN, PICTURE, TEXT, TIME, Message, MessagesScreen, messages_of
+from ninja_game.play.editor.messages import _PICTURE, _TEXT, _WHEN, TIME, Message, MessagesScreen, messages_of
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.level.hud_view import hud_view
@@ -71,7 +71,7 @@ def painted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 def in_picture(column: int, row: int) -> tuple[float, float]:
     """Where the preview shows the middle of a cell."""
-    left, top, wide, _ = PICTURE
+    left, top, wide, _ = _PICTURE
     return left + (24 * column + 12) * wide / 792, top + (24 * row + 12) * wide / 792
 
 
@@ -157,11 +157,11 @@ def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
     assert [widget in screen.widgets for widget in (screen._row_widgets[3][0], screen._row_widgets[4][0])] == [0, 1]
     assert "text 'Page 2 of 2'" in drawn(room.app)
     room.choose("Page 2 of 2")
-    assert screen.focus is screen._row_widgets[0][TEXT]
+    assert screen.focus is screen._row_widgets[0][_TEXT]
     room.type("z")
     screen.messages[5].text = ""
     room.choose("OK")
-    assert screen.focus is screen._row_widgets[5][TEXT], "what is wrong is shown, on whatever page it is"
+    assert screen.focus is screen._row_widgets[5][_TEXT], "what is wrong is shown, on whatever page it is"
     room.choose("Remove")
     assert [message.text for message in screen.messages] == ["az", *"bcdegh"]
 
@@ -175,7 +175,7 @@ def test_all_places_are_seen_and_a_click_on_one_selects_its_message(room: Maker)
     assert shown.count("circle accent") == 4
     assert len(re.findall(r"frame \S+ .* 120 x 120", shown)) == 2
     for point, selected in (((300.0, 300.0), 3), ((120.0, 540.0), 4), ((132.0, 132.0), 1)):
-        left, top, wide, _ = PICTURE
+        left, top, wide, _ = _PICTURE
         room.mouse(left + point[0] * wide / 792, top + point[1] * wide / 792)
         assert screen._selected == selected
 
@@ -539,7 +539,7 @@ def test_a_test_begins_in_the_known_run_a_second_before_the_message(
     monkeypatch.setattr(doors.app.controls, "poll", lambda: 2)
     said(doors, f"start: Go | {says}")
     screen = opened(doors)
-    doors.mouse(*screen._row_widgets[1][TEXT].centre)
+    doors.mouse(*screen._row_widgets[1][_TEXT].centre)
     doors.choose("Test")
     trying = doors.shown(TryScreen)
     play = trying.play
@@ -563,7 +563,7 @@ def test_a_test_of_what_is_said_after_deaths_or_seconds_begins_there(doors: Make
     said(doors, "start: Go | death 3: Three | after 9 s: Nine")
     screen, texts = opened(doors), []
     for row in (1, 2):
-        doors.mouse(*screen._row_widgets[row][TEXT].centre)
+        doors.mouse(*screen._row_widgets[row][_TEXT].centre)
         doors.choose("Test")
         trying = doors.shown(TryScreen)
         texts.append((trying.play.messages.text, trying.attempt.simulation.tick))
@@ -590,9 +590,9 @@ def test_a_click_in_the_picture_names_the_one_door_that_is_meant(doors: Maker) -
     doors.mouse(*in_picture(11, 22))
     assert screen.messages[0].detail == "11,22"
     assert "text '11,22'" in drawn(doors.app)
-    doors.mouse(*screen._row_widgets[1][TEXT].centre)
+    doors.mouse(*screen._row_widgets[1][_TEXT].centre)
     doors.mouse(*in_picture(18, 22))
-    doors.mouse(*screen._row_widgets[2][TEXT].centre)
+    doors.mouse(*screen._row_widgets[2][_TEXT].centre)
     doors.mouse(*in_picture(13, 22))
     assert screen.source == "lock 11,22: One | gold 18,22: Two | start: Go"
     doors.choose("OK")
@@ -614,17 +614,17 @@ def test_messages_are_copied_and_moved_by_buttons_and_keys(room: Maker) -> None:
     def order() -> str:
         return "".join(message.text for message in screen.messages)
 
-    room.mouse(*screen._row_widgets[2][TEXT].centre)
+    room.mouse(*screen._row_widgets[2][_TEXT].centre)
     room.choose("Up")
     assert (order(), screen._selected) == ("acb", 1)
     room.choose("Copy")
     assert (order(), screen._selected) == ("accb", 2)
     assert screen.source == "start: a | after 9 s for 4 s: c | after 9 s for 4 s: c | switch: b"
-    room.mouse(*screen._row_widgets[2][TEXT].centre)
+    room.mouse(*screen._row_widgets[2][_TEXT].centre)
     room.type("d")
     assert order() == "accdb", "a copy of its own"
     room.chord("down", pygame.KMOD_LCTRL)
-    assert (order(), screen.focus) == ("acbcd", screen._row_widgets[3][TEXT])
+    assert (order(), screen.focus) == ("acbcd", screen._row_widgets[3][_TEXT])
     room.chord("down", pygame.KMOD_LCTRL)
     assert order() == "acbcd", "it is the last"
     with patch.object(pygame.key, "get_mods", lambda: pygame.KMOD_SHIFT):
@@ -728,7 +728,7 @@ def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: M
     screen.messages = [Message("at", "8,21", "x") for _ in range(count)]
     screen.enter()
     assert [widget.area for widget in screen.widgets[-8:]] == fixed
-    areas = [pygame.Rect(*map(round, area)) for area in (PICTURE, *(widget.area for widget in screen.widgets))]
+    areas = [pygame.Rect(*map(round, area)) for area in (_PICTURE, *(widget.area for widget in screen.widgets))]
     assert all(area.collidelistall(areas) == [place] for place, area in enumerate(areas))
     assert not screen.offers_back, "OK and Cancel are the ways out"
 

@@ -7,7 +7,7 @@ import pytest
 
 from ninja_game.editor.files import Source
 from ninja_game.editor.motion import SYMMETRIES
-from ninja_game.editor.specs import BODY, points
+from ninja_game.editor.specs import BODY_PART, points
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.play.editor.sheet import GRIDS
 from ninja_game.play.editor.view import _AXES
@@ -109,16 +109,16 @@ def test_tools_draw_and_erase_where_the_mouse_is(near: Looker) -> None:
     near.cells((7, 19))
     x, y = middle_of((7, 19))
     near.drag(near.px((x + 31, y + 5)))
-    assert points(near.room.draft.objects[-2])[BODY] == (x, y)
-    assert points(near.room.draft.objects[-1])[BODY] == (x + 30, y + 6)
+    assert points(near.room.draft.objects[-2])[BODY_PART] == (x, y)
+    assert points(near.room.draft.objects[-1])[BODY_PART] == (x + 30, y + 6)
     assert near.is_as_drawn_at_once()
 
 
 def test_what_is_selected_is_dragged_and_pasted(near: Looker) -> None:
     near.tools.tool = "select"
-    ninja = points(near.room.draft.objects[0])[BODY]
+    ninja = points(near.room.draft.objects[0])[BODY_PART]
     near.drag(near.px(ninja), near.px((ninja[0] + 72, ninja[1])))
-    assert points(near.room.draft.objects[0])[BODY] == (ninja[0] + 72, ninja[1])
+    assert points(near.room.draft.objects[0])[BODY_PART] == (ninja[0] + 72, ninja[1])
     near.drag(near.px((40, 555)), near.px((90, 570)))
     assert near.tools.selection.area == (1, 23, 3, 1)
     near.room.chord("c", pygame.KMOD_LCTRL)
@@ -178,7 +178,7 @@ def test_keys_findings_and_the_list_bring_into_the_picture_what_they_are_about(n
     listed.update(0)
     listed._choose(0)  # type: ignore[attr-defined]
     near.room.frames(1)
-    assert view.overlay.area.collidepoint(near.px(points(near.room.draft.objects[0])[BODY]))
+    assert view.overlay.area.collidepoint(near.px(points(near.room.draft.objects[0])[BODY_PART]))
 
 
 def test_a_level_that_is_moved_keeps_what_was_drawn_and_draws_the_rest(near: Looker) -> None:

@@ -33,7 +33,7 @@ from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.pack_list import PackList
-from ninja_game.play.menus.pack_shelves import GAP, PackCell, Rack
+from ninja_game.play.menus.pack_shelves import _GAP, PackCell, Rack
 from ninja_game.play.menus.packer import Packer
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
@@ -160,7 +160,7 @@ def test_cards_make_room_where_a_level_would_land(driver: MenuDriver, path: Path
     driver.carry(shelves.row_area(1), half(screen, 3, right=True), drop=False)
     [_, *now] = sorted(set(pictures()) - set(before), reverse=True)
     assert len(before) - len(set(before) & {*pictures()}) == 3, "what is held leaves its place, two make room"
-    assert [x for _, x in now] == [x + GAP for _, x in reversed(before[3:5])]
+    assert [x for _, x in now] == [x + _GAP for _, x in reversed(before[3:5])]
     driver.mouse_up((300, 530, 2, 2))
     assert pictures() == before
 

@@ -18,7 +18,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.journal import JOURNAL_FOLDER, recovered
-from ninja_game.tas_editor.commands import TABLE, RunCommands
+from ninja_game.tas_editor.commands import TAS_COMMANDS, RunCommands
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen
 from ninja_game.tas_editor.opening import open_tas_editor
 from ninja_game.tas_editor.screen import TasScreen
@@ -42,7 +42,7 @@ def journals(at: TasDriver) -> list[Path]:
 
 
 def test_every_command_of_the_table_is_offered_by_some_part(at: TasDriver) -> None:
-    assert set(at.screen.commands()) == {command.name for command in TABLE.commands}
+    assert set(at.screen.commands()) == {command.name for command in TAS_COMMANDS.commands}
 
 
 def test_keys_of_the_file_menu_work_while_it_is_open(at: TasDriver) -> None:

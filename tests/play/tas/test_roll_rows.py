@@ -12,7 +12,7 @@ from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import LayoutPreferences, tas_canvas, tas_layout
 from ninja_game.tas_editor.roll.facts import RowFacts, changed_ticks, row_facts, row_text
-from ninja_game.tas_editor.roll.rows import COLUMNS, RowSheet, layout_of, shortened
+from ninja_game.tas_editor.roll.rows import ROLL_COLUMNS, RowSheet, layout_of, shortened
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import CLASSIC, Area, Theme
 from tests.support.tas_driver import TasDriver
@@ -109,7 +109,7 @@ def test_a_killers_name_takes_the_room_of_its_column(size: tuple[int, int]) -> N
 @pytest.mark.parametrize("size", [(792, 600), (1188, 900), (1584, 1200), (1000, 1000), (3000, 700), (200, 150)])
 def test_columns_lie_side_by_side_in_any_window(size: tuple[int, int]) -> None:
     layout = layout_of(*roll_of(size), ())
-    assert [place.column.name for place in layout.places] == [column.name for column in COLUMNS]
+    assert [place.column.name for place in layout.places] == [column.name for column in ROLL_COLUMNS]
     edges = np.array([[place.left, place.left + place.width] for place in layout.places])
     assert (edges[1:, 0] == edges[:-1, 1]).all()
     assert edges[0, 0] == layout.body.left

@@ -25,7 +25,7 @@ from ninja_game.sim.kinds import EXIT
 from ninja_game.tas.goals import IMPROVE, PRESETS
 from ninja_game.tas_editor import span_results
 from ninja_game.tas_editor.roll.facts import BEFORE, compared, different_keys
-from ninja_game.tas_editor.span_results import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults
+from ninja_game.tas_editor.span_results import _COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults
 from ninja_game.tas_editor.tabs import search_tab as module
 from ninja_game.tas_editor.tabs.search_tab import SearchTab
 from ninja_game.tas_editor.tabs.tab import SMALL
@@ -495,7 +495,7 @@ def test_the_button_stops_what_still_compiles(at: TasDriver, tab: SearchTab, mon
     compiled = Event()
     monkeypatch.setattr(background, "search_span", lambda *_, **__: (compiled.wait(60.0), ())[1])
     wish(at, "Greatest speed")
-    assert results_of(tab).note == COMPILING
+    assert results_of(tab).note == _COMPILING
     at.choose("Stop")
     assert not results_of(tab).running
     assert (results_of(tab).status, results_of(tab).note) == ("ended", NOT_BEGUN)
