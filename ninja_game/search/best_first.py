@@ -170,7 +170,7 @@ def take_state(node: Node, start: Start, arrays: SearchArrays, resolution: Resol
 
 @fast
 def macro_of(ninja: Ninja, choice: int, counters: Counters, resolution: Resolution) -> tuple[int, int, int]:
-    """Give direction, mode and most ticks of a choice; 0 ticks if the choice changes nothing for this ninja."""
+    """Direction, mode and most ticks of a choice; 0 ticks if the choice changes nothing for this ninja."""
     wall = ninja.in_air and ninja.near_wall
     limit = resolution.macro
     if resolution.jitter > 0:
@@ -342,7 +342,7 @@ def note_link(arrays: SearchArrays, source: int, target: int, ticks: int) -> Non
 
 @fast
 def survives(node: Node, start: Start, arrays: SearchArrays, rollouts: int) -> bool:
-    """Tell whether the ninja, from a node's save-state on with random keys, ever lands or lives for a while.
+    """Whether the ninja, from a node's save-state on with random keys, ever lands or lives for a while.
 
     This overwrites the scratch world.
     """

@@ -69,7 +69,7 @@ _AUTHOR = "ninja-game check"
 def read_certificate(
     level: NamedLevel, path: Path, *, body: Body = "circle", gold: int = 0
 ) -> tuple[Replay, bool] | None:
-    """Give the run of a replay if it still passes a level with the gold wanted, and whether it was made on this level.
+    """The run of a replay if it still passes a level with the gold wanted, and whether it was made on this level.
 
     None if the file is missing, or if its run does not pass this level any more. Raises NinjaGameError for a file that
     is not a replay.
@@ -105,7 +105,7 @@ def write_certificate(level: NamedLevel, path: Path, run: Replay) -> None:
 
 
 def improved_replay(run: Replay, recording: Recording, command: str) -> Replay:
-    """Give a run that a command made from a recording: names and authors stay, its origin is added."""
+    """A run that a command made from a recording: names and authors stay, its origin is added."""
     old = recording.replay
     return replace(
         run,
@@ -216,7 +216,7 @@ def playback(rows: list[Hold]) -> bytes:
 
 
 def smooth_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0, price: int = 0) -> bytes:
-    """Give a run to the exit with fewer key changes, at most ``price`` ticks longer than ``inputs``.
+    """A run to the exit with fewer key changes, at most ``price`` ticks longer than ``inputs``.
 
     Short rows of keys are merged into their neighbours, the shortest first, as long as the run still reaches the exit.
     """

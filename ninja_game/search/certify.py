@@ -108,7 +108,7 @@ def _certify_goal(
     stop: Event,
     improve: bool,
 ) -> Certified:
-    """Give the best run for a goal: the kept one, one found for another goal, or the result of a new search."""
+    """The best run for a goal: the kept one, one found for another goal, or the result of a new search."""
     run, of_this_level = kept or (None, False)
     if run and of_this_level and not improve:
         return Certified(run, task.gold, "kept")

@@ -181,7 +181,7 @@ class GoldBeam:
         return frontier.checkpoints[0].tick + to_come
 
     def _target(self, frontier: Frontier) -> int:
-        """Give the piece to fetch next from a frontier, -1: the exit. Shortens the frontier's tour."""
+        """The piece to fetch next from a frontier, -1: the exit. Shortens the frontier's tour."""
         left = [piece for piece in frontier.tour if not frontier.taken >> piece & 1]
         if not left:
             return -1

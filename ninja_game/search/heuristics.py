@@ -246,7 +246,7 @@ class Heuristics:
         return self._toward(self._exit_sources(switch_state, dear), costs, dear, switch_state, point_at(x, y))
 
     def may_leave(self, switch_state: int, x: float, y: float) -> bool:
-        """Tell whether a ninja at (x, y) can reach an open exit without opening a door, as far as the fields know."""
+        """Whether a ninja at (x, y) can reach an open exit without opening a door, as far as the fields know."""
         places = [(e.x, e.y, 0.0) for bit, e in enumerate(self.exits) if bit < MAX_BITS and switch_state >> bit & 1]
         field = widened(self._field(self._closed(switch_state, 0.0), places))
         return bool(field[point_at(x, y)] < UNREACHED)
@@ -293,7 +293,7 @@ class Heuristics:
         return field
 
     def _closed(self, switch_state: int, door_cost: float) -> Costs:
-        """Give the cost factors with the doors as they are in a switch state."""
+        """The cost factors with the doors as they are in a switch state."""
         costs = self.costs.copy()
         for bit, switch in enumerate(self.switches):
             if switch.door and switch.trap == bool(switch_state >> bit & 1):
@@ -302,7 +302,7 @@ class Heuristics:
         return costs
 
     def _careful(self, costs: Costs, switch_state: int) -> Costs:
-        """Give the cost factors while gold is fetched: avoid open exits, and switches of exits and trap doors."""
+        """The cost factors while gold is fetched: avoid open exits, and switches of exits and trap doors."""
         for bit, switch in enumerate(self.switches):
             done = bool(switch_state >> bit & 1)
             if not switch.door and done:
@@ -312,7 +312,7 @@ class Heuristics:
         return costs
 
     def _first_door(self, field: DistanceField, here: int, switch_state: int) -> Switchable | None:
-        """Give the first closed locked door on the way down a field."""
+        """The first closed locked door on the way down a field."""
         closed = {
             point: switch
             for bit, switch in enumerate(self.switches)

@@ -79,7 +79,7 @@ def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], unt
 
 @fast
 def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
-    """Give the row of the run most like this moment, and the ticks ahead from there, with the price."""
+    """The row of the run most like this moment, and the ticks ahead from there, with the price."""
     n = w.ninja
     ticks = len(run.keys)
     vx = n.x - n.prev_x

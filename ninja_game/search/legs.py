@@ -79,7 +79,7 @@ class Frontier:
 
 
 def pieces_of(taken: int) -> Iterator[int]:
-    """Give the numbers of the pieces in a set of bits."""
+    """The numbers of the pieces in a set of bits."""
     return (k for k in range(taken.bit_length()) if taken >> k & 1)
 
 
@@ -150,7 +150,7 @@ def short_tour(start: Distances, between: Distances, end: Distances, order: Sequ
 def _best_place(
     first: int, last: int, tour: list[int], start: Distances, between: Distances, end: Distances
 ) -> tuple[float, int]:
-    """Give the least cost of inserting a segment (its first and last stop) into a tour, and the place for it."""
+    """The least cost of inserting a segment (its first and last stop) into a tour, and the place for it."""
     if not tour:
         return float(start[first] + end[last]), 0
     stops = np.array(tour)
@@ -242,7 +242,7 @@ class PieceTicks:
 
 
 def _last_piece(checkpoint: Checkpoint) -> int:
-    """Give the last piece collected before a checkpoint, -1 if there is none."""
+    """The last piece collected before a checkpoint, -1 if there is none."""
     while checkpoint.before and checkpoint.before.taken == checkpoint.taken:
         checkpoint = checkpoint.before
     return max(pieces_of(checkpoint.taken & ~(checkpoint.before.taken if checkpoint.before else 0)), default=-1)

@@ -45,7 +45,7 @@ class RandomState:
 
 @fast
 def random_below(source: RandomState, limit: int) -> int:
-    """Give a pseudo-random number from 0 to limit - 1 (xorshift)."""
+    """A pseudo-random number from 0 to limit - 1 (xorshift)."""
     x = source.random
     x ^= x << 13
     x ^= (x >> 7) & 0x01FFFFFFFFFFFFFF

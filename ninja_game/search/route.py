@@ -113,7 +113,7 @@ class Route:
         return None
 
     def _priority(self, frontier: Frontier) -> tuple[float, int, int]:
-        """Give the progress of a frontier less the cost of its tries; without gold, less the ticks spent on it."""
+        """The progress of a frontier less the cost of its tries; without gold, less the ticks spent on it."""
         if self.gold:
             return self._done(frontier) - TRY_PENALTY * frontier.tries, frontier.taken, frontier.mask
         # The exit should be opened last: its way may block the way to the doors.
@@ -126,7 +126,7 @@ class Route:
         return frontier.count + DOOR_WORTH * (frontier.mask & useful).bit_count()
 
     def _may_leave(self, frontier: Frontier) -> bool:
-        """Tell whether an open exit can be reached, as far as walls and doors tell; computed once per frontier."""
+        """Whether an open exit can be reached, as far as walls and doors tell; computed once per frontier."""
         key = (frontier.taken, frontier.mask)
         if key not in self._leaving:
             self._leaving[key] = self.heuristics.may_leave(frontier.mask, *frontier.checkpoints[0].place)
@@ -162,7 +162,7 @@ class Route:
         return Leg(roots, UNBOUNDED, frontier.mask, UNBOUNDED, ROUTE_ENDS, rollouts, *way)
 
     def _way_to_a_switch(self, frontier: Frontier) -> tuple[FieldOf, int]:
-        """Give the fields of the first door in the way, and the bit of its switch.
+        """The fields of the first door in the way, and the bit of its switch.
 
         At later tries those of the other doors' switches, in turn.
         """
@@ -188,7 +188,7 @@ class Route:
         frontier.add(checkpoint, ROUTE_WIDTH)
 
     def _target(self, frontier: Frontier) -> int:
-        """Give the piece to fetch next from a frontier, -1: the exit or its switch.
+        """The piece to fetch next from a frontier, -1: the exit or its switch.
 
         Pieces without a way to others or to the switch, for example behind one-way platforms, come last.
         """

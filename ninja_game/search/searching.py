@@ -110,7 +110,7 @@ class Search:
         self._fill_fields()
 
     def _learned(self) -> BackedUpHeuristic:
-        """Give the table of the last search with its values; the next search uses the other table."""
+        """The table of the last search with its values; the next search uses the other table."""
         table = self.arrays.table
         compiled(back_up_values)(table, self.arrays.links, int(self.counters.links), MAX_SWEEPS)
         other = new_table(self._nodes) if self._other_table is None else self._other_table
@@ -179,7 +179,7 @@ class Search:
         return Checkpoint(self.start.scratch.copy(), int(world["tick"]), taken, mask, place, variety, before, inputs)
 
     def _path(self, index: int) -> tuple[int, bytes]:
-        """Give the root of a node, and the inputs from there, one byte per tick."""
+        """The root of a node, and the inputs from there, one byte per tick."""
         nodes: Any = self.arrays.nodes
         parents, actions = nodes["parent"], nodes["action"]
         parts = []

@@ -89,7 +89,7 @@ class _Job:
 
     @property
     def _early(self) -> bool:
-        """Tell whether this part of the time only looks for other routes; a given run has no such part."""
+        """Whether this part of the time only looks for other routes; a given run has no such part."""
         task = self.state.task
         return not task.first and self.work < self.plan.routes_until * task.work_planned
 
@@ -231,7 +231,7 @@ def solve(
     on_better: Callable[[Replay], None] | None = None,
     stop: Event | None = None,
 ) -> Replay | None:
-    """Give the best run to the exit found within the time, None if there is none.
+    """The best run to the exit found within the time, None if there is none.
 
     ``report`` is called a few times a second, ``on_better`` with every verified run that is shorter than those before.
     ``task.first``: a run to start from; it is only improved, and ``on_better`` gets it first. ``stop``: ends the search

@@ -61,7 +61,7 @@ def state_class(w: World) -> int:
 
 @fast
 def key_of(w: World, goal: Goal, switch_state: int, gold: int, resolution: Resolution) -> int:
-    """Give the key of a state, never 0. ``gold``: a 16-bit hash of the collected pieces, 0 if gold does not matter."""
+    """The key of a state, never 0. ``gold``: a 16-bit hash of the collected pieces, 0 if gold does not matter."""
     n = w.ninja
     x = int((n.x + resolution.shift_x) / resolution.cell) & 511
     y = int((n.y + resolution.shift_y) / resolution.cell) & 511
@@ -92,7 +92,7 @@ def near_enemies(w: World, goal: Goal, resolution: Resolution) -> int:
 
 @fast
 def find_entry(table: Sequence[TableEntry], key: int) -> int:
-    """Give the slot of a key, or of the empty entry for it. The table must have empty entries."""
+    """The slot of a key, or of the empty entry for it. The table must have empty entries."""
     mask = len(table) - 1
     mixed = key * MIX
     slot = (mixed ^ (mixed >> 29)) & mask
@@ -103,7 +103,7 @@ def find_entry(table: Sequence[TableEntry], key: int) -> int:
 
 @fast
 def is_new(entry: TableEntry, tick: int, resolution: Resolution) -> bool:
-    """Tell whether to continue from here: yes for a new key, an earlier arrival, or (a few times) a much later one.
+    """Whether to continue from here: yes for a new key, an earlier arrival, or (a few times) a much later one.
 
     Later arrivals matter if things move: a gap that is deadly now may be open in a second.
     """
@@ -114,7 +114,7 @@ def is_new(entry: TableEntry, tick: int, resolution: Resolution) -> bool:
 
 @fast
 def switch_state_of(w: World, goal: Goal, counters: Counters, guess: int) -> int:
-    """Give the index of the present switch state, -1: too many. Requests the field of a new one."""
+    """The index of the present switch state, -1: too many. Requests the field of a new one."""
     mask = open_mask(w, goal.switch_slots)
     index = guess
     if goal.masks[guess] != mask:
@@ -134,7 +134,7 @@ def switch_state_of(w: World, goal: Goal, counters: Counters, guess: int) -> int
 
 @fast
 def is_done(w: World, slot: int) -> bool:
-    """Tell whether a piece of gold is taken, or an exit or door open."""
+    """Whether a piece of gold is taken, or an exit or door open."""
     o = w.objects[slot]
     return bool(o.taken) if o.kind == GOLD else bool(is_open(w, slot))
 
@@ -151,5 +151,5 @@ def gold_hash(w: World, goal: Goal) -> int:
 
 @fast
 def estimate(goal: Goal, switch_state: int, point: int, before: float) -> float:
-    """Give the ticks to the goal by the field of a switch state; ``before`` (the parent's) if it is not made yet."""
+    """The ticks to the goal by the field of a switch state; ``before`` (the parent's) if it is not made yet."""
     return float(goal.fields[switch_state, point]) if goal.fields[switch_state, 0] >= 0.0 else before

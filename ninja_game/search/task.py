@@ -209,7 +209,7 @@ class WorkPlan:
 
 
 def find_order(job: int) -> Iterator[tuple[Resolution, int, int]]:
-    """Give resolution, ticks and seed number of the searches for a first run, in turn; each job starts elsewhere."""
+    """Resolution, ticks and seed number of the searches for a first run, in turn; each job starts elsewhere."""
     turn = job
     while True:
         resolution, ticks = FIND[turn % len(FIND)]

@@ -20,13 +20,13 @@ def ieee_divide(a: float, b: float) -> float:
 
 @fast
 def is_set(value: float) -> bool:
-    """Tell whether a flag of a record is set: any number but 0 and NaN sets it."""
+    """Whether a flag of a record is set: any number but 0 and NaN sets it."""
     return value < 0.0 or value > 0.0
 
 
 @fast
 def canonical(value: float) -> float:
-    """Give a number as traces write it: -0.0 as 0.0, every NaN as one NaN."""
+    """A number as traces write it: -0.0 as 0.0, every NaN as one NaN."""
     if value != value:
         return NAN
     return value + 0.0

@@ -45,7 +45,7 @@ class _Reader:
 
 
 def _canonical(value: Any) -> Any:
-    """Give the number with one zero and one NaN."""
+    """The number with one zero and one NaN."""
     return NAN if value != value else value + 0
 
 
@@ -58,12 +58,12 @@ _STATE_OBJECTS = {**_OBJECTS, DRONE: _Reader([field for field in fields_of(Drone
 
 
 def world_digest(w: World) -> str:
-    """Give the sha256 (hex) of a world's canonical form."""
+    """The sha256 (hex) of a world's canonical form."""
     return _digest(w, _WORLD.bytes_of(w) + _NINJA.bytes_of(w.ninja), _OBJECTS)
 
 
 def state_digest(w: World) -> str:
-    """Give the sha256 (hex) of the canonical form without the fields that no later tick reads.
+    """The sha256 (hex) of the canonical form without the fields that no later tick reads.
 
     It leaves out ``OVERWRITTEN``, the jump timer outside of a jump, the ticks run, and of the ticks that a drone has
     moved all but what a pseudo-random drone uses. Turrets and armed drones do read the ticks run when they shoot;
@@ -86,7 +86,7 @@ def _digest(w: World, scalars: bytes, readers: dict[int, _Reader]) -> str:
 
 
 def replay_digest(w: World) -> str:
-    """Give the sha256 (hex) of what a world shows after a tick, for replays of version 2 (docs/replay-format.md).
+    """The sha256 (hex) of what a world shows after a tick, for replays of version 2 (docs/replay-format.md).
 
     It covers the ninja's x, y, prev_x, prev_y (px, float64), state, body (1: box), gold, outcome and ticks run (int32);
     then, of every traced object in id order, x, y (px, float64), id, kind and status (int32). Another list of fields
@@ -104,7 +104,7 @@ def replay_digest(w: World) -> str:
 
 
 def differences(ours: World, theirs: World) -> Iterator[tuple[str, Any, Any]]:
-    """Give every field that differs in two worlds, first those of the ninja: (name, our value, their value)."""
+    """Every field that differs in two worlds, first those of the ninja: (name, our value, their value)."""
     yield from _unequal("ninja", _NINJA, ours.ninja, theirs.ninja)
     yield from _unequal("world", _WORLD, ours, theirs)
     for slot in range(1, min(ours.slots_used, theirs.slots_used)):
@@ -123,7 +123,7 @@ def _report_name(o: Object) -> str:
 
 
 def _unequal(name: str, reader: _Reader, ours: Any, theirs: Any) -> Iterator[tuple[str, Any, Any]]:
-    """Give the fields in which two objects differ; NaN equals NaN."""
+    """The fields in which two objects differ; NaN equals NaN."""
     for field, mine, other in zip(reader.names, reader.get(ours), reader.get(theirs), strict=True):
         if mine != other and not (mine != mine and other != other):
             yield f"{name}: {field}", mine, other

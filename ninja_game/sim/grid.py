@@ -16,7 +16,7 @@ Cell = tuple[int, int]
 
 @fast
 def cell_at(x: float, y: float) -> int:
-    """Give the grid index of the cell that holds a point; 0 outside the world and for NaN.
+    """The grid index of the cell that holds a point; 0 outside the world and for NaN.
 
     A point on the line between two cells belongs to the right or lower one.
     """
@@ -27,7 +27,7 @@ def cell_at(x: float, y: float) -> int:
 
 @fast
 def cell_index(column: float, row: float) -> int:
-    """Give the grid index of cell (column, row) of the full grid; 0 if there is none, e.g. for fractions."""
+    """The grid index of cell (column, row) of the full grid; 0 if there is none, e.g. for fractions."""
     if 0.0 <= column < GRID_COLUMNS and 0.0 <= row < GRID_ROWS:
         i = int(column)
         j = int(row)
@@ -95,7 +95,7 @@ def grid_move(w: World, o: Header) -> int:
 
 
 def is_inside(cell: Cell) -> bool:
-    """Tell whether a cell belongs to the level; border cells do not."""
+    """Whether a cell belongs to the level; border cells do not."""
     return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS
 
 

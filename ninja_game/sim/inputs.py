@@ -79,7 +79,7 @@ class Demo:
 
     @property
     def end(self) -> int:
-        """Give the first tick after the recording: its length, rounded up; 0 if the length is not a number.
+        """The first tick after the recording: its length, rounded up; 0 if the length is not a number.
 
         It is at most the number of inputs or MAX_DEMO_TICKS, the greater of both, so an absurd length costs nothing.
         """
@@ -89,7 +89,7 @@ class Demo:
         return limit if self.length >= limit else math.ceil(self.length)
 
     def playback(self, ticks: int) -> bytes:
-        """Give the inputs of the first ``ticks`` ticks in playback (game.md §4.4).
+        """The inputs of the first ``ticks`` ticks in playback (game.md §4.4).
 
         Playback uses input k while k < length, then the last input once more (with its press of jump), then no key.
         """

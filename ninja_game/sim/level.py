@@ -22,7 +22,7 @@ BODIES: tuple[Body, ...] = ("circle", "box")
 
 
 def is_box(body: str) -> bool:
-    """Tell whether a body is the box. Raises ArgumentError for an unknown body."""
+    """Whether a body is the box. Raises ArgumentError for an unknown body."""
     if body not in BODIES:
         raise ArgumentError(f"body is {body!r}; expected 'circle' or 'box'")
     return body == "box"
@@ -42,12 +42,12 @@ class ObjectSpec(NamedTuple):
 
 
 def makes_object(spec: ObjectSpec) -> bool:
-    """Tell whether a record is of a known kind; all others create nothing and get no id (objects.md §2.1)."""
+    """Whether a record is of a known kind; all others create nothing and get no id (objects.md §2.1)."""
     return 0 <= spec.kind < len(VALUE_COUNTS)
 
 
 def well_formed(spec: ObjectSpec) -> bool:
-    """Tell whether a record makes an object and has the number of values that its kind needs."""
+    """Whether a record makes an object and has the number of values that its kind needs."""
     return makes_object(spec) and len(spec.values) == VALUE_COUNTS[spec.kind]
 
 
@@ -92,7 +92,7 @@ class Level:
         return [spec.kind for spec in self.objects].count(GOLD)
 
     def tile(self, column: int, row: int) -> int:
-        """Give the tile id at interior cell ``column`` 1…31, ``row`` 1…23 (indices of the full 33 x 25 grid)."""
+        """The tile id at interior cell ``column`` 1…31, ``row`` 1…23 (indices of the full 33 x 25 grid)."""
         return self.tiles[(column - 1) * ROWS + (row - 1)]
 
 

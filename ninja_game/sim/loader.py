@@ -17,7 +17,7 @@ from ninja_game.sim.schema.world_fields import CAPACITY, Ninja, TileMap, World
 
 
 def grid_tiles(data: Level) -> list[int]:
-    """Give the tile of every grid index: the level's 31 x 23, a border of full tiles, and a ring of empty cells."""
+    """The tile of every grid index: the level's 31 x 23, a border of full tiles, and a ring of empty cells."""
     tiles = [0] * STRIDE + ([0] + [1] * GRID_COLUMNS + [0]) * GRID_ROWS + [0] * STRIDE
     ids = data.tiles
     if min(ids) < 0 or max(ids) >= ODD_HALF_ID:

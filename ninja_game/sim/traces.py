@@ -10,13 +10,13 @@ from ninja_game.sim.states import AUTOMATIC, LAUNCHER_FLIGHT, THWUMP_REST
 
 
 def is_traced(w: World, slot: int) -> bool:
-    """Tell whether traces show an object: ninjas and inert objects are left out."""
+    """Whether traces show an object: ninjas and inert objects are left out."""
     return kinds.KIND_OF[w.objects[slot].kind].traced
 
 
 @fast
 def contact_place_of(o: Object) -> tuple[float, float]:
-    """Give the place where an object is touched, px: a launcher's rocket, a door's switch (automatic: its middle)."""
+    """The place where an object is touched, px: a launcher's rocket, a door's switch (automatic: its middle)."""
     if o.kind == kinds.LAUNCHER and o.routine != LAUNCHER_FLIGHT:
         return o.base_x, o.base_y
     return o.x, o.y
@@ -24,7 +24,7 @@ def contact_place_of(o: Object) -> tuple[float, float]:
 
 @fast
 def place_of(w: World, slot: int) -> tuple[float, float]:
-    """Give an object's place, px: a turret's aim point, a launcher's rocket in flight, the grid point of a door."""
+    """An object's place, px: a turret's aim point, a launcher's rocket in flight, the grid point of a door."""
     o = w.objects[slot]
     if o.kind == kinds.TURRET:
         return o.aim_x, o.aim_y
@@ -33,21 +33,21 @@ def place_of(w: World, slot: int) -> tuple[float, float]:
 
 @fast
 def is_switched(w: World, slot: int) -> int:
-    """Give 1 for a door that is not in its first state, else 0. ``status_of`` also changes without a switch."""
+    """1 for a door that is not in its first state, else 0. ``status_of`` also changes without a switch."""
     o = w.objects[slot]
     return o.switched if o.kind == kinds.DOOR else 0
 
 
 @fast
 def is_open(w: World, slot: int) -> int:
-    """Give 1 for an open exit, and for a door that is not in its first state."""
+    """1 for an open exit, and for a door that is not in its first state."""
     o = w.objects[slot]
     return o.is_open if o.kind == kinds.EXIT else is_switched(w, slot)
 
 
 @fast
 def status_of(w: World, slot: int) -> int:
-    """Give an object's activity as one number (table in docs/replay-format.md)."""
+    """An object's activity as one number (table in docs/replay-format.md)."""
     o = w.objects[slot]
     kind = o.kind
     if kind == kinds.GOLD:

@@ -80,7 +80,7 @@ class SpanSearch:
 
     @property
     def done(self) -> bool:
-        """Tell whether the search was started and is over.
+        """Whether the search was started and is over.
 
         A search that is cancelled while kernels are compiled is over at once. Nothing can stop the compiler; it
         finishes in the background, for the next search.
@@ -184,13 +184,13 @@ class RunSearch(SpanSearch):
         self._ended = monotonic()
 
     def _counts(self, inputs: bytes) -> bool:
-        """Tell whether a run reaches the exit with the gold wanted, by keys that a keyboard can make."""
+        """Whether a run reaches the exit with the gold wanted, by keys that a keyboard can make."""
         with suppress(UnverifiedRunError):
             return bool(with_plain_triggers(self.task.level, inputs, body=self.task.body, gold=self._wanted.gold))
         return False
 
     def _led_to_exit(self, task: Task, ticks: int) -> Task:
-        """Give the task with a run to the exit that begins like a run that ends before it, b"" if none is found."""
+        """The task with a run to the exit that begins like a run that ends before it, b"" if none is found."""
         first = task.first[:ticks]
         way = to_exit(task.level, first, WAY_SECONDS, body=task.body, threads=task.jobs, goes_on=self._goes_on)
         gold = run_level(task.level, way, body=task.body).gold if way else 0

@@ -134,7 +134,7 @@ class _Reader:
         return self.text[self.start + node.col_offset : self.start + (node.end_col_offset or 0)]
 
     def formula(self, node: ast.expr) -> Formula:
-        """Give the formula of any part of the tree."""
+        """The formula of any part of the tree."""
         self.depth += 1
         if self.depth > DEEPEST:
             raise self.error(node, "too many brackets in brackets", f"at most {DEEPEST}")
@@ -167,14 +167,14 @@ class _Reader:
         raise self.error(node, "not a part of a formula", "names, numbers, + - * /, comparisons, and, or, not")
 
     def truth(self, node: ast.expr) -> Formula:
-        """Give the formula of a part that must be true or false."""
+        """The formula of a part that must be true or false."""
         formula = self.formula(node)
         if not formula.truth:
             raise self.error(node, "a number beside 'and', 'or' or 'not'", "a comparison, such as x > 400")
         return formula
 
     def number(self, node: ast.expr) -> Callable[[Scope], Any]:
-        """Give the value of a part that must be a number."""
+        """The value of a part that must be a number."""
         formula = self.formula(node)
         if formula.truth:
             raise self.error(node, "true or false where a number belongs", "numbers, such as x + 5")

@@ -293,7 +293,7 @@ def _different(batch: Batch, orders: list[NDArray[np.intp]], most: int) -> NDArr
 
 
 def fewest_ticks(length: int) -> int:
-    """Give the least ticks that a choice of keys must hold so that all ways through a span can be tried.
+    """The least ticks that a choice of keys must hold so that all ways through a span can be tried.
 
     >>> fewest_ticks(8), fewest_ticks(40)
     (1, 5)

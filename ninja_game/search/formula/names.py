@@ -33,7 +33,7 @@ FACTS = ("dead", "won", "in_air", "near_wall", "taken", "opened")
 
 
 def ninja_view(of: Callable[[str], Values]) -> dict[str, Callable[..., Values]]:
-    """Give functions for the names of the ninja and the run. ``of``: gives fields and "outcome", as float64."""
+    """Functions for the names of the ninja and the run. ``of``: gives fields and "outcome", as float64."""
     plain = ("x", "y", "vx", "vy", "tick", "gold", "state", "jump_timer", "in_air", "near_wall")
     return {
         **{name: partial(of, name) for name in plain},
@@ -45,7 +45,7 @@ def ninja_view(of: Callable[[str], Values]) -> dict[str, Callable[..., Values]]:
 
 
 def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
-    """Give functions for all names; they read the worlds at the time of the call.
+    """Functions for all names; they read the worlds at the time of the call.
 
     They raise ArgumentError for an unknown object.
     """
@@ -79,7 +79,7 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
 
 
 def distance_views(level: Level, batch: Batch) -> dict[str, Callable[..., Any]]:
-    """Give margins of facts that are still false: the distance to what makes them true, by the solver's fields."""
+    """Margins of facts that are still false: the distance to what makes them true, by the solver's fields."""
     distances = Distances(level, batch)
 
     def far(number: Any) -> Any:
@@ -116,12 +116,12 @@ def difference_from(level: Level, inputs: bytes, batch: Batch) -> Callable[[Any]
 
 
 def id_of(number: Any) -> float:
-    """Give the id in the brackets of a formula. Raises ArgumentError if it differs between worlds."""
+    """The id in the brackets of a formula. Raises ArgumentError if it differs between worlds."""
     return plain_number(number, "the id of an object")
 
 
 def plain_number(number: Any, what: str) -> float:
-    """Give a number in the brackets of a formula. Raises ArgumentError if it differs between worlds."""
+    """A number in the brackets of a formula. Raises ArgumentError if it differs between worlds."""
     if np.ndim(number):
         raise ArgumentError(f"{what} is a plain number, such as 3")
     return float(number)
@@ -139,7 +139,7 @@ def _object(batch: Batch, number: Any) -> Any:
 
 
 def _place(batch: Batch, number: Any, axis: str) -> Any:
-    """Give the place of an object in all worlds, px, as traces show it (``place_of``)."""
+    """The place of an object in all worlds, px, as traces show it (``place_of``)."""
     record = _object(batch, number)
     kind = int(record["kind"][0])
     if kind == TURRET:
@@ -157,7 +157,7 @@ FLAGS = {
 
 
 def flag_field(what: str, kind: int, id_: float) -> str:
-    """Give the field of an object that the name ``what`` reads. Raises ArgumentError if its kind has none."""
+    """The field of an object that the name ``what`` reads. Raises ArgumentError if its kind has none."""
     if kind not in FLAGS[what]:
         kinds = " and ".join(KIND_NAMES[known] for known in FLAGS[what])
         raise ArgumentError(f"object {id_:g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")
@@ -189,11 +189,11 @@ class Distances:
         return Heuristics(alone.maps, alone.records)
 
     def to_exit(self) -> Values:
-        """Give minus the distance to the exit, by way of its switch, in px roughly."""
+        """Minus the distance to the exit, by way of its switch, in px roughly."""
         return self._margins("exit", self._heuristics.field)
 
     def to_object(self, record: Any) -> Values:
-        """Give minus the distance to an object, or to the switch of an exit, in px roughly."""
+        """Minus the distance to an object, or to the switch of an exit, in px roughly."""
         target = self._batch.objects[:, int(record["partner"][0])] if int(record["kind"][0]) == EXIT else record
         place = float(target["x"][0]), float(target["y"][0])
         return self._margins(place, lambda state, x, y: self._heuristics.field_to(place, state, x, y))

@@ -143,7 +143,7 @@ def _is_same_way(one: SpanResult, other: SpanResult) -> bool:
 
 
 def target_of(task: SpanTask) -> int | None:
-    """Give the slot of the object that the goal wants taken or opened, 0 for the exit, None for any other goal."""
+    """The slot of the object that the goal wants taken or opened, 0 for the exit, None for any other goal."""
     match = _match_target(task.goal)
     return match and int(match[1] or -1) + 1
 

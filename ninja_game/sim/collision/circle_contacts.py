@@ -61,7 +61,7 @@ def push_from_face(w: World, tile: int, ax: float, ay: float) -> int:
 
 @fast
 def position_past_end(w: World, tile: int, ax: float, ay: float) -> float:
-    """Give the body's position along the surface relative to an end point: > 0 beyond a T, < 0 beyond an S."""
+    """The body's position along the surface relative to an end point: > 0 beyond a T, < 0 beyond an S."""
     n = w.ninja
     along = (n.x - ax) * (-NORMAL_Y[tile]) + (n.y - ay) * NORMAL_X[tile]
     return along * SIGN_X[tile] * SIGN_Y[tile]

@@ -122,7 +122,7 @@ def ray_circle(
 
 @fast
 def sees(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float) -> tuple[bool, float, float]:
-    """Tell whether a ray from (x, y) through (to_x, to_y) meets the ninja before any tile: (seen, hit x, hit y), px."""
+    """Whether a ray from (x, y) through (to_x, to_y) meets the ninja before any tile: (seen, hit x, hit y), px."""
     n = w.ninja
     vx = to_x - x
     vy = to_y - y
@@ -145,7 +145,7 @@ def sees(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float)
 
 @fast
 def solid_at(level: TileMap, x: float, y: float) -> bool:
-    """Tell whether a point is in the solid part of its cell's tile, boundary included. Edges and doors do not count."""
+    """Whether a point is in the solid part of its cell's tile, boundary included. Edges and doors do not count."""
     cell = cell_at(x, y)
     tile = level.tiles[cell]
     if tile == 0:

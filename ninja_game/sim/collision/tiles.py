@@ -70,7 +70,7 @@ _OUTWARD = ((1, 0), (0, 1), (-1, 0), (0, -1))
 
 
 def _face(tile: int, side: int) -> int:
-    """Give the face that a tile shows on one side (0 right, 1 down, 2 left, 3 up)."""
+    """The face that a tile shows on one side (0 right, 1 down, 2 left, 3 up)."""
     shape = SHAPE[tile]
     if shape == EMPTY:
         return NO_FACE

@@ -12,7 +12,7 @@ from ninja_game.sim.states import CRUSHED
 
 @fast
 def box_contact(n: Ninja, o: Header, half: float) -> tuple[float, float, float]:
-    """Give the ninja's depth in a box around an object, px, and the normal of the nearest side; zeros outside it."""
+    """The ninja's depth in a box around an object, px, and the normal of the nearest side; zeros outside it."""
     dy = n.y - o.y
     overlap_y = half + RADIUS - abs(dy)
     if not 0.0 < overlap_y:

@@ -82,7 +82,7 @@ def create_drone(w: World, o: Drone, p: Sequence[float]) -> None:
 
 @fast
 def direction_code(value: float) -> int:
-    """Give a drone's first direction as a small number that acts like the record's: 0 to 3, or one outside of that.
+    """A drone's first direction as a small number that acts like the record's: 0 to 3, or one outside of that.
 
     The original's remainder has the sign of the dividend; -4…-7 stand for all numbers below -3.
     """
@@ -143,7 +143,7 @@ def turn(w: World, o: Drone) -> None:
 
 @fast
 def first_open(w: World, o: Drone, movement: int) -> int:
-    """Give the first direction of a list whose side of the registered cell is off, and set the goal; else "none"."""
+    """The first direction of a list whose side of the registered cell is off, and set the goal; else "none"."""
     if o.direction == NO_NUMBER or o.cell == 0:
         return NO_DIRECTION
     direction = 0 if o.direction == NO_DIRECTION else o.direction

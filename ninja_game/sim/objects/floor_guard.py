@@ -17,7 +17,7 @@ from ninja_game.sim.states import GUARD_CHASE, GUARD_IDLE
 
 @fast
 def empty_for_guard(level: TileMap, cell: int) -> bool:
-    """Tell whether a floor guard's scan passes a cell: tile ids above 0 stop it, a malformed id below 0 does not."""
+    """Whether a floor guard's scan passes a cell: tile ids above 0 stop it, a malformed id below 0 does not."""
     return level.tiles[cell] == 0 or level.tiles[cell] == UNDEFINED_ID
 
 

@@ -103,7 +103,7 @@ def fly(level: TileMap, w: World, o: Launcher) -> None:
 
 @fast
 def edge_between(w: World, old: int, new: int) -> int:
-    """Give the old cell's own edge towards the new one; off if they are not neighbours or one is missing."""
+    """The old cell's own edge towards the new one; off if they are not neighbours or one is missing."""
     if old != 0 and new != 0:
         for side in range(4):
             if old + NEIGHBOUR_OFFSET[side] == new:

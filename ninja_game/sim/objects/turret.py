@@ -47,7 +47,7 @@ def create_turret(w: World, o: Turret) -> None:
 
 @fast
 def sees_ninja(level: TileMap, w: World, o: Turret) -> bool:
-    """Tell whether the way from the turret to the ninja is free."""
+    """Whether the way from the turret to the ninja is free."""
     return sees(level, w, o.x, o.y, w.ninja.x, w.ninja.y)[0]
 
 
