@@ -88,7 +88,7 @@ class MenuDriver:
     def press(self, *names: str) -> None:
         """Press and release keys, named by their places, perhaps with ``shift+``; a picture after each."""
         for name in names:
-            mod, code = pygame.KMOD_LSHIFT * ("shift+" in name), SCANCODES[name.removeprefix("shift+")]
+            mod, code = pygame.KMOD_SHIFT * ("shift+" in name), SCANCODES[name.removeprefix("shift+")]
             for kind in (pygame.KEYDOWN, pygame.KEYUP):
                 pygame.event.post(pygame.Event(kind, key=0, scancode=code, mod=mod, unicode=""))
             self.frames(1)

@@ -68,7 +68,7 @@ NAMELESS = "My level"
 Begun = tuple[bytes, int]
 """What a test begins with: ``lead`` and ``deaths`` of a LevelContext."""
 
-FROM_START: Begun = b"", 0
+NOTHING_BEGUN: Begun = b"", 0
 
 _IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
 
@@ -266,7 +266,7 @@ class EditorCommands(DocumentCommands):
 
     # --- trying and certifying ---
 
-    def test(self, at: Point | None = None, says: str | None = None, begun: Begun = FROM_START) -> None:
+    def test(self, at: Point | None = None, says: str | None = None, begun: Begun = NOTHING_BEGUN) -> None:
         """Play the level. ``at``: where the ninja begins, by default at its place; ``says``: other messages."""
         session, entry = self.session, self._entry()
         session.tools.finish()
@@ -562,7 +562,7 @@ class TryScreen(LevelScreen):
     music = SILENCE
 
     def __init__(
-        self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None, begun: Begun = FROM_START
+        self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None, begun: Begun = NOTHING_BEGUN
     ) -> None:
         title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
