@@ -562,7 +562,13 @@ class TryScreen(LevelScreen):
     music = SILENCE
 
     def __init__(
-        self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None, begun: Begun = NOTHING_BEGUN
+        self,
+        app: App,
+        session: EditorSession,
+        level: Level,
+        says: str,
+        there: Entry | None,
+        begun: Begun = NOTHING_BEGUN,
     ) -> None:
         title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
