@@ -123,7 +123,7 @@ def test_improve_shortens_the_routes_of_other_runs_too_and_names_their_players(t
 
 def test_improve_says_where_no_way_leads_to_the_exit(tmp_path: Path) -> None:
     dead = write_records(tmp_path / "dead.txt", ("Dead", SPIKED, running(60)))
-    result = command("improve", dead, "--ticks", "20000", "--jobs", "1", "-o", tmp_path / "out.txt")
+    result = command("improve", dead, "--seconds", "1", "--jobs", "1", "-o", tmp_path / "out.txt")
     assert result.exit_code == 1
     assert "dead in tick 15: mine 1" in result.stdout
     assert "no way to the exit found from there" in result.stdout

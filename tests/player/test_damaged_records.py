@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sqlite3
 import subprocess
 import sys
@@ -117,18 +118,24 @@ EDITS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("edit", EDITS)
-def test_damaged_rows_are_left_out_and_play_goes_on(edit: str, tmp_path: Path) -> None:
-    data = player_data(tmp_path, episode())
+@pytest.fixture(scope="module")
+def full(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The closed file of records of a player who has passed an episode and died."""
+    folder = tmp_path_factory.mktemp("full")
+    data = player_data(folder, episode())
     run = EpisodePlaythrough(data, episode())
     for _ in range(5):
-        attempt = played(run.entry.named.level, lifetime=run.lifetime)
-        run.passed(attempt)
+        run.passed(played(run.entry.named.level, lifetime=run.lifetime))
         run.advance()
     run.died(played(deadly_level()))
-    with suppress(sqlite3.IntegrityError):
-        data.store.connection.execute(edit)
     data.close()
+    return folder / "records.sqlite"
+
+
+@pytest.mark.parametrize("edit", EDITS)
+def test_damaged_rows_are_left_out_and_play_goes_on(edit: str, full: Path, tmp_path: Path) -> None:
+    with closing(open_database(str(shutil.copy(full, tmp_path)))) as records, suppress(sqlite3.IntegrityError):
+        records.execute(edit)
     again = player_data(tmp_path, episode())
     for saved in again.records.replays():
         seconds_text(saved.score)
@@ -142,8 +149,8 @@ def test_damaged_rows_are_left_out_and_play_goes_on(edit: str, tmp_path: Path) -
     assert again.columns_complete == (not edit.startswith("UPDATE progress"))
     run = EpisodePlaythrough(again, episode())
     for _ in range(5):
-        attempt = played(run.entry.named.level, lifetime=run.lifetime)
-        assert not any("Not saved" in notice for notice in run.passed(attempt))
+        notices = run.passed(played(run.entry.named.level, lifetime=run.lifetime))
+        assert not any("Not saved" in notice for notice in notices)
         run.advance()
     assert again.progress.state(1) == UNLOCKED
 

@@ -51,6 +51,17 @@ Note = tuple[Any, str, Callable[..., str]]
 """A class or module, the name of its method, and the line of a call."""
 
 
+class _NotedWindow(pygame.Surface):
+    """In place of the window, with its picture: ``note`` gets each picture that is put into it, and where."""
+
+    note: Callable[[str], None]
+
+    def blit(self, source: pygame.Surface, dest: Any = (0, 0), area: Any = None, special_flags: int = 0) -> pygame.Rect:
+        part = f" from {px(*area)}" if area else ""
+        self.note(f"picture {px(*source.get_size())} at {px(*dest[:2])}{part}")
+        return super().blit(source, dest, area, special_flags)
+
+
 class DrawLog:
     """The lines of what is drawn while ``recording`` lasts, between ``installed`` and its end."""
 
@@ -70,12 +81,18 @@ class DrawLog:
         """The lines of what is drawn meanwhile, in colours of a palette."""
         self._palette = palette
         lines: list[str] = []
+        window = pygame.display.get_surface()
+        assert window
+        _NotedWindow.note = self._note_alone
+        noted = _NotedWindow(window.get_size())
+        pygame.Surface.blit(noted, window, (0, 0))
         self._lines = lines
         try:
-            with self.noting_calls():
+            with patch("pygame.display.get_surface", lambda: noted), self.noting_calls():
                 yield lines
         finally:
             self._lines = None
+            window.blit(noted, (0, 0))
 
     @contextmanager
     def noting_calls(self) -> Iterator[None]:
@@ -148,6 +165,9 @@ class DrawLog:
     def _note(self, line: str) -> None:
         if line and self._lines is not None:
             self._lines.append(line)
+
+    def _note_alone(self, line: str) -> None:
+        self._note(line * (not self._depth))
 
     def _colour(self, colour: Any) -> str:
         assert self._palette

@@ -178,6 +178,8 @@ def _an_episode(driver: MenuDriver) -> Iterator[str]:
         driver.press("space")
     driver.frames(6)
     yield "episode-passed"
+    driver.frames(9, 400)
+    yield "episode-passed-with-its-medal"
     driver.press("escape")
     driver.frames(6)
     yield "episodes-one-passed"

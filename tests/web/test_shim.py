@@ -250,7 +250,12 @@ def test_every_screen_draws_over_it_what_it_draws_over_pygame(tmp_path: Path) ->
     shown = json.loads(done.stdout)
     recorded = {path.stem: path.read_text("utf-8") for path in RECORDED.glob("*.txt")}
     assert shown.keys() == recorded.keys()
-    assert [name for name in recorded if shown[name] != recorded[name]] == []
+
+    def own(text: str) -> str:
+        """Without ready pictures: a page wipes from screen to screen, and its letters have other extents."""
+        return re.sub("^picture .*\n", "", text, flags=re.MULTILINE)
+
+    assert [name for name in recorded if own(shown[name]) != own(recorded[name])] == []
 
 
 def test_only_one_module_knows_that_it_runs_in_a_page() -> None:

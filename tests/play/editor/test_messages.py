@@ -50,10 +50,40 @@ ALL = (
 )
 
 
-def opened(maker: Maker) -> MessagesScreen:
+def opened(maker: Maker, says: str | None = None) -> MessagesScreen:
+    """The page of messages, in a level that says something first."""
+    if says is not None:
+        said(maker, says)
     maker.chord("m", pygame.KMOD_LSHIFT)
     maker.frames(2)
     return maker.shown(MessagesScreen)
+
+
+def said(maker: Maker, says: str) -> None:
+    maker.editor.session.tools.history.change(replace(maker.draft, says=says))
+    maker.frames()
+
+
+def add(maker: Maker, *texts: str) -> None:
+    for text in texts:
+        maker.choose("Add")
+        maker.type(text)
+
+
+def show(screen: MessagesScreen, *messages: Message) -> None:
+    """Other messages on the page."""
+    screen.messages = [*messages]
+    screen.enter()
+
+
+def texts_of(screen: MessagesScreen) -> str:
+    return "".join(message.text for message in screen.messages)
+
+
+def select(maker: Maker, row: int, column: int = -1) -> None:
+    """Click into a field of a row."""
+    maker.mouse(*maker.shown(MessagesScreen)._row_widgets[row][column].centre)
+    maker.frames()
 
 
 @pytest.fixture
@@ -69,6 +99,19 @@ def painted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return names
 
 
+@pytest.fixture
+def boxes(monkeypatch: pytest.MonkeyPatch) -> list[Box]:
+    """Where messages of the level are drawn from now on."""
+    made: list[Box] = []
+
+    def draw(_: Hud, __: pygame.Surface, box: Box, *___: object) -> pygame.Rect:
+        made.append(box)
+        return pygame.Rect(0, 0, 1, 1)
+
+    monkeypatch.setattr(Hud, "draw_message", draw)
+    return made
+
+
 def in_picture(column: int, row: int) -> tuple[float, float]:
     """Where the preview shows the middle of a cell."""
     left, top, wide, _ = _PICTURE
@@ -78,15 +121,13 @@ def in_picture(column: int, row: int) -> tuple[float, float]:
 def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     room.choose_in_menu("Messages...")
     screen = room.shown(MessagesScreen)
-    room.choose("Add")
-    room.type("run")
+    add(room, "run")
     room.choose("Add")
     choice = screen._row_widgets[1][0]
     room.mouse(*choice.centre)
     room.choose("Exit opens")
-    room.choose("Add")
-    room.type("on")
-    room.mouse(*screen._row_widgets[1][-1].centre)
+    add(room, "on")
+    select(room, 1)
     room.type("out")
     room.press("return")
     assert room.draft.says == "start: run | switch: out | start: on"
@@ -108,8 +149,7 @@ def test_what_is_typed_goes_to_the_text_of_the_row_and_changes_no_moment(room: M
 
 def test_all_moments_are_listed_and_one_is_taken(room: Maker) -> None:
     screen = opened(room)
-    room.choose("Add")
-    room.type("a")
+    add(room, "a")
     for when, (name, _) in _WHEN.items():
         before = screen.messages[0].when
         room.choose(f"{_WHEN[before][0]}...")
@@ -133,10 +173,9 @@ def test_those_of_one_moment_are_numbered_with_their_seconds(room: Maker) -> Non
 
 def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usual(room: Maker) -> None:
     screen = opened(room)
-    room.choose("Add")
-    room.type("on")
+    add(room, "on")
     assert "text 'auto (12 s)'" in drawn(room.app)
-    room.mouse(*screen._row_widgets[0][TIME].centre)
+    select(room, 0, TIME)
     room.type("0")
     room.choose("OK")
     assert screen._refused
@@ -150,9 +189,7 @@ def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usua
 
 def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
     screen = opened(room)
-    for name in "abcdefgh":
-        room.choose("Add")
-        room.type(name)
+    add(room, *"abcdefgh")
     assert not room.button("Add").enabled
     assert [widget in screen.widgets for widget in (screen._row_widgets[3][0], screen._row_widgets[4][0])] == [0, 1]
     assert "text 'Page 2 of 2'" in drawn(room.app)
@@ -163,7 +200,7 @@ def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
     room.choose("OK")
     assert screen.focus is screen._row_widgets[5][_TEXT], "what is wrong is shown, on whatever page it is"
     room.choose("Remove")
-    assert [message.text for message in screen.messages] == ["az", *"bcdegh"]
+    assert texts_of(screen) == "azbcdegh"
 
 
 def test_all_places_are_seen_and_a_click_on_one_selects_its_message(room: Maker) -> None:
@@ -194,9 +231,7 @@ def test_a_word_that_is_not_known_is_named_at_its_field_while_it_is_typed(room: 
 
 def test_every_message_comes_back_as_it_was(room: Maker) -> None:
     assert " | ".join(each.source for each in messages_of(ALL)) == ALL
-    room.editor.session.tools.history.change(replace(room.draft, says=ALL))
-    room.frames()
-    screen = opened(room)
+    screen = opened(room, ALL)
     assert len(screen.messages) == MAX_MESSAGES
     assert not room.button("Add").enabled
     room.choose("OK")
@@ -227,8 +262,7 @@ def test_every_message_comes_back_as_it_was(room: Maker) -> None:
 )
 def test_what_is_wrong_keeps_the_focus_and_is_said(room: Maker, message: Message, in_detail: bool, said: str) -> None:
     screen = opened(room)
-    screen.messages = [Message("start", "", "fine"), message]
-    screen.enter()
+    show(screen, Message("start", "", "fine"), message)
     room.choose("OK")
     assert room.top() is screen
     words = said if message.unknown == "" else "There is no {fly}"
@@ -244,8 +278,7 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     tools = room.editor.session.tools
     room.mouse(*room.at(24 * 7 + 5, 24 * 9 + 5), click=False)
     screen = opened(room)
-    room.choose("Add")
-    room.type("here")
+    add(room, "here")
     room.choose("At the start...")
     room.choose("Near a place")
     assert (screen.messages[0].when, screen.messages[0].detail) == ("at", "7,9")
@@ -271,23 +304,20 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
 
 
 def test_a_click_in_the_picture_on_another_message_selects_it(room: Maker) -> None:
-    room.editor.session.tools.history.change(replace(room.draft, says="at 5,5: One | at 20,12: Two | start: Go"))
-    screen = opened(room)
+    screen = opened(room, "at 5,5: One | at 20,12: Two | start: Go")
     for cell, selected in (((20, 12), 1), ((6, 5), 0), ((10, 10), 0)):
         room.mouse(*in_picture(*cell))
         room.frames()
         assert (screen._selected, screen.focus) == (selected, screen._row_widgets[selected][-1])
     assert [each.detail for each in screen.messages] == ["10,10", "20,12", ""]
-    room.mouse(*screen._row_widgets[2][-1].centre)
-    room.frames()
+    select(room, 2)
     room.mouse(*in_picture(25, 3))
     assert screen.source == "at 10,10: One | at 20,12: Two | start: Go", "what is said at the start has no place"
     assert "choose Near a place" in room.app.notice
 
 
 def test_a_drag_of_the_frame_sizes_it_and_a_drag_beside_it_moves_it(room: Maker) -> None:
-    room.editor.session.tools.history.change(replace(room.draft, says="at 12,12: One | at 3,3: Two"))
-    screen = opened(room)
+    screen = opened(room, "at 12,12: One | at 3,3: Two")
     for begin, end, detail in (
         ((14.5, 12), (16, 20), "12,12 9x5"), ((12, 14.5), (30, 12), "12,12 9x1"), ((16.5, 12.5), (13, 13), "12,12 3x3"),
         ((20, 20), (22, 20), "22,20 3x3"), ((23.5, 21.5), (24, 22), "22,20"),
@@ -303,7 +333,7 @@ def test_a_drag_of_the_frame_sizes_it_and_a_drag_beside_it_moves_it(room: Maker)
 
 
 def test_a_message_under_the_mouse_shows_the_frame_that_it_has(room: Maker) -> None:
-    room.editor.session.tools.history.change(replace(room.draft, says="at 12,12 8x3: One"))
+    said(room, "at 12,12 8x3: One")
     room.editor.session.tools.tool = "select"
     room.mouse(*room.at(12 * 24 + 12, 12 * 24 + 12), click=False)
     room.frames(2)
@@ -317,12 +347,10 @@ def test_a_message_under_the_mouse_shows_the_frame_that_it_has(room: Maker) -> N
 
 
 def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) -> None:
-    room.editor.session.tools.history.change(replace(room.draft, says="start: Go | at 20,22: Here | switch: Out"))
-    screen = opened(room)
+    screen = opened(room, "start: Go | at 20,22: Here | switch: Out")
     places = []
     for row in range(3):
-        room.mouse(*screen._row_widgets[row][-1].centre)
-        room.frames()
+        select(room, row)
         room.choose("Test")
         trying = room.shown(TryScreen)
         places.append((trying.attempt.simulation.ninja.x, len(trying._trying.messages())))
@@ -330,7 +358,7 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
         assert room.top() is screen
     assert places == [(60.0, 3), (17 * 24 + 12.0, 3), (2 * 24 + 12.0, 3)]
     screen.messages[1].detail = "20,22 9x5"
-    room.mouse(*screen._row_widgets[1][-1].centre)
+    select(room, 1)
     room.choose("Test")
     assert room.shown(TryScreen).attempt.simulation.ninja.x == 15 * 24 + 12.0, "before its wider frame"
     room.press("escape")
@@ -387,7 +415,7 @@ def test_for_a_level_without_a_file_no_packs_are_read(room: Maker) -> None:
 
 
 def test_a_level_about_which_something_is_said_keeps_its_messages(room: Maker) -> None:
-    room.editor.session.tools.history.change(replace(room.draft, says=ALL))
+    said(room, ALL)
     room.press("f2")
     room.fill("Other", "OK")
     assert (room.draft.name, room.draft.says) == ("Other", ALL)
@@ -395,17 +423,15 @@ def test_a_level_about_which_something_is_said_keeps_its_messages(room: Maker) -
 
 
 def test_the_selected_message_is_shown_as_the_level_says_it_with_its_letters_counted(room: Maker) -> None:
-    room.editor.session.tools.history.change(replace(room.draft, says="start: {jump} jumps | switch: The exit"))
-    room.frames()
-    screen = opened(room)
+    screen = opened(room, "start: {jump} jumps | switch: The exit")
     key = room.app.controls.name("jump")
     assert f"text '{key} jumps'" in drawn(room.app)
     assert "'12 of 120'" in drawn(room.app)
-    room.mouse(*screen._row_widgets[1][-1].centre)
+    select(room, 1)
     assert f"text '{key} jumps'" not in drawn(room.app)
     screen.messages[1].text = "x" * MAX_LETTERS
     screen.enter()
-    room.mouse(*screen._row_widgets[1][-1].centre)
+    select(room, 1)
     room.type("y")
     assert "'120 of 120'" in drawn(room.app)
     assert not room.app.notice, "nothing lies over the buttons"
@@ -424,8 +450,7 @@ def test_escape_and_cancel_ask_about_changed_messages(room: Maker, button: bool)
         leave()
         assert isinstance(room.top(), EditorScreen), "nothing is changed"
         screen = opened(room)
-        room.choose("Add")
-        room.type("on")
+        add(room, "on")
         leave()
         room.choose(answer)
         if answer == "Cancel":
@@ -437,8 +462,7 @@ def test_escape_and_cancel_ask_about_changed_messages(room: Maker, button: bool)
 
 
 def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -> None:
-    room.editor.session.tools.history.change(replace(room.draft, says=ALL))
-    room.frames()
+    said(room, ALL)
     before = room.draft
     room.mouse(*room.at(24 * 12 + 12, 24 * 5 + 12), click=False)
     assert "Select drags it: Jump: here'" in drawn(room.app)
@@ -469,20 +493,10 @@ def test_a_locked_door_and_a_trap_have_their_words() -> None:
     assert told.text == "Shut"
 
 
-def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
-    room: Maker, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    shown: list[tuple[str, float, float]] = []
-
-    def said(_: Hud, __: pygame.Surface, box: Box, *___: object) -> pygame.Rect:
-        shown.append((" / ".join(box.lines), box.x, box.y))
-        return pygame.Rect(0, 0, 1, 1)
-
-    monkeypatch.setattr(Hud, "draw_message", said)
-    room.editor.session.tools.history.change(replace(room.draft, says=f"start: {LONG} | at 20,12: Here"))
-    screen = opened(room)
+def test_the_selected_message_lies_in_the_level_where_it_does_in_play(room: Maker, boxes: list[Box]) -> None:
+    screen = opened(room, f"start: {LONG} | at 20,12: Here")
     room.frames()
-    start = shown[-1]
+    start = boxes[-1]
     assert not screen._row_widgets[0][-1].hint, "no braces in it"
     field = screen._row_widgets[1][-1]
     room.mouse(*field.centre)
@@ -493,12 +507,12 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
     room.frames()
     screen.redraw = True
     room.frames()
-    assert shown[-1][0] == "Here"
+    assert boxes[-1].lines == ["Here"]
     room.press("escape")
-    shown.clear()
+    boxes.clear()
     room.press("f5")
     room.frames(2)
-    assert shown[-1] == start, "broken into lines as in play, though the letters of the preview are others"
+    assert boxes[-1] == start, "broken into lines as in play, though the letters of the preview are others"
 
 
 DOORS = parse_ascii_level(
@@ -524,11 +538,6 @@ def doors(room: Maker, monkeypatch: pytest.MonkeyPatch) -> Maker:
     return room
 
 
-def said(maker: Maker, says: str) -> None:
-    maker.editor.session.tools.history.change(replace(maker.draft, says=says))
-    maker.frames()
-
-
 @pytest.mark.parametrize(
     "says, x",
     [("lock: Now", 9), ("lock 11,22: Now", 11), ("trap: Now", 13), ("gold 18,22: Now", 18), ("at 20,22 1x1: Now", 20)],
@@ -537,9 +546,8 @@ def test_a_test_begins_in_the_known_run_a_second_before_the_message(
     doors: Maker, monkeypatch: pytest.MonkeyPatch, says: str, x: int
 ) -> None:
     monkeypatch.setattr(doors.app.controls, "poll", lambda: 2)
-    said(doors, f"start: Go | {says}")
-    screen = opened(doors)
-    doors.mouse(*screen._row_widgets[1][_TEXT].centre)
+    opened(doors, f"start: Go | {says}")
+    select(doors, 1)
     doors.choose("Test")
     trying = doors.shown(TryScreen)
     play = trying.play
@@ -560,10 +568,10 @@ def test_a_test_begins_in_the_known_run_a_second_before_the_message(
 
 
 def test_a_test_of_what_is_said_after_deaths_or_seconds_begins_there(doors: Maker) -> None:
-    said(doors, "start: Go | death 3: Three | after 9 s: Nine")
-    screen, texts = opened(doors), []
+    opened(doors, "start: Go | death 3: Three | after 9 s: Nine")
+    texts = []
     for row in (1, 2):
-        doors.mouse(*screen._row_widgets[row][_TEXT].centre)
+        select(doors, row)
         doors.choose("Test")
         trying = doors.shown(TryScreen)
         texts.append((trying.play.messages.text, trying.attempt.simulation.tick))
@@ -573,8 +581,7 @@ def test_a_test_of_what_is_said_after_deaths_or_seconds_begins_there(doors: Make
 
 def test_without_a_known_run_a_test_goes_on_from_the_last_one(doors: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(type(doors.editor.session), "way", property(lambda _: b""))
-    said(doors, "trap: Now")
-    opened(doors)
+    opened(doors, "trap: Now")
     doors.choose("Test")
     assert doors.shown(TryScreen).attempt.simulation.ninja.x == 24 * 10 + 12.0, "beside the switch"
     doors.press("escape")
@@ -584,15 +591,14 @@ def test_without_a_known_run_a_test_goes_on_from_the_last_one(doors: Maker, monk
 
 
 def test_a_click_in_the_picture_names_the_one_door_that_is_meant(doors: Maker) -> None:
-    said(doors, "lock: One | gold: Two | start: Go")
-    screen = opened(doors)
+    screen = opened(doors, "lock: One | gold: Two | start: Go")
     assert "A click in the picture on one of them: only when it is that one." in drawn(doors.app)
     doors.mouse(*in_picture(11, 22))
     assert screen.messages[0].detail == "11,22"
     assert "text '11,22'" in drawn(doors.app)
-    doors.mouse(*screen._row_widgets[1][_TEXT].centre)
+    select(doors, 1)
     doors.mouse(*in_picture(18, 22))
-    doors.mouse(*screen._row_widgets[2][_TEXT].centre)
+    select(doors, 2)
     doors.mouse(*in_picture(13, 22))
     assert screen.source == "lock 11,22: One | gold 18,22: Two | start: Go"
     doors.choose("OK")
@@ -608,33 +614,28 @@ def test_a_click_in_the_picture_names_the_one_door_that_is_meant(doors: Maker) -
 
 
 def test_messages_are_copied_and_moved_by_buttons_and_keys(room: Maker) -> None:
-    said(room, "start: a | switch: b | after 9 s for 4 s: c")
-    screen = opened(room)
-
-    def order() -> str:
-        return "".join(message.text for message in screen.messages)
-
-    room.mouse(*screen._row_widgets[2][_TEXT].centre)
+    screen = opened(room, "start: a | switch: b | after 9 s for 4 s: c")
+    select(room, 2)
     room.choose("Up")
-    assert (order(), screen._selected) == ("acb", 1)
+    assert (texts_of(screen), screen._selected) == ("acb", 1)
     room.choose("Copy")
-    assert (order(), screen._selected) == ("accb", 2)
+    assert (texts_of(screen), screen._selected) == ("accb", 2)
     assert screen.source == "start: a | after 9 s for 4 s: c | after 9 s for 4 s: c | switch: b"
-    room.mouse(*screen._row_widgets[2][_TEXT].centre)
+    select(room, 2)
     room.type("d")
-    assert order() == "accdb", "a copy of its own"
+    assert texts_of(screen) == "accdb", "a copy of its own"
     room.chord("down", pygame.KMOD_LCTRL)
-    assert (order(), screen.focus) == ("acbcd", screen._row_widgets[3][_TEXT])
+    assert (texts_of(screen), screen.focus) == ("acbcd", screen._row_widgets[3][_TEXT])
     room.chord("down", pygame.KMOD_LCTRL)
-    assert order() == "acbcd", "it is the last"
+    assert texts_of(screen) == "acbcd", "it is the last"
     with patch.object(pygame.key, "get_mods", lambda: pygame.KMOD_SHIFT):
         room.chord("up", pygame.KMOD_LCTRL | pygame.KMOD_LSHIFT)
-    assert (order(), screen._selected) == ("cdacb", 0)
+    assert (texts_of(screen), screen._selected) == ("cdacb", 0)
     room.chord("d", pygame.KMOD_LCTRL)
-    assert (order(), screen._selected) == ("cdcdacb", 1)
+    assert (texts_of(screen), screen._selected) == ("cdcdacb", 1)
     screen.focus = next(widget for widget in screen.widgets if getattr(widget, "text", "") == "Down")
     room.press("return", "return")
-    assert (order(), screen._selected) == ("cdaccdb", 3), "the button keeps the focus"
+    assert (texts_of(screen), screen._selected) == ("cdaccdb", 3), "the button keeps the focus"
     for _ in range(9):
         room.chord("d", pygame.KMOD_LCTRL)
     assert len(screen.messages) == MAX_MESSAGES
@@ -646,10 +647,9 @@ def test_messages_are_copied_and_moved_by_buttons_and_keys(room: Maker) -> None:
 
 def test_seconds_are_called_automatic_until_they_are_set(room: Maker) -> None:
     screen = opened(room)
-    room.choose("Add")
-    room.type("on")
+    add(room, "on")
     assert "text 'auto (12 s)'" in drawn(room.app)
-    room.mouse(*screen._row_widgets[0][TIME].centre)
+    select(room, 0, TIME)
     room.type("7")
     screen.messages[0].text = "long " * 24
     screen.enter()
@@ -660,8 +660,7 @@ def test_seconds_are_called_automatic_until_they_are_set(room: Maker) -> None:
 @pytest.mark.parametrize("size", TEXT_SIZES.values())
 @pytest.mark.parametrize("width", [792, 1584])
 def test_names_of_moments_and_buttons_are_never_cut(room: Maker, size: int, width: int) -> None:
-    said(room, "lock for 1 s: a | start: b | at 1,1: c | gold: d | switch: e")
-    screen = opened(room)
+    screen = opened(room, "lock for 1 s: a | start: b | at 1,1: c | gold: d | switch: e")
     theme = Theme(room.app.theme.palette, Canvas((width, width * 600 // 792)), size)
     names = [f"{name}..." for name, _ in _WHEN.values()]
     moment = screen._row_widgets[0][0]
@@ -681,20 +680,12 @@ MOMENTS = (
 
 @pytest.mark.parametrize("moment", MOMENTS)
 def test_a_message_of_any_moment_lies_where_the_preview_shows_it(
-    doors: Maker, monkeypatch: pytest.MonkeyPatch, moment: str
+    doors: Maker, boxes: list[Box], monkeypatch: pytest.MonkeyPatch, moment: str
 ) -> None:
-    boxes: list[Box] = []
-
-    def show(_: Hud, __: pygame.Surface, box: Box, *___: object) -> pygame.Rect:
-        boxes.append(box)
-        return pygame.Rect(0, 0, 1, 1)
-
-    said(doors, f"{moment}: {LONG}")
-    with monkeypatch.context() as patched:
-        patched.setattr(Hud, "draw_message", show)
-        opened(doors)
-        doors.frames()
-        doors.choose("OK")
+    opened(doors, f"{moment}: {LONG}")
+    doors.frames()
+    box = boxes[-1]
+    doors.choose("OK")
     doors.press("f5")
     play = doors.shown(TryScreen).play
     if moment == "death 1":
@@ -706,7 +697,7 @@ def test_a_message_of_any_moment_lies_where_the_preview_shows_it(
         play.run_ticks(1)
     message = hud_view(play).message
     assert message
-    assert Hud(doors.app.theme).box(message) == boxes[-1]
+    assert Hud(doors.app.theme).box(message) == box
 
 
 def test_a_message_that_waits_for_another_is_a_problem_with_its_place(doors: Maker) -> None:
@@ -725,8 +716,7 @@ def test_a_message_that_waits_for_another_is_a_problem_with_its_place(doors: Mak
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
     fixed = [widget.area for widget in screen.widgets[-8:]]
-    screen.messages = [Message("at", "8,21", "x") for _ in range(count)]
-    screen.enter()
+    show(screen, *[Message("at", "8,21", "x")] * count)
     assert [widget.area for widget in screen.widgets[-8:]] == fixed
     areas = [pygame.Rect(*map(round, area)) for area in (_PICTURE, *(widget.area for widget in screen.widgets))]
     assert all(area.collidelistall(areas) == [place] for place, area in enumerate(areas))
@@ -736,16 +726,14 @@ def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: M
 def test_each_moment_is_explained_by_its_row(room: Maker) -> None:
     screen = opened(room)
     for when, (name, text) in _WHEN.items():
-        screen.messages = [Message(when, "", "x")]
-        screen.enter()
+        show(screen, Message(when, "", "x"))
         shown = " ".join(line.split("'")[1] for line in drawn(room.app).splitlines() if line.startswith("text '"))
         assert f"{name}: {text[0].lower()}{text[1:]}." in shown
 
 
 def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Maker, painted: list[str]) -> None:
     opened(room)
-    room.choose("Add")
-    room.type("all of it")
+    add(room, "all of it")
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "only what a text names"
     assert shown.count("text 'all of it'") == 2, "in its field and in the level"
@@ -788,19 +776,16 @@ def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(maker: Make
 def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
     screen = opened(room)
     for when, never in (("lock", True), ("start", False), ("gold", True)):
-        screen.messages = [Message(when, "", "x")]
-        screen.enter()
+        show(screen, Message(when, "", "x"))
         assert ("is never shown: there is no" in drawn(room.app)) is never
         assert ("Never shown: there is no" in drawn(room.app)) is never
-    screen.messages = [Message("start", "", "x"), Message("trap", "", "y: z")]
-    screen.enter()
+    show(screen, Message("start", "", "x"), Message("trap", "", "y: z"))
     assert "text 'Never shown: there is no trap door'" in drawn(room.app), "also under one that is not selected"
 
 
 def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(type(room.editor.session), "way", property(lambda _: bytes(400)))
-    room.editor.session.tools.history.change(replace(room.draft, says="after 1 s: Go | after 2 s: On | after 9 s: No"))
-    screen = opened(room)
+    screen = opened(room, "after 1 s: Go | after 2 s: On | after 9 s: No")
     assert [line.partition(" at ")[0] for line in drawn(room.app).splitlines() if " late in" in line] == [
         "text '2 s late in the known run: others are read first'"
     ]
@@ -814,8 +799,7 @@ def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, mo
 def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:
     text = "This text has many words and all of them are seen, since the field has three lines for its 110 letters"
     screen = opened(room)
-    screen.messages = [Message("start", "", text), Message("start", "", "y")]
-    screen.enter()
+    show(screen, Message("start", "", text), Message("start", "", "y"))
     field = screen._row_widgets[0][-1]
     assert isinstance(field, TextArea)
     screen.redraw = True

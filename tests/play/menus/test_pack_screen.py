@@ -71,6 +71,16 @@ def desk(driver: MenuDriver, request: pytest.FixtureRequest) -> PackScreen:
     return opened(driver)
 
 
+@pytest.fixture
+def own(path: Path, screen: PackScreen) -> Path:
+    """A level of the player's folder, which the tray shows."""
+    file = path.with_name("mine.txt")
+    file.write_text((path / "00-0-first-steps.txt").read_text("utf-8").replace("First Steps", "Mine"), "utf-8")
+    screen.choose_tray("yours")
+    screen.app.draw()
+    return file
+
+
 def opened(driver: MenuDriver) -> PackScreen:
     driver.open("Levels")
     driver.choose("Packs")
@@ -165,12 +175,17 @@ def test_cards_make_room_where_a_level_would_land(driver: MenuDriver, path: Path
     assert pictures() == before
 
 
+def let_go(driver: MenuDriver, area: Area, mods: int = 0) -> None:
+    pygame.key.set_mods(mods)
+    driver.mouse_up(area)
+    pygame.key.set_mods(0)
+
+
 def click(driver: MenuDriver, area: Area, mods: int = 0) -> None:
     x, y, w, h = area
     pygame.key.set_mods(mods)
     driver.mouse(x + w / 2, y + h / 2)
-    driver.mouse_up(area)
-    pygame.key.set_mods(0)
+    let_go(driver, area, mods)
 
 
 def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_once(
@@ -317,13 +332,8 @@ def test_a_pad_alone_makes_a_pack_with_a_level_and_edits_it(driver: MenuDriver) 
 
 
 def test_a_level_of_the_players_folder_goes_into_the_pack_and_one_of_the_game_is_copied(
-    driver: MenuDriver, path: Path
+    driver: MenuDriver, path: Path, own: Path, screen: PackScreen
 ) -> None:
-    own = driver.player.folder / "levels" / "mine.txt"
-    own.write_text((path / "00-0-first-steps.txt").read_text("utf-8").replace("First Steps", "Mine"), "utf-8")
-    screen = opened(driver)
-    screen.choose_tray("yours")
-    driver.frames(2)
     driver.carry(screen.tray.row_area(0), screen.shelves.row_area(11))
     assert not own.exists()
     assert (path / "mine.txt").exists()
@@ -599,19 +609,18 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     driver.wait(lambda: screen.packer.text == "Certifying, 0 of 1 levels done")
     assert "fill accent 36,546" in drawn(driver.app)
     assert driver.button("Stop")
-    [entry] = [cell.level for cell in screen.shelves.cells if cell.level and cell.level.title == "First Steps"]
-    assert screen.status.state(entry) == "no run yet", "though its time is measured"
+
+    def state() -> str:
+        [entry] = [cell.level for cell in screen.shelves.cells if cell.level and cell.level.title == "First Steps"]
+        return screen.status.state(entry)
+
+    assert state() == "no run yet", "though its time is measured"
     driver.choose("Problems")
     [to_do] = [problem.text.removeprefix("Nothing is wrong. ") for problem in problem_page(driver).problems]
     assert to_do.startswith("Make ready is at work, and will certify 1 level"), "it has begun"
     driver.press("escape")
     assert to_do in screen.status.counts()
     go_on.set()
-
-    def state() -> str:
-        [entry] = [cell.level for cell in screen.shelves.cells if cell.level and cell.level.title == "First Steps"]
-        return screen.status.state(entry)
-
     driver.wait(lambda: state() != "no run yet", "the card says so before all is done")
     assert screen.packer.busy
     driver.app.push(grid := EpisodeGrid(driver.app, "Laundry"))
@@ -1041,34 +1050,24 @@ def test_what_is_received_is_shown_on_a_card_before_the_desk(driver: MenuDriver,
     driver.drop_file(zipped)
     driver.choose("Edit a copy")
     assert [(pack.name, pack.received) for pack in screen.own_packs] == [("Laundry", True), ("Laundry copy", False)]
-    assert screen.pack
-    assert screen.pack.name == "Laundry copy"
+    assert (screen.pack and screen.pack.name) == "Laundry copy"
 
 
 def test_a_level_that_comes_from_elsewhere_is_moved_or_with_ctrl_copied_and_that_is_said(
-    driver: MenuDriver, path: Path
+    driver: MenuDriver, path: Path, own: Path, screen: PackScreen
 ) -> None:
-    own = driver.player.folder / "levels" / "mine.txt"
-    own.write_text((path / "00-0-first-steps.txt").read_text("utf-8").replace("First Steps", "Mine"), "utf-8")
-    screen = opened(driver)
-    screen.choose_tray("yours")
-    driver.frames(2)
     free = screen.shelves.row_area(11)
     for mods, done in ((pygame.KMOD_LCTRL, "Copied"), (0, "Moved")):
         driver.carry(screen.tray.row_area(0), free, drop=False)
         assert "with Ctrl, a copy" in drawn(driver.app)
-        pygame.key.set_mods(mods)
-        driver.mouse_up(free)
-        pygame.key.set_mods(0)
+        let_go(driver, free, mods)
         assert driver.app.notice == f"{done} Mine from your folder. Undo, or Ctrl+Z, takes it back"
         assert (own.exists(), (path / "mine.txt").exists()) == (bool(mods), True)
         driver.choose("Undo")
         assert (own.exists(), (path / "mine.txt").exists()) == (True, False)
     driver.app.notify("")
     driver.carry(screen.shelves.row_area(1), free, drop=False)
-    pygame.key.set_mods(pygame.KMOD_LCTRL)
-    driver.mouse_up(free)
-    pygame.key.set_mods(0)
+    let_go(driver, free, pygame.KMOD_LCTRL)
     assert driver.app.notice.startswith("Copied First Steps from Laundry")
     assert layout(path)[1][3:] == ["firs"]
     assert layout(path)[0][0] == "00-0"
@@ -1376,9 +1375,7 @@ def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver, screen: PackScr
     driver.choose("New pack...")
     driver.shown(FormPanel).texts[1] = "ida"
     typed(driver, "Walls")
-    assert screen.pack
-    assert screen.pack.pack
-    assert screen.pack.pack.index.title == "Walls by ida"
+    assert Pack(screen.path).index.title == "Walls by ida"
     assert driver.player.settings.name == "ida"
     driver.choose("New pack...")
     assert len(driver.shown(FormPanel).texts) == 1

@@ -32,6 +32,7 @@ from ninja_game.tas_editor.tabs.tab import SMALL
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import PAD, Button
+from tests.support.draw_log import noted_texts
 from tests.support.tas_driver import TasDriver
 from tests.support.waiting import LONGEST
 
@@ -62,14 +63,30 @@ def is_in(at: TasDriver, results: SpanResults, found: SpanResult) -> bool:
     return at.editor.track.inputs[:end] == found.inputs[:end]
 
 
-def searched(at: TasDriver, tab: SearchTab) -> SpanResults:
-    """Search until there is something better than the run, then stop."""
+def ended(at: TasDriver, tab: SearchTab) -> SpanResults:
+    """Wait for the end of the search."""
     results = results_of(tab)
-    at.wait(lambda: bool(tab.better), "something better")
-    at.choose("Stop")
     at.wait(lambda: not results.running, "the end")
     at.frames(2)  # the list is that of the end
     return results
+
+
+def stopped(at: TasDriver, tab: SearchTab) -> SpanResults:
+    at.choose("Stop")
+    return ended(at, tab)
+
+
+def searched(at: TasDriver, tab: SearchTab) -> SpanResults:
+    """Search until there is something better than the run, or a miss, then stop."""
+    at.wait(lambda: bool(tab.better), "something better")
+    return stopped(at, tab)
+
+
+@pytest.fixture
+def nothing_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Searches end at once without a result, and pieces of their spans are proposed then."""
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
 
 
 def row(at: TasDriver, tab: SearchTab, index: int, *, click: bool = True) -> None:
@@ -176,7 +193,7 @@ def test_other_ticks_make_the_goal_of_the_menu_anew_and_end_old_results(at: TasD
     wish(at, "Be there sooner")
     goal = tab.goal.text
     results_of(tab).stop()
-    at.wait(lambda: not results_of(tab).running, "end of the search")
+    ended(at, tab)
     at.editor.select(50, 90)
     tab.use_selection()
     assert tab.span == (50, 90)
@@ -225,22 +242,19 @@ def test_pieces_of_a_span_in_which_nothing_better_is_found_are_searched_by_a_cli
     at.frames(2)
     assert tab.pieces == proposed, "for the next click"
     results_of(tab).stop()
-    at.wait(lambda: not results_of(tab).running, "the end")
+    ended(at, tab)
     at.choose("Use the selection")
     assert not tab.pieces
 
 
+@pytest.mark.usefixtures("nothing_found")
 @pytest.mark.parametrize("dies", [False, True])
-def test_the_way_to_the_exit_is_proposed_as_the_whole_run_too(
-    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch, dies: bool
-) -> None:
-    monkeypatch.setattr(module, "PATIENCE", 0.0)
+def test_the_way_to_the_exit_is_proposed_as_the_whole_run_too(at: TasDriver, tab: SearchTab, dies: bool) -> None:
     end = at.session.timeline.end[0]
     if dies:
         at.editor.edit(lambda track: track.replaced(30, len(track), b""))
     at.editor.select(0, 20)
     at.choose("Use the selection")
-    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
     wish(at, "Reach the exit sooner")
     at.wait(lambda: bool(tab.pieces), "pieces")
     names = [piece.name for piece in tab.pieces]
@@ -251,11 +265,11 @@ def test_the_way_to_the_exit_is_proposed_as_the_whole_run_too(
     assert isinstance(results_of(tab).search, background.RunSearch)
 
 
+@pytest.mark.usefixtures("nothing_found")
 def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
     at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The run is played in a thread, so that the window stays alive."""
-    monkeypatch.setattr(module, "PATIENCE", 0.0)
     threads: list[object] = []
 
     def watched(*args: Any) -> RunSplits:
@@ -263,7 +277,6 @@ def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
         return run_splits(*args)
 
     monkeypatch.setattr(module, "run_splits", watched)
-    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
     wish(at, "Same end, sooner")
     at.wait(lambda: bool(tab.pieces), "pieces")
     expected = [(100, 115, "To tick 114"), (115, 130, "To tick 129")]
@@ -356,8 +369,7 @@ def test_results_of_earlier_searches_stay_listed_until_they_are_forgotten(at: Ta
     tab.goal.show("x > 400")
     tab.start()
     results_of(tab).stop()
-    at.wait(lambda: not results_of(tab).running, "the end")
-    at.frames(2)
+    ended(at, tab)
     first = len(tab.better)
     row(at, tab, first, click=False)
     at.frames()
@@ -378,9 +390,8 @@ def test_results_of_earlier_searches_stay_listed_until_they_are_forgotten(at: Ta
     assert tab.list.count == len(tab.better)
 
 
+@pytest.mark.usefixtures("nothing_found")
 def test_old_pieces_are_no_rows_after_an_edit(at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "PATIENCE", 0.0)
-    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
     wish(at, "Same end, sooner")
     at.wait(lambda: bool(tab.pieces), "pieces")
     monkeypatch.setattr(tab._splits, "ask", lambda _: None)
@@ -393,16 +404,12 @@ def test_old_pieces_are_no_rows_after_an_edit(at: TasDriver, tab: SearchTab, mon
     assert [piece[:3] for piece in tab.pieces] == [(0, 110, "Whole run")], "it ends before the span"
 
 
-def test_no_pieces_are_proposed_for_what_is_not_to_be_sooner(
-    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(module, "PATIENCE", 0.0)
-    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
+@pytest.mark.usefixtures("nothing_found")
+def test_no_pieces_are_proposed_for_what_is_not_to_be_sooner(at: TasDriver, tab: SearchTab) -> None:
     for goal in ("taken(3)", "speed > 90"):
         tab.goal.show(goal)
         tab.start()
-        at.wait(lambda: not results_of(tab).running, "the end")
-        at.frames(2)
+        ended(at, tab)
         assert tab._pieced_span is None, goal
 
 
@@ -538,10 +545,8 @@ def test_what_is_wrong_is_told(at: TasDriver, tab: SearchTab) -> None:
 def test_what_is_no_better_than_the_run_is_not_listed(at: TasDriver, tab: SearchTab) -> None:
     at.write("tick >= 109")
     at.press("return")
-    results = results_of(tab)
-    at.wait(lambda: bool(results.search.results), "results")
-    at.choose("Stop")
-    at.wait(lambda: not results.running, "the end")
+    at.wait(lambda: bool(results_of(tab).search.results), "results")
+    results = stopped(at, tab)
     assert not tab.better
     assert results.note == "Nothing better than the run's own keys: goal after tick 109. Try Whole run, in Presets."
 
@@ -549,26 +554,19 @@ def test_what_is_no_better_than_the_run_is_not_listed(at: TasDriver, tab: Search
 def test_a_goal_out_of_reach_is_not_reached(at: TasDriver, tab: SearchTab) -> None:
     at.write("y < -10000")
     at.press("return")
-    at.wait(lambda: bool(tab.better), "a miss")
-    at.choose("Stop")
-    at.wait(lambda: not results_of(tab).running, "the end")
-    at.frames(2)
+    results = searched(at, tab)
     (miss,) = tab.better
-    words, *_, gain = results_of(tab).words(miss)
+    words, *_, gain = results.words(miss)
     assert words == f"closest: {10000 + miss.end[1]:.3g} short after tick {miss.inputs and len(miss.inputs) - 1}"
     assert gain == "a miss"
     row(at, tab, 0)
-    assert is_in(at, results_of(tab), miss)
+    assert is_in(at, results, miss)
 
 
 def test_a_goal_out_of_reach_gets_advice(at: TasDriver, tab: SearchTab) -> None:
     at.write("x > 0 and y < -10000")
     at.press("return")
-    at.wait(lambda: bool(tab.better), "a miss")
-    at.choose("Stop")
-    results = results_of(tab)
-    at.wait(lambda: not results.running, "the end")
-    results.refresh()
+    results = searched(at, tab)
     (miss,) = results.better
     last, short = 99 + miss.ticks, f"y < -10000: {10000 + miss.end[1]:.3g} short"
     where = "a longer span, it is nearest at its end" if miss.ticks > 27 else "an earlier first tick"
@@ -593,9 +591,7 @@ def test_what_is_near_to_nothing_says_so(at: TasDriver, tab: SearchTab) -> None:
     at.press("return")
     at.wait(lambda: results_of(tab).search.ticks_run, "a search")
     assert results_of(tab).note == NOTHING_YET
-    at.choose("Stop")
-    at.wait(lambda: not results_of(tab).running, "the end")
-    assert results_of(tab).note == NOTHING
+    assert stopped(at, tab).note == NOTHING
 
 
 def test_what_is_found_takes_the_place_of_the_nearest_miss(at: TasDriver, tab: SearchTab) -> None:
@@ -648,9 +644,7 @@ def test_the_whole_run_is_shortened_in_the_background_and_keeps_its_markers(at: 
     results = results_of(tab)
     at.wait(lambda: not results.running or (tab.better and tab.better[0].ticks < end + 20), "a shorter run")
     assert results.running, results.search.problem
-    at.choose("Stop")
-    at.wait(lambda: not results.running, "the end")
-    at.frames(2)
+    stopped(at, tab)
     found = tab.better[0]
     assert results.words(found)[0].startswith(f"exit in tick {found.ticks - 1}")
     at.editor.go(30)
@@ -670,10 +664,7 @@ def test_a_run_that_ends_before_the_exit_is_led_there_and_shortened(at: TasDrive
     at.editor.edit(lambda track: track.replaced(end - 30, len(track), b""))
     wish(at, "Whole run")
     assert tab.span == (0, end - 30)
-    results = results_of(tab)
-    at.wait(lambda: bool(tab.better), "a way to the exit")
-    at.choose("Stop")
-    at.wait(lambda: not results.running, "the end")
+    results = searched(at, tab)
     assert results.words(tab.better[0])[-1] == "new"
     row(at, tab, 0)
     assert at.session.timeline.end[1] == "exit"
@@ -686,8 +677,7 @@ def test_of_a_run_without_a_way_to_the_exit_it_says_so(
     at.editor.edit(lambda track: track.replaced(20, len(track), b""))
     tab.method = IMPROVE
     tab.start()
-    at.wait(lambda: not results_of(tab).running, "the end")
-    assert results_of(tab).note == background.NO_WAY
+    assert ended(at, tab).note == background.NO_WAY
 
 
 def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab: SearchTab) -> None:
@@ -702,9 +692,7 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     results = results_of(tab)
 
     at.wait(lambda: any(each.own_route for each in tab.better), "a result of the own route")
-    at.choose("Stop")
-    at.wait(lambda: not results.running, "the end")
-    at.frames(2)
+    stopped(at, tab)
     own = next(each for each in tab.better if each.own_route)
     assert results.words(own)[0] == f"tick {own.ticks - 1}, own route"
     assert results.words(replace(own, gold=own.gold - 1))[0].endswith(", 1 gold fewer, own route")
@@ -723,14 +711,14 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     assert "Cy" in at.session.origin.replay.co_authors
 
 
+@pytest.mark.usefixtures("nothing_found")
 def test_a_span_is_searched_along_runs_beside_and_names_their_players_where_they_help(
-    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+    at: TasDriver, tab: SearchTab
 ) -> None:
     fast = at.editor.track
     at.editor.edit(lambda track: track.replaced(110, 110, bytes(40)))
     about = at.session.recording(fast, "theirs")
     at.screen.level.others.open([replace(about, file="theirs.txt", replay=replace(about.replay, author="Cy"))])
-    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
     wish(at, "Reach the exit sooner")
     results = results_of(tab)
     assert results.task.others == (fast.inputs,)
@@ -757,21 +745,15 @@ def test_escape_ends_the_search_and_then_opens_the_menu(at: TasDriver, tab: Sear
     assert isinstance(at.top(), Menu)
 
 
-def test_ticks_that_are_not_the_selected_ones_say_why(at: TasDriver, tab: SearchTab) -> None:
-    drawn: list[str] = []
-    write = type(at.editor.theme).text
-
-    def noted(theme: Theme, surface: pygame.Surface, text: str, *rest: Any, **more: Any) -> pygame.Rect:
-        drawn.append(text)
-        return write(theme, surface, text, *rest, **more)
-
-    end = at.session.timeline.end[0]
-    with patch.object(type(at.editor.theme), "text", noted):
-        wish(at, "Reach the exit sooner")
-        at.frames(2)
+def test_ticks_that_are_not_the_selected_ones_say_why(
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    end, texts = at.session.timeline.end[0], noted_texts(monkeypatch)
+    wish(at, "Reach the exit sooner")
+    at.frames(2)
     assert tab.span == (100, end)
-    assert {f"Ticks 100 to {end - 1}", "up to the run's exit"} <= set(drawn)
-    assert "not the selection" not in drawn
+    assert {f"Ticks 100 to {end - 1}", "up to the run's exit"} <= texts.keys()
+    assert "not the selection" not in texts
     tab.goal.show("x > 1")
     at.editor.select(100, 131)
     tab.use_selection()
