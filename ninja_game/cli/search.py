@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-import re
 import time
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,12 +13,12 @@ import click
 
 from ninja_game.cli import options
 from ninja_game.cli.commands import FAILED
-from ninja_game.cli.progress import progress_line, time_text
-from ninja_game.errors import ArgumentError, FileError
-from ninja_game.files.reading import protect_inputs, read_utf8
+from ninja_game.cli.progress import progress_line
+from ninja_game.files.reading import protect_inputs
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
-from ninja_game.files.writing import check_output, write_atomically
+from ninja_game.files.writing import check_output
+from ninja_game.formats.run_time import time_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
@@ -31,32 +29,6 @@ if TYPE_CHECKING:
 
 
 SAME_ROUTE = "\nsame route as before: --against FILE tries those of other runs, `ninja-game solve` looks for new ones"
-
-
-class SearchLog:
-    """The log of a long search: its finds with their seconds, a line each, over all its commands.
-
-    ``starts``: their number; ``seconds_spent``: in all of them. Raises FileError for another file.
-    """
-
-    HEAD = "# seconds spent, and what improve found"
-
-    def __init__(self, path: Path, keep: Sequence[Path]) -> None:
-        check_output(path, keep=keep)
-        if not path.exists():
-            write_atomically(path, f"{self.HEAD}\n")
-        head, *lines = read_utf8(path, 2**20).splitlines() or [""]
-        matches = [re.match(r" *(\d{1,9}) s  ", line) for line in lines]
-        if head != self.HEAD or None in matches:
-            raise FileError("not the log of a search", str(path), hint="name another file")
-        self._path, self._start = path, time.monotonic()
-        self.starts = sum(line.endswith("begins") for line in lines)
-        self.seconds_spent = max((int(match[1]) for match in matches if match), default=0)
-        self.note("begins")
-
-    def note(self, what: str) -> None:
-        with self._path.open("a", encoding="utf-8") as out:
-            out.write(f"{self.seconds_spent + time.monotonic() - self._start:8.0f} s  {what}\n")
 
 
 @click.command()
@@ -81,6 +53,7 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
       ninja-game solve 00-0-first-steps -o first.replay.txt
       ninja-game solve userlevels.txt --record 17 --gold all --seconds 300 -o gold.replay.txt
     """
+    from ninja_game.search.improve import simplified_run
     from ninja_game.search.solve import solve as search_run
     from ninja_game.search.task import Task
 
@@ -143,9 +116,7 @@ def improve(
       ninja-game improve first.replay.txt --seconds 28800 --resume night.log -o shorter.replay.txt
     """
     from ninja_game.formats.load import load_replays
-    from ninja_game.runs.run import run_level
-    from ninja_game.search.formula.methods import to_exit
-    from ninja_game.search.solve import solve
+    from ninja_game.search.improve import NoWayError, SearchLog, improve as improve_run
     from ninja_game.search.task import Task
     from ninja_game.tas.contributions import Contributions
     from ninja_game.tas.files import runs_of_level
@@ -163,55 +134,18 @@ def improve(
     credited = replace(recording.replay, co_authors=tuple(dict.fromkeys((*recording.replay.co_authors, *names))))
     save = saver_of_better(output, replace(recording, replay=credited) if beside else recording, "improve", against)
     log = SearchLog(resume, [replay, output, *against]) if resume else None
-    if log and earlier:
-        others = tuple(run.inputs for run in earlier if run.level == task.level)
-        left = max(0.1, task.seconds - log.seconds_spent)
-        task = replace(task, others=(*others, *theirs), seconds=left, seed=task.seed + log.starts)
-    played = run_level(task.level, task.first, body=task.body)
-    if played.outcome != "exit":
-        known = next((run.inputs for run in earlier if run.level == task.level), None)
-        first = known or to_exit(
-            task.level, task.first[: played.ticks], task.seconds / 2, body=task.body, seed=task.seed, threads=task.jobs
-        )
-        passing = (keys for keys in theirs if run_level(task.level, keys, body=task.body).outcome == "exit")
-        first = first or next(passing, None)
-        if first is None:
-            from ninja_game.runs.deaths import ending_text
-
-            ends = ending_text(played.outcome, played.ticks - 1, played.death)
-            click.echo(f"{ends}; no way to the exit found from there")
-            return FAILED
-        task = replace(task, first=first, others=theirs, seconds=task.seconds if known else task.seconds / 2)
-    before: list[int] = []
-
-    def keep(run: Replay) -> None:
-        before.append(run.end_tick)
-        save(run)
-        if log:
-            log.note(time_text(run.end_tick))
-
-    with progress_line() as report:
-        run = solve(task, report=report, on_better=keep)
-    assert run is not None  # noqa: S101 - the first run is one
-    if log:
-        log.note("ended")
-    save(run := simplified_run(task, run, smooth))
-    gain = before[0] - run.end_tick
+    known = [run.inputs for run in earlier if run.level == task.level]
+    try:
+        with progress_line() as report:
+            made = improve_run(task, save, report=report, earlier=known, log=log, price=smooth)
+    except NoWayError as error:
+        click.echo(str(error))
+        return FAILED
+    gain, run = made.gain, made.run
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
-    route = "" if theirs or not _is_same_route(task, run) else SAME_ROUTE
+    route = SAME_ROUTE if made.same_route else ""
     click.echo(f"{output}: {time_text(run.end_tick)}, {change}, {run.gold} gold{route}")
     return 0
-
-
-def _is_same_route(task: Task, run: Replay) -> bool:
-    """Whether a run is always near the given one, in the same order; False for runs too long to be compared."""
-    from ninja_game.runs.compare import aligned
-    from ninja_game.runs.run import run_level
-
-    before, after = (run_level(task.level, keys, body=task.body).positions for keys in (task.first, run.inputs))
-    with suppress(ArgumentError):
-        return bool((aligned(after, before) >= 0).all())
-    return False
 
 
 @click.command()
@@ -347,19 +281,6 @@ def not_found_text(task: Task, progress: Progress | None) -> str:
     gold = f"with {task.gold_wanted} gold " if task.gold_wanted else ""
     why = f": {obstacle(task.level, task.gold_wanted, progress).sentence}" if progress else ""
     return f"no run {gold}to the exit found{why}; more time or another --seed may find one"
-
-
-def simplified_run(task: Task, run: Replay, price: int | None) -> Replay:
-    """The run without keys that do nothing, verified.
-
-    ``price``: also with fewer key changes, at most so many ticks longer and with no less gold.
-    """
-    from ninja_game.search.certificate import smooth_run, verified_run, without_idle_keys
-
-    inputs = without_idle_keys(task.level, run.inputs, task.first, body=run.body)
-    if price is not None:
-        inputs = smooth_run(task.level, inputs, body=run.body, gold=run.gold, price=price)
-    return verified_run(task.level, inputs, body=run.body, gold=run.gold)
 
 
 def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
