@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,8 +22,6 @@ from ninja_game.files.writing import check_output
 from ninja_game.formats.run_time import time_text
 
 if TYPE_CHECKING:
-    from ninja_game.formats.named_level import NamedLevel
-    from ninja_game.formats.recording import Recording
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.formula.task import SpanResult
     from ninja_game.search.task import Progress, Task
@@ -53,6 +52,7 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
       ninja-game solve 00-0-first-steps -o first.replay.txt
       ninja-game solve userlevels.txt --record 17 --gold all --seconds 300 -o gold.replay.txt
     """
+    from ninja_game.search.certificate import named_replay
     from ninja_game.search.improve import simplified_run
     from ninja_game.search.solve import solve as search_run
     from ninja_game.search.task import Task
@@ -61,7 +61,11 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
     output = output or free_path(Path(), level.stem, REPLAY_SUFFIX)
     task = Task(chosen.level, **task_options)
     check_gold(task)
-    save = saver(output, chosen)
+    save = saver(
+        output,
+        [Path(chosen.file)],
+        partial(named_replay, command="solve", name=chosen.name, author="ninja-game solve", level_author=chosen.author),
+    )
     with progress_line() as report:
         run = search_run(task, report=report, on_better=save)
     if run is None:
@@ -116,6 +120,7 @@ def improve(
       ninja-game improve first.replay.txt --seconds 28800 --resume night.log -o shorter.replay.txt
     """
     from ninja_game.formats.load import load_replays
+    from ninja_game.search.certificate import improved_replay
     from ninja_game.search.improve import NoWayError, SearchLog, improve as improve_run
     from ninja_game.search.task import Task
     from ninja_game.tas.contributions import Contributions
@@ -132,7 +137,9 @@ def improve(
     check_gold(task)
     names = [name for run in beside for name in Contributions.of(run).names if name != recording.player]
     credited = replace(recording.replay, co_authors=tuple(dict.fromkeys((*recording.replay.co_authors, *names))))
-    save = saver_of_better(output, replace(recording, replay=credited) if beside else recording, "improve", against)
+    source = replace(recording, replay=credited) if beside else recording
+    named = partial(improved_replay, recording=source, command="improve")
+    save = saver(output, [Path(recording.file), *against], named)
     log = SearchLog(resume, [replay, output, *against]) if resume else None
     known = [run.inputs for run in earlier if run.level == task.level]
     try:
@@ -196,6 +203,7 @@ def search(
     """
     from ninja_game.formats.load import load_replays
     from ninja_game.runs.run import record_replay, run_level
+    from ninja_game.search.certificate import improved_replay
     from ninja_game.search.formula.methods import search_span
     from ninja_game.search.formula.task import SpanTask, own_tick, score_text, tidied
 
@@ -208,7 +216,8 @@ def search(
     recording = options.choose(
         load_replays(replay, level=options.load_level_option(level_path)), "recordings", replay, record
     )
-    save = saver_of_better(output, recording, "search") if output else None
+    named = partial(improved_replay, recording=recording, command="search")
+    save = saver(output, [Path(recording.file)], named) if output else None
     task = SpanTask(
         recording.level,
         recording.inputs,
@@ -283,23 +292,9 @@ def not_found_text(task: Task, progress: Progress | None) -> str:
     return f"no run {gold}to the exit found{why}; more time or another --seed may find one"
 
 
-def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
-    """A function that writes each better run of a level to a file, which must not be the level's own."""
-    from ninja_game.search.certificate import named_replay, save_replay
+def saver(path: Path, keep: Sequence[Path], named: Callable[[Replay], Replay]) -> Callable[[Replay], None]:
+    """A function that names each better run and writes it to a file, which must be none of ``keep``."""
+    from ninja_game.search.certificate import save_replay
 
-    check_output(path, keep=[Path(level.file)])
-    credit = {"name": level.name, "author": "ninja-game solve", "level_author": level.author}
-    return lambda run: save_replay(path, named_replay(run, "solve", **credit))
-
-
-def saver_of_better(
-    path: Path, recording: Recording, command: str, keep: Sequence[Path] = ()
-) -> Callable[[Replay], None]:
-    """A function that writes each better run that a command made of a recording, to a file that is not its own.
-
-    ``keep``: other files that it must not be.
-    """
-    from ninja_game.search.certificate import improved_replay, save_replay
-
-    check_output(path, keep=[Path(recording.file), *keep])
-    return lambda run: save_replay(path, improved_replay(run, recording, command))
+    check_output(path, keep=keep)
+    return lambda run: save_replay(path, named(run))
