@@ -20,7 +20,7 @@ from threading import Event
 
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.runs.run import run_level
-from ninja_game.search.formula.methods import _AHEAD, search_span
+from ninja_game.search.formula.methods import WAY_TICKS, search_span
 from ninja_game.search.formula.task import SpanResult, SpanTask
 from ninja_game.search.solve import compile_solver, solve
 from ninja_game.search.task import WORK_PER_SECOND, Progress, Task
@@ -81,7 +81,7 @@ def seconds_to_exit(level: Level, inputs: bytes, first: int, seconds: float, bod
         reached.extend([now - began[0]] if results else [])
         return not results and now - began[0] < seconds
 
-    task = SpanTask(level, inputs, first, first + _AHEAD, goal="won", body=body)  # type: ignore[arg-type]
+    task = SpanTask(level, inputs, first, first + WAY_TICKS, goal="won", body=body)  # type: ignore[arg-type]
     search_span(task, report, threads=1)
     return reached[0] if reached else None
 

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from examples.measure import DIGESTS, FORMAT, TASKS
 from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.files.reading import read_bytes
-from ninja_game.learn.levels.bench import _GRADES
+from ninja_game.learn.levels.bench import BENCH_GRADES
 
 TEST, TRAIN, TRANSFER = TASKS
 RESAMPLES = 2_000
@@ -79,7 +79,7 @@ def load_results(folder: Path) -> dict[tuple[str, str], list[dict[str, Any]]]:
 
 def rates(runs: list[dict[str, Any]], levels: str, name: str) -> NDArray[np.float64]:
     """A score of each run in each grade of levels, (runs, grades)."""
-    grades = ("all",) if levels == TRANSFER else _GRADES
+    grades = ("all",) if levels == TRANSFER else BENCH_GRADES
     return np.array([[run["scores"][levels][grade][name] for grade in grades] for run in runs], np.float64)
 
 
@@ -113,7 +113,7 @@ def learned_in(run: dict[str, Any]) -> list[int]:
     words = str(run["training"].get("level", "")).split(":")
     if words[:2] != ["bench", "train"]:
         return []
-    return [k for k, grade in enumerate(_GRADES) if grade in words] or [*range(len(_GRADES))]
+    return [k for k, grade in enumerate(BENCH_GRADES) if grade in words] or [*range(len(BENCH_GRADES))]
 
 
 def table(results: dict[tuple[str, str], list[dict[str, Any]]]) -> str:
@@ -122,14 +122,14 @@ def table(results: dict[tuple[str, str], list[dict[str, Any]]]) -> str:
     if not random:
         raise FileError("there are no runs of the agent 'random', which scores begin at", file="", expected=RANDOM)
     chance = rates(random, TEST, "passed").mean(axis=0)
-    heads = ["track", "agent", "runs", "steps", *_GRADES, "normalised", "par time", "gap", "transfer"]
+    heads = ["track", "agent", "runs", "steps", *BENCH_GRADES, "normalised", "par time", "gap", "transfer"]
     lines = [heads, ["---"] * len(heads)]
     for (track, name), runs in sorted(results.items()):
         curve = runs[0]["training"].get("curve")
         count = f"{len(runs)}{'' if all('levels' in run for run in runs) else '*'}"
         passed, par = (rates(runs, TEST, name) for name in ("passed", "par"))
         passed_again, par_again = (redrawn(runs, TEST, name) for name in ("passed", "par"))
-        cells = [shown(passed[:, grade], passed_again[..., grade]) for grade in range(len(_GRADES))]
+        cells = [shown(passed[:, grade], passed_again[..., grade]) for grade in range(len(BENCH_GRADES))]
         cells += [shown(normalised(passed, chance), normalised(passed_again, chance))]
         cells += [shown(par.mean(-1), par_again.mean(-1))]
         grades = learned_in(runs[0])

@@ -28,7 +28,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.load import load_replays
 from ninja_game.learn.evaluation import Planner, Policy, play_episodes, policy_actions
-from ninja_game.learn.levels.bench import _GRADES, bench_level
+from ninja_game.learn.levels.bench import BENCH_GRADES, bench_level
 from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.levels.source import LevelSource
 from ninja_game.learn.protocol import EVALUATION_SEED, PROTOCOL
@@ -90,7 +90,7 @@ def scores(found: dict[str, NDArray[Any]], levels: str) -> dict[str, dict[str, f
     """Of each grade of levels the shares of episodes ``passed`` and ``dead``, and ``par``, from ``with_par``."""
     grades = {"all": slice(None)}
     if levels.startswith("bench"):
-        grades = {grade: slice(first, None, len(_GRADES)) for first, grade in enumerate(_GRADES)}
+        grades = {grade: slice(first, None, len(BENCH_GRADES)) for first, grade in enumerate(BENCH_GRADES)}
     shown = ("passed", "dead", "par")
     return {
         grade: {name: round(float(found[name][:, part].mean()), 4) for name in shown} for grade, part in grades.items()

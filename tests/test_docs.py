@@ -178,7 +178,7 @@ def test_security_page_states_the_limits_that_hold() -> None:
     page = (ROOT / "SECURITY.md").read_text("utf-8")
     assert f" | {MAX_BYTES // 2**20} MiB |" in page
     assert f" | {MAX_TICKS:,} ticks |" in page
-    assert f" | {CAPACITY - 1:,}; an exit counts twice |" in page
+    assert f" | {CAPACITY - 1:,} objects; an exit counts as two |" in page
 
 
 @pytest.mark.parametrize("module", [ninja_game, ninja_game.learn])

@@ -81,7 +81,7 @@ def _align(offset: int, size: int) -> int:
 
 WORLD = dtype_of(World)
 TILE_MAP = dtype_of(TileMap)
-_OBJECT = dtype_of(Object)
+OBJECT_DTYPE = dtype_of(Object)
 STATE_START = WORLD.fields["event_count"][1]  # type: ignore[index]
 """A save-state leaves out the events, which are first."""
 OBJECTS_START = WORLD.fields["objects"][1]  # type: ignore[index]
@@ -95,7 +95,7 @@ _GET_KIND = {kind.number: getter_of(fields_of(kind.fields)) for kind in KINDS}
 
 def used_bytes(objects: int) -> int:
     """Bytes of a world in use if ``objects`` slots are taken, slot 0 included."""
-    return OBJECTS_START + objects * _OBJECT.itemsize
+    return OBJECTS_START + objects * OBJECT_DTYPE.itemsize
 
 
 def new_worlds(count: int, objects: int) -> Records:
@@ -153,8 +153,8 @@ def write_plain(w: World, worlds: Records, index: int) -> None:
     for number in range(w.event_count):
         record["events"][number] = _get_event(w.events[number])
     objects = record["objects"]
-    capacity = (worlds.strides[0] - OBJECTS_START) // _OBJECT.itemsize
-    objects[1:capacity] = np.zeros((), _OBJECT)
+    capacity = (worlds.strides[0] - OBJECTS_START) // OBJECT_DTYPE.itemsize
+    objects[1:capacity] = np.zeros((), OBJECT_DTYPE)
     for slot in range(1, w.slots_used):
         o = w.objects[slot]
         objects[_KIND_FIELDS[o.kind]][slot] = _GET_KIND[o.kind](o)

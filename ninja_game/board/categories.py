@@ -19,7 +19,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_number, parse_truth
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
-_NAMES: dict[str, Callable[[Run], float]] = {
+RUN_NUMBERS: dict[str, Callable[[Run], float]] = {
     "ticks": lambda run: run.tick, "gold": lambda run: run.gold, "score": lambda run: run.score,
     "all_gold": lambda run: run.entry.all_gold, "jumps": lambda run: run.jumps, "presses": lambda run: run.presses,
 }  # fmt: skip
@@ -37,7 +37,7 @@ _WORSE = {
     "presses": "more presses",
 }  # fmt: skip
 """The words for a run that is worse by a formula."""
-_ARGUMENTS = dict.fromkeys(_NAMES, 0)
+_ARGUMENTS = dict.fromkeys(RUN_NUMBERS, 0)
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Category:
 
     def values(self, runs: Sequence[Run]) -> list[tuple[float, ...] | None]:
         """The numbers that rank each run, the smaller the better; None for a run outside of the category."""
-        view = {name: _all(np.array([value(run) for run in runs], np.float64)) for name, value in _NAMES.items()}
+        view = {name: _all(np.array([value(run) for run in runs], np.float64)) for name, value in RUN_NUMBERS.items()}
         with np.errstate(all="ignore"):
             columns = [np.broadcast_to(number.value(view), len(runs)) for number in (self._truth, *self._numbers)]
         table = np.stack(columns, axis=1)
@@ -93,7 +93,7 @@ class Category:
         >>> HIGHEST.measured(-3657), Category("Fewest keys", ("presses",)).measured(1)
         ('91.425 points', '1 press')
         """
-        counts = {"Time": "s", "Score": "points"}.get(self.unit, self._shown if self._shown in _NAMES else "")
+        counts = {"Time": "s", "Score": "points"}.get(self.unit, self._shown if self._shown in RUN_NUMBERS else "")
         text = f"{self.text(value)} {counts}".rstrip()
         return {"1 presses": "1 press", "1 jumps": "1 jump"}.get(text, text)
 

@@ -11,12 +11,12 @@ import click
 from ninja_game.cli import options
 from ninja_game.cli.commands import FAILED
 from ninja_game.cli.options import NEW_FILE, OLD_FOLDER, OLD_PATH
-from ninja_game.cli.progress import progress_line, time_text, with_progress
+from ninja_game.cli.progress import progress_line, with_progress
 from ninja_game.errors import FileError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.files.writing import check_output, write_atomically
-from ninja_game.formats.run_time import seconds_text
+from ninja_game.formats.run_time import seconds_text, time_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.pack.pack import Pack

@@ -13,7 +13,7 @@ import click
 
 from ninja_game.cli.terminal import print_error
 from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.formats.run_time import seconds_text
+from ninja_game.formats.run_time import time_text
 
 if TYPE_CHECKING:
     from ninja_game.runs.recording_reader import Unreadable
@@ -117,7 +117,3 @@ def progress_text(progress: Progress) -> str:
     best = time_text(progress.best) if progress.best >= 0 else "none yet"
     speed = progress.ticks / progress.seconds / 1e6 if progress.seconds > 0 else 0.0
     return f"{progress.doing:<10} best {best}  {speed:.1f}M ticks/s"
-
-
-def time_text(end_tick: int) -> str:
-    return f"{end_tick} ticks ({seconds_text(end_tick)} s)"

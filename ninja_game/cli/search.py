@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-import re
 import time
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,48 +14,20 @@ import click
 
 from ninja_game.cli import options
 from ninja_game.cli.commands import FAILED
-from ninja_game.cli.progress import progress_line, time_text
-from ninja_game.errors import ArgumentError, FileError
-from ninja_game.files.reading import protect_inputs, read_utf8
+from ninja_game.cli.progress import progress_line
+from ninja_game.files.reading import protect_inputs
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
-from ninja_game.files.writing import check_output, write_atomically
+from ninja_game.files.writing import check_output
+from ninja_game.formats.run_time import time_text
 
 if TYPE_CHECKING:
-    from ninja_game.formats.named_level import NamedLevel
-    from ninja_game.formats.recording import Recording
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.formula.task import SpanResult
     from ninja_game.search.task import Progress, Task
 
 
 SAME_ROUTE = "\nsame route as before: --against FILE tries those of other runs, `ninja-game solve` looks for new ones"
-
-
-class SearchLog:
-    """The log of a long search: its finds with their seconds, a line each, over all its commands.
-
-    ``starts``: their number; ``seconds_spent``: in all of them. Raises FileError for another file.
-    """
-
-    HEAD = "# seconds spent, and what improve found"
-
-    def __init__(self, path: Path, keep: Sequence[Path]) -> None:
-        check_output(path, keep=keep)
-        if not path.exists():
-            write_atomically(path, f"{self.HEAD}\n")
-        head, *lines = read_utf8(path, 2**20).splitlines() or [""]
-        matches = [re.match(r" *(\d{1,9}) s  ", line) for line in lines]
-        if head != self.HEAD or None in matches:
-            raise FileError("not the log of a search", str(path), hint="name another file")
-        self._path, self._start = path, time.monotonic()
-        self.starts = sum(line.endswith("begins") for line in lines)
-        self.seconds_spent = max((int(match[1]) for match in matches if match), default=0)
-        self.note("begins")
-
-    def note(self, what: str) -> None:
-        with self._path.open("a", encoding="utf-8") as out:
-            out.write(f"{self.seconds_spent + time.monotonic() - self._start:8.0f} s  {what}\n")
 
 
 @click.command()
@@ -81,6 +52,8 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
       ninja-game solve 00-0-first-steps -o first.replay.txt
       ninja-game solve userlevels.txt --record 17 --gold all --seconds 300 -o gold.replay.txt
     """
+    from ninja_game.search.certificate import named_replay
+    from ninja_game.search.improve import simplified_run
     from ninja_game.search.solve import solve as search_run
     from ninja_game.search.task import Task
 
@@ -88,7 +61,11 @@ def solve(level: Path, record: int | None, output: Path | None, smooth: int | No
     output = output or free_path(Path(), level.stem, REPLAY_SUFFIX)
     task = Task(chosen.level, **task_options)
     check_gold(task)
-    save = saver(output, chosen)
+    save = saver(
+        output,
+        [Path(chosen.file)],
+        partial(named_replay, command="solve", name=chosen.name, author="ninja-game solve", level_author=chosen.author),
+    )
     with progress_line() as report:
         run = search_run(task, report=report, on_better=save)
     if run is None:
@@ -143,9 +120,8 @@ def improve(
       ninja-game improve first.replay.txt --seconds 28800 --resume night.log -o shorter.replay.txt
     """
     from ninja_game.formats.load import load_replays
-    from ninja_game.runs.run import run_level
-    from ninja_game.search.formula.methods import to_exit
-    from ninja_game.search.solve import solve
+    from ninja_game.search.certificate import improved_replay
+    from ninja_game.search.improve import NoWayError, SearchLog, improve as improve_run
     from ninja_game.search.task import Task
     from ninja_game.tas.contributions import Contributions
     from ninja_game.tas.files import runs_of_level
@@ -161,57 +137,22 @@ def improve(
     check_gold(task)
     names = [name for run in beside for name in Contributions.of(run).names if name != recording.player]
     credited = replace(recording.replay, co_authors=tuple(dict.fromkeys((*recording.replay.co_authors, *names))))
-    save = saver_of_better(output, replace(recording, replay=credited) if beside else recording, "improve", against)
+    source = replace(recording, replay=credited) if beside else recording
+    named = partial(improved_replay, recording=source, command="improve")
+    save = saver(output, [Path(recording.file), *against], named)
     log = SearchLog(resume, [replay, output, *against]) if resume else None
-    if log and earlier:
-        others = tuple(run.inputs for run in earlier if run.level == task.level)
-        left = max(0.1, task.seconds - log.seconds_spent)
-        task = replace(task, others=(*others, *theirs), seconds=left, seed=task.seed + log.starts)
-    played = run_level(task.level, task.first, body=task.body)
-    if played.outcome != "exit":
-        known = next((run.inputs for run in earlier if run.level == task.level), None)
-        first = known or to_exit(
-            task.level, task.first[: played.ticks], task.seconds / 2, body=task.body, seed=task.seed, threads=task.jobs
-        )
-        passing = (keys for keys in theirs if run_level(task.level, keys, body=task.body).outcome == "exit")
-        first = first or next(passing, None)
-        if first is None:
-            from ninja_game.runs.deaths import ending_text
-
-            ends = ending_text(played.outcome, played.ticks - 1, played.death)
-            click.echo(f"{ends}; no way to the exit found from there")
-            return FAILED
-        task = replace(task, first=first, others=theirs, seconds=task.seconds if known else task.seconds / 2)
-    before: list[int] = []
-
-    def keep(run: Replay) -> None:
-        before.append(run.end_tick)
-        save(run)
-        if log:
-            log.note(time_text(run.end_tick))
-
-    with progress_line() as report:
-        run = solve(task, report=report, on_better=keep)
-    assert run is not None  # noqa: S101 - the first run is one
-    if log:
-        log.note("ended")
-    save(run := simplified_run(task, run, smooth))
-    gain = before[0] - run.end_tick
+    known = [run.inputs for run in earlier if run.level == task.level]
+    try:
+        with progress_line() as report:
+            made = improve_run(task, save, report=report, earlier=known, log=log, price=smooth)
+    except NoWayError as error:
+        click.echo(str(error))
+        return FAILED
+    gain, run = made.gain, made.run
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
-    route = "" if theirs or not _is_same_route(task, run) else SAME_ROUTE
+    route = SAME_ROUTE if made.same_route else ""
     click.echo(f"{output}: {time_text(run.end_tick)}, {change}, {run.gold} gold{route}")
     return 0
-
-
-def _is_same_route(task: Task, run: Replay) -> bool:
-    """Whether a run is always near the given one, in the same order; False for runs too long to be compared."""
-    from ninja_game.runs.compare import aligned
-    from ninja_game.runs.run import run_level
-
-    before, after = (run_level(task.level, keys, body=task.body).positions for keys in (task.first, run.inputs))
-    with suppress(ArgumentError):
-        return bool((aligned(after, before) >= 0).all())
-    return False
 
 
 @click.command()
@@ -262,6 +203,7 @@ def search(
     """
     from ninja_game.formats.load import load_replays
     from ninja_game.runs.run import record_replay, run_level
+    from ninja_game.search.certificate import improved_replay
     from ninja_game.search.formula.methods import search_span
     from ninja_game.search.formula.task import SpanTask, own_tick, score_text, tidied
 
@@ -274,7 +216,8 @@ def search(
     recording = options.choose(
         load_replays(replay, level=options.load_level_option(level_path)), "recordings", replay, record
     )
-    save = saver_of_better(output, recording, "search") if output else None
+    named = partial(improved_replay, recording=recording, command="search")
+    save = saver(output, [Path(recording.file)], named) if output else None
     task = SpanTask(
         recording.level,
         recording.inputs,
@@ -349,36 +292,9 @@ def not_found_text(task: Task, progress: Progress | None) -> str:
     return f"no run {gold}to the exit found{why}; more time or another --seed may find one"
 
 
-def simplified_run(task: Task, run: Replay, price: int | None) -> Replay:
-    """The run without keys that do nothing, verified.
+def saver(path: Path, keep: Sequence[Path], named: Callable[[Replay], Replay]) -> Callable[[Replay], None]:
+    """A function that names each better run and writes it to a file, which must be none of ``keep``."""
+    from ninja_game.search.certificate import save_replay
 
-    ``price``: also with fewer key changes, at most so many ticks longer and with no less gold.
-    """
-    from ninja_game.search.certificate import smooth_run, verified_run, without_idle_keys
-
-    inputs = without_idle_keys(task.level, run.inputs, task.first, body=run.body)
-    if price is not None:
-        inputs = smooth_run(task.level, inputs, body=run.body, gold=run.gold, price=price)
-    return verified_run(task.level, inputs, body=run.body, gold=run.gold)
-
-
-def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
-    """A function that writes each better run of a level to a file, which must not be the level's own."""
-    from ninja_game.search.certificate import named_replay, save_replay
-
-    check_output(path, keep=[Path(level.file)])
-    credit = {"name": level.name, "author": "ninja-game solve", "level_author": level.author}
-    return lambda run: save_replay(path, named_replay(run, "solve", **credit))
-
-
-def saver_of_better(
-    path: Path, recording: Recording, command: str, keep: Sequence[Path] = ()
-) -> Callable[[Replay], None]:
-    """A function that writes each better run that a command made of a recording, to a file that is not its own.
-
-    ``keep``: other files that it must not be.
-    """
-    from ninja_game.search.certificate import improved_replay, save_replay
-
-    check_output(path, keep=[Path(recording.file), *keep])
-    return lambda run: save_replay(path, improved_replay(run, recording, command))
+    check_output(path, keep=keep)
+    return lambda run: save_replay(path, named(run))

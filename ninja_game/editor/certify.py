@@ -350,7 +350,7 @@ class Reach(NamedTuple):
     dangers: tuple[PathPoints, ...]
 
 
-_LANDED = 4
+LANDED_TICK = 4
 """The first tick in which a ninja that was placed on the floor stands and can jump."""
 
 _BOUNCE = 9
@@ -375,7 +375,7 @@ def _fan() -> Iterator[_Plan]:
     """All runs to try; the first presses nothing, the last ones jump at walls."""
     yield from (_Plan(side, steer=side) for side in (0, -1, 1))
     for steer in (-1, 0, 1):
-        yield from (_Plan(0, jump, hold, steer) for jump in (_LANDED, 20) for hold in (1, 3, 6, 10, 16, TICKS))
+        yield from (_Plan(0, jump, hold, steer) for jump in (LANDED_TICK, 20) for hold in (1, 3, 6, 10, 16, TICKS))
         for side in (-1, 1):
             yield from (_Plan(side, jump, TICKS, steer) for jump in range(1, TICKS))
             yield from (_Plan(side, jump, hold, steer) for jump in range(1, TICKS, 3) for hold in (1, 4, 9))
@@ -451,7 +451,7 @@ def find_reach(ask: Ask) -> Reach:
         keys += down * JUMP_HELD + begins * JUMP_PRESSED
         worlds.run_batch(np.require(keys[np.newaxis], np.uint8, ["C", "W"]), 0, len(FAN), stop=True)
     latest: list[tuple[float, float]] = []
-    shown = [*(FAN.index(_Plan(0, _LANDED, hold, steer)) for steer in (-1, 0, 1) for hold in (1, TICKS))]
+    shown = [*(FAN.index(_Plan(0, LANDED_TICK, hold, steer)) for steer in (-1, 0, 1) for hold in (1, TICKS))]
     for side in (-1, 1):
         walks = FAN.index(_Plan(side, steer=side))
         jumps = [FAN.index(_Plan(side, tick, TICKS, side)) for tick in range(1, TICKS)]

@@ -34,3 +34,7 @@ def rounded_text(ticks: int) -> str:
     ('0.1', '90.0', '23.6')
     """
     return f"{-(-ticks * TICK_MS // 100) / 10:.1f}"
+
+
+def time_text(end_tick: int) -> str:
+    return f"{end_tick} ticks ({seconds_text(end_tick)} s)"

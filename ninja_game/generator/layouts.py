@@ -245,7 +245,7 @@ _MOODS = (
     "Rusty", "Second", "Hidden", "Restless", "Lunar", "Brittle", "Tidal", "Sunken", "Amber", "Narrow", "Distant",
     "Folded", "Idle", "Wired", "Granite", "Silent", "Spare", "Winter", "Lost", "Painted", "Minor",
 )  # fmt: skip
-_PLACES = {
+PLACE_NAMES = {
     "heart": ("Heart", "Locket", "Shield", "Core"),
     "cascade": ("Cascade", "Basins", "Ladles", "Cradle"),
     "web": ("Web", "Rings", "Moat", "Onion"),
@@ -266,4 +266,4 @@ _PLACES = {
 
 
 def name_for(layout: str, rng: Random) -> str:
-    return f"{rng.choice(_MOODS)} {rng.choice(_PLACES[layout])}"
+    return f"{rng.choice(_MOODS)} {rng.choice(PLACE_NAMES[layout])}"

@@ -16,7 +16,7 @@ from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.rules import CELL, HALF
 from ninja_game.sim.schema.world_fields import TileMap
 
-_COLOURS = dict.fromkeys((kind.number for kind in kinds.KINDS if kind.killer), "bright_red") | {
+SIGN_COLOURS = dict.fromkeys((kind.number for kind in kinds.KINDS if kind.killer), "bright_red") | {
     kinds.GOLD: "bright_yellow",
     kinds.BOUNCE_BLOCK: "cyan",
     kinds.LAUNCH_PAD: "bright_cyan",
@@ -48,7 +48,7 @@ def level_picture(level: Level) -> Text:
             if CELL <= x <= CELL * (COLUMNS + 1) and CELL <= y <= CELL * (ROWS + 1):
                 column = min(max(round((x - CELL) / HALF) - 1, 0), columns - 1)
                 row = min(int((y - CELL) / CELL), rows - 1)
-                signs[row][column] = (char, _COLOURS[spec.kind])
+                signs[row][column] = (char, SIGN_COLOURS[spec.kind])
     text = Text(no_wrap=True)
     for digits in RULER.replace(";", "").splitlines():
         text.append("    " + " ".join(digits[4:]).rstrip() + "\n", "dim")

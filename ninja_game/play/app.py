@@ -88,6 +88,7 @@ class App:
         self.frame_ms = 0.0
         self.mood = Mood()
         self.notice = ""
+        self.notice_refuses = False  #: whether the notice says why something was refused
         self._notice_ms = 0
         self._notice_on: BaseScreen | None = None
         self.window = window or Window(size, self.settings)
@@ -135,9 +136,10 @@ class App:
         if author != before and not self.settings.name:
             self.change_settings(name=author.strip()[:40])
 
-    def notify(self, text: str, *, ms: int = NOTICE_MS, here: bool = False) -> None:
+    def notify(self, text: str, *, ms: int = NOTICE_MS, here: bool = False, refuses: bool = False) -> None:
         """Show a text at the foot for a while; ``here``: only while the present screen is on top."""
-        self.notice, self._notice_ms, self._notice_on = text, ms, self.top if here else None
+        self.notice, self.notice_refuses = text, refuses
+        self._notice_ms, self._notice_on = ms, self.top if here else None
         self.stack.redraw_all()
 
     def report_problems(self) -> None:

@@ -225,7 +225,7 @@ def _our_schema() -> set[tuple[str, ...]]:
 
 def _merge_all(player: PlayerData, store: Store, files: dict[str, bytes]) -> tuple[int, list[str]]:
     """Import records and files; the number of new replays, and the new files."""
-    opened = cache(lambda folder: _TargetFolder(player.folder / folder))
+    opened = cache(lambda folder: TargetFolder(player.folder / folder))
     with ExitStack() as undo:
         with player.store.change() as db:
             replays = _merge(player, store, db)
@@ -235,7 +235,7 @@ def _merge_all(player: PlayerData, store: Store, files: dict[str, bytes]) -> tup
     return replays, taken
 
 
-class _TargetFolder:
+class TargetFolder:
     """A folder of the player's that gets imported files, beside others of their names."""
 
     def __init__(self, path: Path) -> None:

@@ -316,19 +316,19 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
     return _nearest_on_path(came_from, ours, theirs)
 
 
-_AHEAD = 10
+SPEED_AHEAD = 10
 """Ticks for which two ninjas are extrapolated at their speeds, to tell how near their states are. Not tuned."""
 
 
 def nearest_state(ours: NDArray[np.float64], tick: int, theirs: NDArray[np.float64]) -> int:
     """The tick of another run before which its ninja was nearest to ours before a tick, by place and speed; 0 for 0.
 
-    Positions after each tick, float64 (ticks, 2), px; a difference of speed counts as the distance after _AHEAD ticks.
+    Positions after each tick, float64 (ticks, 2), px; a difference of speed counts by SPEED_AHEAD ticks.
     """
     if not tick:
         return 0
     moves, move = np.diff(theirs, axis=0, prepend=theirs[:1]), ours[tick - 1] - ours[max(tick - 2, 0)]
-    return int(np.argmin(np.hypot(*(theirs - ours[tick - 1]).T) + _AHEAD * np.hypot(*(moves - move).T))) + 1
+    return int(np.argmin(np.hypot(*(theirs - ours[tick - 1]).T) + SPEED_AHEAD * np.hypot(*(moves - move).T))) + 1
 
 
 def _nearest_on_path(

@@ -60,7 +60,6 @@ class TasEditor:
         self.against: InputTrack | None = None
         self.hint = ""  #: of what is under the mouse, for the line below
         self.leads: dict[int, int] = {}  #: ticks by which the run is ahead at each event of both runs, by its own tick
-        self._refusal = ""
         #: Cursor and anchor when a run was edited, for undo
         self.places: WeakKeyDictionary[InputTrack, tuple[int, int | None]] = WeakKeyDictionary()
 
@@ -109,14 +108,12 @@ class TasEditor:
         self._selected = self.cursor, self.anchor = first, max(first, last - 1)
 
     def refuse(self, why: str) -> None:
-        self._refusal = why
-        self.app.notify(why)
+        self.app.notify(why, refuses=True)
 
     def accept(self) -> None:
         """Clear the last refusal after a successful action."""
-        if self._refusal and self.app.notice == self._refusal:
+        if self.app.notice_refuses:
             self.app.notify("")
-        self._refusal = ""
 
     def attempt(self, edit: Callable[[], object]) -> bool:
         """Run an action that may be refused; a notice says why. Whether it was done."""

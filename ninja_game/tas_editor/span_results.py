@@ -19,17 +19,18 @@ from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.goals import IMPROVE_GOLD
 from ninja_game.tas.tracks import InputTrack, first_difference
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
+from ninja_game.tas_editor.span_pieces import WITHOUT_REST
 
+PATIENCE = 5.0  # seconds of a search before pieces of its span are proposed
 CLOSING_SECONDS = 0.5  # longest wait for a cancelled search when the TAS editor is left
 
-_COMPILING = (
+COMPILING_SEARCHES = (
     "Searches are loaded; the first time on a machine they are compiled, some minutes (`ninja-game compile` does it "
     "beforehand). Meanwhile you can play, look around and edit; only an edit in the ticks that are searched, or before "
     "them, ends the search."
 )
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet comes nearer to the goal than the run itself."
-WITHOUT_REST = "End at the goal, not then the rest"
 NOTHING = "The goal was not reached. More time, a longer span, another method or Whole run may reach it."
 
 
@@ -214,6 +215,15 @@ class SpanResults:
         return words, str(other), f"{x:.1f}, {y:.1f}", f"{hypot(vx, vy):.3f}", gain
 
     @property
+    def in_vain(self) -> bool:
+        """Whether an earlier end was searched for a while, or all there is, and nothing reaches it."""
+        search, task = self.search, self.task
+        late = search.ticks_run and (search.seconds > PATIENCE or not (self.running or self.stopped))
+        sooner = not task.measure and (search.own is not None or task.rest or "won" in task.goal)
+        fits = self.first_behind is not None and not isinstance(search, RunSearch)
+        return bool(late and sooner and fits) and all(run.missed_by is not None for run in self.better)
+
+    @property
     def status(self) -> str:
         search = self.search
         if search.problem:
@@ -233,7 +243,7 @@ class SpanResults:
             whole = "" if self.running or isinstance(search, RunSearch) else " Try Whole run, in Presets."
             return f"Nothing better {yet}than the run's own keys: {score_text(self.task, search.own)}.{whole}"
         if not search.ticks_run:
-            return _COMPILING if self.running else NOT_BEGUN
+            return COMPILING_SEARCHES if self.running else NOT_BEGUN
         return NOTHING_YET if self.running else NOTHING
 
     @property

@@ -35,10 +35,10 @@ _MESSAGE_LINE = 22.0  # height of its lines, px
 _MESSAGE_WIDE = 440.0  # where its lines are broken, px
 _MESSAGE_WIDEST = 680.0  # where a single word ends, px
 _KEYS_WIDE = 70.0  # room for keys before a line, px
-_IN_BORDER = CELL * (ROWS + 1)  # top of a message in the border below, px
+BORDER_MESSAGE_TOP = CELL * (ROWS + 1)  # top of a message in the border below, px
 _BESIDE_GOLD = 490.0  # its width there, px
 _FAINT = 0.2  # opacity of its panel over the ninja
-_COVERED, _CLEAR = 10.0, 34.0  # distance to the ninja with opacity _FAINT, and with 1, px
+_COVERED, CLEAR_AWAY = 10.0, 34.0  # distance to the ninja with opacity _FAINT, and with 1, px
 _TAIL = 8.0  # half the width of its pointer, px
 
 _POINTER_SIZE = 9.5  # letters of the names of things
@@ -46,7 +46,7 @@ _TITLE_SIZE = 26.0  # letters of an ended run's time or cause of death
 _MEDAL_SIZE = 15.0  # letters of its medal
 _LINE_SIZE = 12.5  # letters of the other lines of its panel
 _LINE_WIDEST = WIDTH - 150.0  # longer lines of the panel are broken, px
-_PRIZE = 54.0  # size of the medal in the panel, px
+END_MEDAL_SIZE = 54.0  # size of the medal in the panel, px
 _UPPER = 36.0  # top of the panel, unless it would hide an exit or the end of the run, px
 
 _KEYS = (
@@ -155,7 +155,7 @@ class Hud:
         """Draw everything; the covered px rectangles."""
         top = [self.label(surface, view.label)] if view.label else self.time_bar(surface, view.lifetime, view.pars)
         box = self.box(view.message, keys=_KEYS_WIDE if view.moves else 0) if view.message else None
-        in_border = box is not None and box.y == _IN_BORDER
+        in_border = box is not None and box.y == BORDER_MESSAGE_TOP
         written = top + self.foot(surface, "" if in_border else view.foot[0], view.foot[1])
         if box is not None and in_border:
             # Beside a message at the right; the rest of the border is for the level's name.
@@ -236,7 +236,7 @@ class Hud:
     def end_panel(self, surface: pygame.Surface, view: HudView, end: EndPanel) -> pygame.Rect:
         """A panel: a title and lines under it; with a medal at its left, and then the first line large beside it."""
         theme, medal, (title, lines, tiles, things) = self.theme, view.medal, end
-        below, beside = (26, _PRIZE + 14) if medal else (0, 0)
+        below, beside = (26, END_MEDAL_SIZE + 14) if medal else (0, 0)
         named, lines = (lines[0], lines[1:]) if medal else ("", lines)
         head = max(theme.width(title, _TITLE_SIZE, bold=True), theme.width(named, _MEDAL_SIZE, bold=True))
 
@@ -256,8 +256,8 @@ class Hud:
         middle = x + w / 2
         if medal:
             # It grows beyond its size for a moment, but never over the text beside it.
-            at = middle - (head + 14) / 2, y + 9 + _PRIZE / 2
-            draw_stamp(surface, theme, medal, *at, _PRIZE, view.stamp, view.shine)
+            at = middle - (head + 14) / 2, y + 9 + END_MEDAL_SIZE / 2
+            draw_stamp(surface, theme, medal, *at, END_MEDAL_SIZE, view.stamp, view.shine)
         across = middle + beside / 2
         theme.text(surface, title, across, y + 9, size=_TITLE_SIZE, align="centre", bold=True)
         accent = theme.palette.accent
@@ -343,7 +343,7 @@ def _clear_of(ninja: Point | None, box: Box, *, softly: bool) -> float:
     if ninja is None:
         return 1.0
     away = away_from(ninja, *box.area)
-    share = (away - _COVERED) / (_CLEAR - _COVERED) if softly else float(away >= _CLEAR)
+    share = (away - _COVERED) / (CLEAR_AWAY - _COVERED) if softly else float(away >= CLEAR_AWAY)
     return _FAINT + (1 - _FAINT) * min(1.0, max(0.0, share))
 
 
@@ -389,4 +389,4 @@ def _box(theme: Theme, message: PlacedMessage, keys: float) -> Box:
     text = text.replace("\n", "    ")
     size = min(_MESSAGE_SIZE, _MESSAGE_SIZE * _BESIDE_GOLD / theme.width(text, _MESSAGE_SIZE))
     w = theme.width(text, size) + 28
-    return Box([text], (WIDTH - w) / 2, _IN_BORDER, w, 17.0, 3.0, size)
+    return Box([text], (WIDTH - w) / 2, BORDER_MESSAGE_TOP, w, 17.0, 3.0, size)

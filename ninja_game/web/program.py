@@ -11,7 +11,7 @@ from typing import Any
 
 NAME = "<your program>"
 MAX_LINES = 300_000  # most lines that a program may run
-_MAX_SHOWN = 5_000  # most characters of its output
+MAX_OUTPUT = 5_000  # most characters of its output
 
 
 def run_program(text: str) -> str:
@@ -37,4 +37,4 @@ def run_program(text: str) -> str:
         wrong = f"Line {line}: {type(error).__name__}: {words}"
     finally:
         sys.settrace(None)
-    return printed.getvalue()[:_MAX_SHOWN] + wrong
+    return printed.getvalue()[:MAX_OUTPUT] + wrong

@@ -10,7 +10,7 @@ import pytest
 
 from ninja_game import Level, Simulation, parse_level
 from ninja_game.backend.kernels import run_worlds
-from ninja_game.backend.layout import _OBJECT
+from ninja_game.backend.layout import OBJECT_DTYPE
 from ninja_game.backend.memories import MemoryUnavailableError, compiled, compiled_available
 from ninja_game.batch.batch import OBJECT_FIELDS, Batch
 from ninja_game.batch.thread_pool import ThreadPool
@@ -115,7 +115,7 @@ def test_observations_are_views_that_stay_current(memory: str) -> None:
     assert [kinds.count(kind) for kind in (EXIT, DRONE, MINE)] == [1, 1, 0]
     drone = kinds.index(DRONE) + 1
     assert batch.places[0, drone].tolist() == [objects["x"][0, drone], objects["y"][0, drone]]
-    assert objects.dtype == _OBJECT
+    assert objects.dtype == OBJECT_DTYPE
 
 
 @pytest.mark.parametrize("memory", BOTH)
@@ -294,6 +294,6 @@ def test_observations_cannot_be_written_and_are_not_printed(memory: str) -> None
 
 
 def test_every_field_of_a_kind_is_one_of_the_objects_dtype() -> None:
-    assert _OBJECT.names is not None
+    assert OBJECT_DTYPE.names is not None
     assert set(OBJECT_FIELDS) >= {"gold", "drone", "door"}
-    assert {name for names in OBJECT_FIELDS.values() for name in names} == set(_OBJECT.names)
+    assert {name for names in OBJECT_FIELDS.values() for name in names} == set(OBJECT_DTYPE.names)

@@ -201,10 +201,10 @@ def test_the_example_of_the_page_is_a_replay(root: Path) -> None:
 
 
 def test_the_page_names_every_header(root: Path) -> None:
-    from ninja_game.formats.replay.headers import _KEYS
+    from ninja_game.formats.replay.headers import REPLAY_KEYS
 
     page = (root / "docs" / "replay-format.md").read_text(encoding="utf-8")
-    assert [key for key in _KEYS if f"`{key}`" not in page and f"`{key}:`" not in page] == []
+    assert [key for key in REPLAY_KEYS if f"`{key}`" not in page and f"`{key}:`" not in page] == []
 
 
 @given(st.text())

@@ -12,7 +12,7 @@ from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.generator.compose import compose
 from ninja_game.generator.generate import plan_of
-from ninja_game.generator.layouts import _PLACES, LAYOUTS
+from ninja_game.generator.layouts import LAYOUTS, PLACE_NAMES
 from ninja_game.generator.scene import RockBoard, Scene, box, disc, flood, path, places, poly
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.lint import level_warnings
@@ -121,7 +121,7 @@ def test_mines_lie_on_the_rock(plan: str) -> None:
 
 
 def test_every_plan_has_names() -> None:
-    assert _PLACES.keys() == LAYOUTS.keys()
+    assert PLACE_NAMES.keys() == LAYOUTS.keys()
 
 
 def test_what_is_painted_alike_on_both_sides_has_mirrored_tiles() -> None:

@@ -15,7 +15,7 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn import Curriculum, DistanceShaping, EnvWorlds, NinjaEnv
-from ninja_game.learn.levels.bench import _GRADES, BASES, COUNTS, LARGEST, _base, _bases, _table, bench_level
+from ninja_game.learn.levels.bench import BASES, BENCH_GRADES, COUNTS, LARGEST, _base, _bases, _table, bench_level
 from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.levels.source import LevelSource
 from ninja_game.sim.kinds import GOLD
@@ -37,7 +37,7 @@ def test_known_runs_pass_a_sample() -> None:
 def test_grades_take_turns_and_tell_how_long_a_known_run_is() -> None:
     for number in range(60):
         found = bench_level("train", number)
-        assert found.grade == list(_GRADES)[number % 3]
+        assert found.grade == list(BENCH_GRADES)[number % 3]
         assert found.grade == "hard" or len(found.inputs) <= {"easy": 120, "medium": 240}[found.grade]
 
 

@@ -19,7 +19,7 @@ from ninja_game.learn.observations.observation import PARTS, Observation
 from ninja_game.learn.observations.part import Part
 from ninja_game.learn.observations.pixels import SHADES, SOLID_SHADE, Pixels
 from ninja_game.learn.observations.surroundings import LocalTiles, Rays
-from ninja_game.learn.observations.vectors import _DIRECTIONS, FIELDS, Guide, StateVector, TimeLeft
+from ninja_game.learn.observations.vectors import EIGHT_WAYS, FIELDS, Guide, StateVector, TimeLeft
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.collision.rays import cast_ray
 from ninja_game.sim.kinds import DOOR, GOLD
@@ -210,7 +210,7 @@ def test_the_time_left_goes_down_to_nothing(memory: str) -> None:
 
 def test_the_guide_points_to_the_exit() -> None:
     guide = seen(parse_level(FLOOR + "|5^100,300!11^160,300,700,300"), Guide(normalised=False))
-    best = _DIRECTIONS[int(guide[:8].argmax())]
+    best = EIGHT_WAYS[int(guide[:8].argmax())]
     assert best == (1.0, 0.0)
     assert guide[8] > 0 > guide[12]
     assert guide[16] > 100

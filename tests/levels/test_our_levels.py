@@ -14,7 +14,7 @@ from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
-from ninja_game.formats.pack.pars import _GRADES
+from ninja_game.formats.pack.pars import DIFFICULTY_GRADES
 from ninja_game.levels.lint import level_warnings
 from ninja_game.play.level.messages import FALL_HELP, WHY
 from ninja_game.runs.packs import make_pars
@@ -61,7 +61,7 @@ def test_no_text_names_a_colour_which_a_palette_may_change() -> None:
 def test_levels_of_the_first_episode_read_alike() -> None:
     pars = [OURS.pars[file] for file in sorted(LEVELS)]
     assert {each.grade for each in pars[:5]} == {"easy"}
-    assert {each.grade for each in pars} == set(_GRADES.values())
+    assert {each.grade for each in pars} == set(DIFFICULTY_GRADES.values())
 
 
 def test_every_certificate_is_one_of_a_level() -> None:

@@ -16,7 +16,7 @@ from ninja_game.sim import states
 from ninja_game.sim.events import DIED, EVENT_NAMES, LANDED
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
 from ninja_game.simulation import Simulation
-from ninja_game.ui.audio.player import _STRIDE, CHAIN_TICKS, LOUDEST, AudioPlayer, Footsteps, GoldPitches, Variants
+from ninja_game.ui.audio.player import CHAIN_TICKS, LOUDEST, STEP_PX, AudioPlayer, Footsteps, GoldPitches, Variants
 from ninja_game.ui.audio.table import (
     BY_DEATH,
     BY_EVENT,
@@ -200,14 +200,14 @@ def test_gold_of_a_run_is_heard_in_rising_pitches(folder: Path, monkeypatch: pyt
 
 
 def test_steps_follow_the_run_and_its_speed() -> None:
-    assert _STRIDE == CYCLE / 2
+    assert STEP_PX == CYCLE / 2
     run, steps, told = Simulation(FLAT), Footsteps(), list[float]()
     for _ in range(80):
         run.step(right=True)
         told.append(steps.loudness(run.world.ninja))
     loud = [level for level in told if level]
     way = run.world.ninja.x - 100
-    assert abs(len(loud) - way / _STRIDE) <= 1
+    assert abs(len(loud) - way / STEP_PX) <= 1
     assert loud[0] < loud[-1]
     for _ in range(60):
         run.step()

@@ -20,7 +20,7 @@ from ninja_game.editor.files import ascii_text, recovered
 from ninja_game.errors import FileError
 from ninja_game.files.tree import Tree
 from ninja_game.player import backup, schema
-from ninja_game.player.backup import MAX_REPLAYS, MAX_TABLE_ROWS, _TargetFolder, read_backup, write_backup
+from ninja_game.player.backup import MAX_REPLAYS, MAX_TABLE_ROWS, TargetFolder, read_backup, write_backup
 from ninja_game.player.player_data import PlayerData, keep_replay
 from ninja_game.player.playthrough import LevelPlaythrough
 from tests.support.level_maker import ROOM
@@ -233,7 +233,7 @@ def test_a_disk_that_is_full_in_the_middle_leaves_everything_as_it_was(
 
     monkeypatch.setattr(Tree, "write", full)
     if after == 3:
-        monkeypatch.setattr("ninja_game.player.backup._TargetFolder.add", full_at_the_end(_TargetFolder.add))
+        monkeypatch.setattr("ninja_game.player.backup.TargetFolder.add", full_at_the_end(TargetFolder.add))
     with pytest.raises(OSError, match="No space left"):
         read_backup(here, backup.read_bytes())
     assert everything(here) == before
@@ -242,7 +242,7 @@ def test_a_disk_that_is_full_in_the_middle_leaves_everything_as_it_was(
 def full_at_the_end(add: Callable[..., bool]) -> Callable[..., bool]:
     """Takes everything, and fails after the settings, as a transaction may at its end."""
 
-    def failing(folder: _TargetFolder, name: PurePosixPath, *more: Any) -> bool:
+    def failing(folder: TargetFolder, name: PurePosixPath, *more: Any) -> bool:
         taken = add(folder, name, *more)
         if name.name == "settings.toml":
             raise OSError(28, "No space left on device")

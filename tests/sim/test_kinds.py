@@ -19,7 +19,7 @@ from ninja_game.formats.ascii.legend import SYMBOLS
 from ninja_game.formats.ascii.object_lines import FORMS
 from ninja_game.learn.observations import objects
 from ninja_game.learn.observations.pixels import SHADES
-from ninja_game.levels.picture import _COLOURS
+from ninja_game.levels.picture import SIGN_COLOURS
 from ninja_game.play.level.messages import WHY
 from ninja_game.runs.deaths import KILLERS, SELF
 from ninja_game.runs.level_design import clearance
@@ -169,7 +169,7 @@ def test_every_class_of_the_schema_belongs_to_a_kind() -> None:
 def test_a_kind_can_be_written_and_read(kind: Kind) -> None:
     assert any(symbol.kind == kind.number for symbol in SYMBOLS), "no character in the legend"
     assert any(form.kind == kind.number for form in FORMS.values()), "no form in lists of objects"
-    assert kind.number in _COLOURS, "no colour in the terminal"
+    assert kind.number in SIGN_COLOURS, "no colour in the terminal"
     assert kind.value_count >= 2
 
 

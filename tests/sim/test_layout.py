@@ -8,7 +8,16 @@ import pytest
 
 from ninja_game.backend.compiled import CompiledWorlds
 from ninja_game.backend.compiler import Compiler
-from ninja_game.backend.layout import _OBJECT, STATE_START, TILE_MAP, WORLD, bytes_of, dtype_of, new_worlds, used_bytes
+from ninja_game.backend.layout import (
+    OBJECT_DTYPE,
+    STATE_START,
+    TILE_MAP,
+    WORLD,
+    bytes_of,
+    dtype_of,
+    new_worlds,
+    used_bytes,
+)
 from ninja_game.backend.memories import compiled_available
 from ninja_game.backend.numba_import import import_numba
 from ninja_game.sim.events import emit
@@ -22,8 +31,8 @@ needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not 
 
 def span(name: str) -> range:
     """The bytes of a field of an object."""
-    assert _OBJECT.fields is not None
-    dtype, offset = _OBJECT.fields[name][:2]
+    assert OBJECT_DTYPE.fields is not None
+    dtype, offset = OBJECT_DTYPE.fields[name][:2]
     return range(offset, offset + dtype.itemsize)
 
 
@@ -36,11 +45,11 @@ def test_fields_of_one_kind_never_overlap(kind: type) -> None:
 def test_the_header_lies_alike_in_every_object_and_kinds_share_what_is_behind_it() -> None:
     header = {byte for field in fields_of(Header) for byte in span(field.name)}
     assert header == set(range(len(header)))
-    assert _OBJECT.itemsize < sum(len(span(field.name)) for field in fields_of(Object))
+    assert OBJECT_DTYPE.itemsize < sum(len(span(field.name)) for field in fields_of(Object))
 
 
 def test_every_field_is_aligned() -> None:
-    for dtype in (WORLD, _OBJECT, TILE_MAP):
+    for dtype in (WORLD, OBJECT_DTYPE, TILE_MAP):
         assert dtype.fields is not None
         for name, (field, offset, *_) in dtype.fields.items():
             assert offset % min(8, field.base.itemsize if field.base.fields is None else 8) == 0, name

@@ -17,7 +17,7 @@ from unittest.mock import patch
 import numpy as np
 
 from ninja_game.backend import layout, memories, plain
-from ninja_game.backend.layout import _OBJECT, WORLD
+from ninja_game.backend.layout import OBJECT_DTYPE, WORLD
 from ninja_game.sim.kinds import KIND_OF, KINDS
 from ninja_game.sim.schema.declare import fields_of
 from ninja_game.sim.schema.object_fields import Object
@@ -118,7 +118,7 @@ def structure(dtype: np.dtype[Any]) -> Any:
     members: list[tuple[str, Any]] = []
     end = 0
     for name, (kind, offset, *_) in sorted((dtype.fields or {}).items(), key=lambda item: item[1][1]):
-        if kind.base == _OBJECT:
+        if kind.base == OBJECT_DTYPE:
             continue
         if offset > end:
             members.append((f"_gap_{offset}", ctypes.c_byte * (offset - end)))
@@ -133,7 +133,8 @@ def structure(dtype: np.dtype[Any]) -> Any:
 
 
 PLACES = {
-    name: (np.ctypeslib.as_ctypes_type(kind), offset) for name, (kind, offset, *_) in (_OBJECT.fields or {}).items()
+    name: (np.ctypeslib.as_ctypes_type(kind), offset)
+    for name, (kind, offset, *_) in (OBJECT_DTYPE.fields or {}).items()
 }
 
 
@@ -144,7 +145,7 @@ class ObjectViews:
         self._address = address
 
     def __getitem__(self, slot: int) -> ObjectView:
-        return ObjectView(self._address + slot * _OBJECT.itemsize)
+        return ObjectView(self._address + slot * OBJECT_DTYPE.itemsize)
 
 
 class ObjectView:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from shutil import copy
+from types import SimpleNamespace
 from typing import Any
 from unittest.mock import Mock, patch
 
@@ -306,11 +307,12 @@ def _tabs(at: TasDriver) -> Iterator[str]:
     fixed = search.results.search  # type: ignore[attr-defined]
     found, own = fixed.results, fixed.own
     fixed.results, fixed.own, fixed.miss = (), None, replace(fixed.own, score=np.inf, missed_by=14.25)
-    search._cut = at.editor.track  # type: ignore[attr-defined]  # its pieces would come at any time
+    held = SimpleNamespace(pieces=(), refresh=lambda: None)  # pieces of a thread come at any time
+    search.proposed = held  # type: ignore[attr-defined]
     at.frames(2)
     yield "tas-search-miss"
     pieces = RunPiece(0, 60, "To gold 5", SpanGoal("taken(5)")), RunPiece(60, 130, "To exit", SpanGoal("won"))
-    search._in_pieces, search._cut, search.pieces = (0, 130), at.editor.track, pieces  # type: ignore[attr-defined]
+    held.pieces = pieces
     at.frames(2)
     yield "tas-search-pieces"
     search.close()

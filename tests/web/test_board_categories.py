@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.board.categories import _NAMES, FASTEST, MAX_CATEGORIES, USUAL, Category, read_rules
+from ninja_game.board.categories import FASTEST, MAX_CATEGORIES, RUN_NUMBERS, USUAL, Category, read_rules
 from ninja_game.board.judge import judge
 from ninja_game.board.ranking import Ranking
 from ninja_game.board.runs import ASSISTED, PLAYED
@@ -174,7 +174,7 @@ def test_categories_of_a_mebibyte_are_too_many(tmp_path: Path, levels: Path, run
 
 def test_every_name_of_a_formula_is_in_the_documents() -> None:
     text = Path("docs/board.md").read_text("utf-8")
-    assert all(f"`{name}`" in text for name in _NAMES)
+    assert all(f"`{name}`" in text for name in RUN_NUMBERS)
 
 
 def test_no_record_depends_on_the_clock(runs: Path, levels: Path, tmp_path: Path) -> None:

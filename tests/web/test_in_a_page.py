@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from ninja_game.play.editor.session import _PICTURE_WIDTH
+from ninja_game.play.editor.session import LEVEL_PICTURE_WIDTH
 from ninja_game.runtime import ONLY_ON_A_DESKTOP
 from tests.support.web_page import SIZE
 
@@ -85,7 +85,7 @@ def test_what_only_a_desktop_can_do_is_said(action: str, told: Any) -> None:
 def test_pictures_are_saved_as_png(told: Any) -> None:
     png = b"\x89PNG\r\n\x1a\n".hex()
     assert told("picture") == [png, *SIZE]
-    assert told("level_picture") == [png, _PICTURE_WIDTH, round(_PICTURE_WIDTH * 600 / 792)]
+    assert told("level_picture") == [png, LEVEL_PICTURE_WIDTH, round(LEVEL_PICTURE_WIDTH * 600 / 792)]
 
 
 def test_the_editor_judges_a_level_without_a_thread(told: Any) -> None:

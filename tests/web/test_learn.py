@@ -20,7 +20,7 @@ from ninja_game.sim.collision.tiles import EDGE_OF_FACES
 from ninja_game.sim.grid import cell_at
 from ninja_game.view.overlays import touched_cells
 from ninja_game.web.pages.gallery import write_gallery
-from ninja_game.web.program import _MAX_SHOWN, MAX_LINES, run_program
+from ninja_game.web.program import MAX_LINES, MAX_OUTPUT, run_program
 from tests.support.slow import the_rest_is_slow
 from tests.support.visitor import Visitor, eventually
 from tests.support.web_page import served
@@ -149,7 +149,7 @@ def test_circle_and_box_of_the_chapter_part_at_a_ledge_as_those_of_the_figure() 
         ("a = 1\nif a:\nb = 2", "Line 3: IndentationError: expected an indented block after 'if' statement on line 2"),
         ("import sys\nsys.exit(3)", "Line 2: SystemExit: 3"),
         ("while True:\n    pass", f"TimeoutError: stopped after {MAX_LINES:,} lines; does a loop never end?"),
-        ("print('x' * 9999)", "x" * _MAX_SHOWN),
+        ("print('x' * 9999)", "x" * MAX_OUTPUT),
         ("a = 1", ""),
     ],
 )

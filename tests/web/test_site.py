@@ -28,7 +28,7 @@ from ninja_game.runtime import PACKAGE
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.site import build, game_archive
 from ninja_game.web.site.build import site_server
-from ninja_game.web.site.game_archive import _LEFT_OUT
+from ninja_game.web.site.game_archive import NOT_IN_PAGE
 from tests.support.slow import the_rest_is_slow
 
 DOCUMENTS = cache(lambda address: Documents(address).build())
@@ -154,7 +154,7 @@ def test_the_archive_holds_the_game_and_nothing_that_the_page_cannot_use(pyodide
         assert library.namelist() == ["encodings/utf_8.py", "json/__init__.py"]
 
 
-@pytest.mark.parametrize("folder, beginning", [(name, each) for name in _LEFT_OUT for each in _LEFT_OUT[name]])
+@pytest.mark.parametrize("folder, beginning", [(name, each) for name in NOT_IN_PAGE for each in NOT_IN_PAGE[name]])
 def test_all_that_the_page_leaves_out_is_there(folder: str, beginning: str) -> None:
     root = PACKAGE if folder == "package" else data_folder(folder)
     assert any(path.relative_to(root).as_posix().startswith(beginning) for path in root.rglob("*.*"))

@@ -25,7 +25,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.levels.published import published_levels
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.pages.documents import Documents
-from ninja_game.web.pages.gallery import _SORT_ORDERS, write_gallery
+from ninja_game.web.pages.gallery import SORT_ORDERS, write_gallery
 from tests.support.forgeries import WALKING, replay
 from tests.support.own_pack import PACK
 from tests.support.samples import WALK
@@ -215,7 +215,7 @@ def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any
         page.keyboard.press("Backspace")
     page.keyboard.press("Tab")
     page.keyboard.press("Tab")
-    for _ in range([by for by, _ in _SORT_ORDERS].index("difficulty")):
+    for _ in range([by for by, _ in SORT_ORDERS].index("difficulty")):
         page.keyboard.press("ArrowDown")
     hard = page.evaluate(
         "Array.from(document.querySelectorAll('.card'), (each) => Number(each.dataset.difficulty ?? 99))"

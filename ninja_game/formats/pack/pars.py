@@ -22,7 +22,7 @@ MEDALS = (*MARGINS, "bronze")  # the best first; bronze is for every pass
 CARE = 0.25
 """Growth of a margin per point of difficulty, as a share of it: careful play takes longer. Chosen, not tuned."""
 
-_GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extreme"}
+DIFFICULTY_GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extreme"}
 """Words for difficulties below a number, for players."""
 
 _STEP = 4  # pars are rounded up to multiples of so many ticks: a tenth of a second
@@ -56,7 +56,7 @@ class Pars:
         """
         if self.difficulty is None:
             return ""
-        return next(word for below, word in _GRADES.items() if self.difficulty < below)
+        return next(word for below, word in DIFFICULTY_GRADES.items() if self.difficulty < below)
 
     def par(self, medal: str) -> int:
         """The last tick of an exit contact that still earns a medal with a margin, which difficulty widens.

@@ -24,7 +24,7 @@ REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
 CLAIMS = ("rules", "outcome", "gold", "digest", "waypoints")
 """The headers that make claims; a replay without them only needs its inputs."""
 SECTIONS = ("inputs", "level-data", "waypoints")
-_KEYS = (
+REPLAY_KEYS = (
     *REQUIRED, "name", "author", "co-authors", "made", "level", "level-record", "level-digest", "digest", "demo-length",
     "level-data", "waypoints",
 )  # fmt: skip
@@ -56,10 +56,10 @@ class Headers:
             if match is None:
                 raise ReplayError("not a header line", file, number, 1, repr(line[:40]), "key: value")
             key = match[1]
-            if key not in _KEYS:
-                near = get_close_matches(key, _KEYS, 1)
+            if key not in REPLAY_KEYS:
+                near = get_close_matches(key, REPLAY_KEYS, 1)
                 hint = f"did you mean '{near[0]}'?" if near else ""
-                raise ReplayError("an unknown header", file, number, 1, repr(key[:40]), ", ".join(_KEYS), hint)
+                raise ReplayError("an unknown header", file, number, 1, repr(key[:40]), ", ".join(REPLAY_KEYS), hint)
             if key in self.lines:
                 raise ReplayError("a header given twice", file, number, 1, repr(key), hint="keep one of them")
             # The value keeps its column, so that error messages can name it.

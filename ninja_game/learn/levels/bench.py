@@ -37,7 +37,7 @@ from ninja_game.sim.states import SKIDDING
 COUNTS = {"train": 100_000, "test": 1_000}
 VAL = range(99_000, 100_000)
 """Numbers of `train` for the choice of settings; training uses the other numbers (docs/ninjabench.md)."""
-_GRADES = {"easy": (30, 88), "medium": (89, 208), "hard": None}
+BENCH_GRADES = {"easy": (30, 88), "medium": (89, 208), "hard": None}
 """Least and most ticks of the part of the known run that is the task; hard levels have the whole run."""
 DELAY = 16
 """A run with another start begins at rest: it holds one key up to this many ticks longer, its last key this many."""
@@ -80,13 +80,13 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
         raise ArgumentError(f"found level {number!r:.30} of {split!r:.30}; expected one of {COUNTS}, counted from 0")
     place = number if split == "train" else COUNTS["train"] + number
     attempt = _table()[place] if attempt is None else attempt
-    grade = list(_GRADES)[number % len(_GRADES)]
+    grade = list(BENCH_GRADES)[number % len(BENCH_GRADES)]
     drawn = draws(np.full(256, place * _TRIES + attempt, np.uint64), np.arange(256, dtype=np.uint64)) / 2.0**64
     sure = attempt == _TRIES - 1
     bases = _bases(split)
-    base = _base(bases[number // len(_GRADES) % len(bases)], bool(drawn[0] < 0.5 and not sure))
+    base = _base(bases[number // len(BENCH_GRADES) % len(bases)], bool(drawn[0] < 0.5 and not sure))
     gold, killers = drawn[1], _KEPT[grade] + (1.0 - _KEPT[grade]) * drawn[2]
-    span = _GRADES[grade]
+    span = BENCH_GRADES[grade]
     ticks = len(base.inputs)
     first, last = 0, ticks
     moved: dict[int, tuple[float, ...]] = {}
@@ -193,14 +193,14 @@ def bench_source(text: str) -> BenchSource:
 
     Raises ArgumentError for anything else, FileError if the assets of the game are missing.
     """
-    match = re.fullmatch(rf"(\w+)(?::({'|'.join(_GRADES)}))?(?::([0-9]{{1,6}})(?:-([0-9]{{1,6}}))?)?", text)
+    match = re.fullmatch(rf"(\w+)(?::({'|'.join(BENCH_GRADES)}))?(?::([0-9]{{1,6}})(?:-([0-9]{{1,6}}))?)?", text)
     split, grade, first, last = match.groups() if match else (text.partition(":")[0], None, None, None)
     all_of = numbers = VAL if split == "val" else range(COUNTS.get(split, 0))
     numbers = numbers[int(first) : int(last or first) + 1] if first else numbers
     if grade:
-        numbers = numbers[(list(_GRADES).index(grade) - numbers.start) % len(_GRADES) :: len(_GRADES)]
+        numbers = numbers[(list(BENCH_GRADES).index(grade) - numbers.start) % len(BENCH_GRADES) :: len(BENCH_GRADES)]
     if not match or not numbers or int(last or first or 0) >= len(all_of):
-        expected = f"with grade {', '.join(_GRADES)}, or numbers 0 to {len(all_of or VAL) - 1}, or both"
+        expected = f"with grade {', '.join(BENCH_GRADES)}, or numbers 0 to {len(all_of or VAL) - 1}, or both"
         raise ArgumentError(
             f"found 'bench:{text:.60}'; expected 'bench:train', 'bench:val' or 'bench:test', {expected}"
         )

@@ -261,7 +261,7 @@ def observe_time(
 
 _RADII = (24.0, 60.0)  # px
 _SIDES = ((1.0, 0.0), (1.0 / ROOT2, 1.0 / ROOT2), (0.0, 1.0), (-1.0 / ROOT2, 1.0 / ROOT2))
-_DIRECTIONS = [*_SIDES, *((-x, -y) for x, y in _SIDES)]  # the sides, from the right by way of down
+EIGHT_WAYS = [*_SIDES, *((-x, -y) for x, y in _SIDES)]  # the sides, from the right by way of down
 FAR_TICKS = 1000.0  # ticks to the exit that are normalised to 1
 
 
@@ -278,13 +278,13 @@ class Guide(Part):
 
     @property
     def box(self) -> Box:
-        slopes = len(_RADII) * len(_DIRECTIONS)
+        slopes = len(_RADII) * len(EIGHT_WAYS)
         low = np.array([-1.0] * slopes + [0.0], np.float32)
         return Box(low, np.array([1.0] * slopes + [1.0 if self.normalised else FARTHEST], np.float32), dtype=np.float32)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
         """The offsets of the points, px; the fields and the row of each world; factor and limit of the last value."""
-        ways = [(radius * x, radius * y, 1.0 / radius) for radius in _RADII for x, y in _DIRECTIONS]
+        ways = [(radius * x, radius * y, 1.0 / radius) for radius in _RADII for x, y in EIGHT_WAYS]
         columns = [context.table(column, np.float64) for column in zip(*ways, strict=True)]
         factor, highest = 1.0 / FAR_TICKS if self.normalised else 1.0, float(self.box.high[-1])
         return observe_guide, *columns, context.goal.fields, context.goal.rows, factor, highest

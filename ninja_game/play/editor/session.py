@@ -78,7 +78,7 @@ CHECK_SPACING = 0.1
 REST = 1.0
 """Seconds without a change after which a search begins again with the level as it is."""
 
-_PICTURE_WIDTH = 1584
+LEVEL_PICTURE_WIDTH = 1584
 
 Question = tuple[Level, tuple[Finding, ...], str, bytes]
 """A level to examine, what the solver has found about it, its messages, and the inputs of its known run, if any."""
@@ -412,7 +412,7 @@ class EditorSession:
         keep_history(self.app.player.folder, self.source.digest, self.tools.history)
 
     def export_picture(self) -> None:
-        surface = thumbnail(self.draft.level, self.app.theme.palette, _PICTURE_WIDTH)
+        surface = thumbnail(self.draft.level, self.app.theme.palette, LEVEL_PICTURE_WIDTH)
         self.app.write_export(self.name, ".png", lambda path: save_picture(surface, path))
 
     def copy_string(self) -> None:

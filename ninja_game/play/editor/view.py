@@ -413,14 +413,14 @@ class EditorView(Pane):
             said=said_places(session.draft),
             routes=routes if self.paths else (),
             tests=(self.tests and session.test_map) or TestMap({}, session.last_death if self.paths else ()),
-            axes=_AXES.get(session.tools.symmetry, ()),
+            axes=SYMMETRY_AXES.get(session.tools.symmetry, ()),
         )
         self.sheet.show_marks(marks)
 
 
 _X, _Y = MIDDLE
 _UPRIGHT, _LEVEL = ((_X, CELL), (_X, CELL * (ROWS + 1))), ((CELL, _Y), (CELL * (COLUMNS + 1), _Y))
-_AXES: dict[str, Sequence[tuple[Point, Point]]] = {
+SYMMETRY_AXES: dict[str, Sequence[tuple[Point, Point]]] = {
     "left-right": [_UPRIGHT], "up-down": [_LEVEL], "both": [_UPRIGHT, _LEVEL],
     "point": [((_X - 12, _Y), (_X + 12, _Y)), ((_X, _Y - 12), (_X, _Y + 12))],
 }  # fmt: skip

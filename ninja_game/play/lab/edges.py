@@ -21,7 +21,7 @@ from ninja_game.sim.schema.object_fields import Object
 
 FACES = ("none", "partial", "full")
 _DIRECTIONS = tuple(DIRECTION_WORDS)
-_STATES = ("off", "interesting", "solid")
+EDGE_WORDS = ("off", "interesting", "solid")
 _SIDES: Sequence[tuple[str, object]] = (("right", 0), ("down", 1), ("left", 2), ("up", 3))
 
 
@@ -94,8 +94,8 @@ class EdgeStates(Figure):
             ("cell", f"column {column}, row {row}: {tile_name(tile)}"),
             ("1. its own face there", FACES[own]),
             ("2. the neighbour's face", FACES[other] if tiles.EXISTS[neighbour] else "there is no neighbour"),
-            ("3. the state", _STATES[self.world.edges[4 * self.cell + self.side]]),
-            ("in the level", ", ".join(f"{states.count(state)} {name}" for state, name in enumerate(_STATES))),
+            ("3. the state", EDGE_WORDS[self.world.edges[4 * self.cell + self.side]]),
+            ("in the level", ", ".join(f"{states.count(state)} {name}" for state, name in enumerate(EDGE_WORDS))),
         ]
 
     def draw(self, sheet: Sheet) -> None:
@@ -150,8 +150,8 @@ class Doors(EdgeStates):
     def numbers(self) -> list[tuple[str, str]]:
         door, points = self.world.objects[self._door], self.body.points
         return [
-            ("left cell's state", _STATES[self.world.edges[door.edge_1]]),
-            ("right cell's state", _STATES[self.world.edges[door.edge_2]]),
+            ("left cell's state", EDGE_WORDS[self.world.edges[door.edge_1]]),
+            ("right cell's state", EDGE_WORDS[self.world.edges[door.edge_2]]),
             ("the body is pushed", f"({points[-1][0] - self.x:+.1f}, {points[-1][1] - self.y:+.1f}) px"),
             ("the turret sees it", "yes" if self.ray()[0] else "no"),
             ("the drone goes", self.drone_goes()),
@@ -243,7 +243,7 @@ class WalkingEnemies(Figure):
     def numbers(self) -> list[tuple[str, str]]:
         rows = []
         for number, o in enumerate(self._of_kind(DRONE), 1):
-            tried = ", ".join(f"{_DIRECTIONS[direction]} {_STATES[state]}" for direction, state in self.tried(o))
+            tried = ", ".join(f"{_DIRECTIONS[direction]} {EDGE_WORDS[state]}" for direction, state in self.tried(o))
             rows.append((f"drone {number} tried", tried or "nothing yet"))
         opened = sum(bool(door.switched) for door in self._of_kind(DOOR))
         return [

@@ -31,7 +31,7 @@ _KEYS: Sequence[tuple[str, object]] = (
     ("by itself", -1), ("none", 0), ("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD),
     ("jump right", KEY_RIGHT + JUMP_HELD), ("jump left", KEY_LEFT + JUMP_HELD),
 )  # fmt: skip
-_PLAYED = read_inputs([(1, ".*10 R*30 RJ*20 R*30 L*40 LJ*25 L*30 .*10")]).keys
+LAB_INPUTS = read_inputs([(1, ".*10 R*30 RJ*20 R*30 L*40 LJ*25 L*30 .*10")]).keys
 
 
 class OneTick(Figure):
@@ -49,7 +49,7 @@ class OneTick(Figure):
         """Simulate a tick and show its first call."""
         tick = self.stage.simulation.tick
         jump_held = self.stage.world.ninja.jump_held
-        self.stage.step(_PLAYED[tick % len(_PLAYED)] if self.keys < 0 else with_press_bit(self.keys, jump_held))
+        self.stage.step(LAB_INPUTS[tick % len(LAB_INPUTS)] if self.keys < 0 else with_press_bit(self.keys, jump_held))
         self.at = 0.0
 
     def controls(self) -> Sequence[Control]:

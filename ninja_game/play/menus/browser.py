@@ -36,7 +36,7 @@ from ninja_game.ui.widgets import Button, Choice, Widget
 
 _ROW = 54
 _PICTURE = 60
-_SIDE, _SIDE_WIDTH, _TEXT_HIGH = 436, 320, 85
+_SIDE, SIDE_WIDTH, COMMENT_HIGH = 436, 320, 85
 _SORT_ORDERS: list[tuple[str, object]] = [
     ("Mine first", "listed"),
     ("Name", "name"),
@@ -235,24 +235,24 @@ class Browser(ThumbnailScreen):
         theme.text(surface, self._count, 44, 549, size=9.5, colour=palette.faint)
         word = "" if self.watch_author.enabled or entry is None else f"Author's run: {self.watch_author.hint}"
         colour = palette.bad if self.message else palette.faint
-        theme.text(surface, self.message or word, _SIDE, 548, size=10, colour=colour, width=_SIDE_WIDTH)
+        theme.text(surface, self.message or word, _SIDE, 548, size=10, colour=colour, width=SIDE_WIDTH)
         if entry is None:
             return
-        self.thumbnails.draw(surface, entry, _SIDE + 28, 66, _SIDE_WIDTH - 56)
-        theme.text(surface, entry.title, _SIDE, 278, size=17, bold=True, width=_SIDE_WIDTH - 44)
+        self.thumbnails.draw(surface, entry, _SIDE + 28, 66, SIDE_WIDTH - 56)
+        theme.text(surface, entry.title, _SIDE, 278, size=17, bold=True, width=SIDE_WIDTH - 44)
         unsigned = "yours" if entry.source == YOURS else "author unknown"
         by = f"by {author_name(entry.named.author)}" if entry.named.author else unsigned
         about = "    ".join(filter(None, (by, where_from(entry))))
-        theme.text(surface, about, _SIDE, 303, size=10.5, colour=palette.faint, width=_SIDE_WIDTH)
+        theme.text(surface, about, _SIDE, 303, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
         teaches = [f"Teaches: {entry.named.teaches}"] if entry.named.teaches else []
-        theme.paragraph(surface, [entry.named.comment, *teaches], (_SIDE, 321, _SIDE_WIDTH, _TEXT_HIGH), 10.5, 13.5)
+        theme.paragraph(surface, [entry.named.comment, *teaches], (_SIDE, 321, SIDE_WIDTH, COMMENT_HIGH), 10.5, 13.5)
         mark = self.marks.get(entry.digest)
         colour = palette.good if mark else palette.faint
-        theme.text(surface, self.player.reached(entry, mark), _SIDE, 408, size=12, colour=colour, width=_SIDE_WIDTH)
+        theme.text(surface, self.player.reached(entry, mark), _SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH)
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
             theme.text(surface, tries_text(played), _SIDE, 425, size=10.5, colour=palette.faint)
-        all_gold_and_medal(surface, theme, entry, mark, _SIDE + _SIDE_WIDTH - 10, 288)
+        all_gold_and_medal(surface, theme, entry, mark, _SIDE + SIDE_WIDTH - 10, 288)
         draw_pars(surface, theme, entry.pars, mark and mark.fastest, _SIDE, 443)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
@@ -285,7 +285,7 @@ class LevelChoice(Browser):
         super().__init__(app)
         self._choose = choose
         self.list.hint = "Enter opens the level in the editor"
-        self.change = Button((_SIDE, 470, _SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))
+        self.change = Button((_SIDE, 470, SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))
 
     def build(self) -> Sequence[Widget]:
         return [*self.choosers(), self.change]

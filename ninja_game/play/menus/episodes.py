@@ -31,7 +31,7 @@ _LEFT, _TOP, _WIDE, _MAX_HEIGHT = 44, 116, 318, 286
 """Place and greatest height of the grid, px; cells are up to MAX_CELL px large."""
 
 MAX_CELL = 62
-_NAMED = 48  # least width of a cell under its column's name, px
+NAMED_CELL = 48  # least width of a cell under its column's name, px
 
 LOOKS = (("beaten", "passed"), ("open", "open"), ("cheated", "seen in practice"), ("locked", "locked"))
 
@@ -66,7 +66,7 @@ class Cells(ListView):
         for place, column in enumerate(self.heads):
             name = names[column] if column < len(names) else ""
             chosen = place == self.index % self.columns
-            if size >= _NAMED:
+            if size >= NAMED_CELL:
                 colour = theme.palette.text if chosen else faint
                 middle = _LEFT + (place + 0.5) * size
                 theme.text(surface, name, middle, _TOP - 15, size=9, colour=colour, align="centre", width=size - 2)

@@ -66,8 +66,8 @@ class Capture(Screen):
 
 
 SLOTS = {"keys": 6, "pad": 5}
-_ROW = 30
-LIST: Area = (216, 72, 540, 13 * _ROW)
+BINDING_ROW = 30
+LIST: Area = (216, 72, 540, 13 * BINDING_ROW)
 LABEL_SHARE = 0.34
 
 
@@ -75,7 +75,7 @@ class BindingTable(ListView):
     """A row per action, a cell per input. Left and right choose the cell, Enter waits for a press, Delete clears."""
 
     def __init__(self, app: App, device: str) -> None:
-        super().__init__(LIST, _ROW, self._draw_action, self._capture)
+        super().__init__(LIST, BINDING_ROW, self._draw_action, self._capture)
         self.app, self.device, self.slots = app, device, SLOTS[device]
         self.actions = [name for name in ACTIONS if self._default(name) or name in ("quit", "skip", "boss")]
         self.slot = 0

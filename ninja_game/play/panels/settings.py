@@ -27,6 +27,7 @@ RATES = [("same as display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 1
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
 PRACTICE_HINT = "No clock and no records, but you can save, rewind and slow down"
 _LEFT, _TOP, _STEP, _HEIGHT_OF_ROW = 216, 72, 42, 32
+PALETTE_PREVIEW = _LEFT, _TOP + _STEP * 8 + 20
 WIDTH_OF_ROW = WIDTH - 36 - _LEFT - 12
 
 
@@ -207,10 +208,11 @@ class SettingsScreen(ThumbnailScreen):
             # A preview of the palette: the first level of each column.
             episodes = self.player.catalogue.episodes
             firsts = [episodes[episode].levels[0] for episode in sorted(episodes) if episode % EPISODES_PER_COLUMN == 0]
+            x, y = PALETTE_PREVIEW
             for place, entry in enumerate(firsts[:5]):
                 if self.thumbnails.get(entry, 100) is None:
                     self.thumbnails.work()
-                self.thumbnails.draw(surface, entry, _LEFT + 106 * place, _TOP + _STEP * 8 + 20, 100)
+                self.thumbnails.draw(surface, entry, x + 106 * place, y, 100)
 
     def _draw_tab(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area

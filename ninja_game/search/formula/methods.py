@@ -159,7 +159,7 @@ def search_span(
 
 
 CUTS = 20, 60, 180, 540  # numbers of last ticks of a run that are left out, one after the other
-_AHEAD = 600  # ticks after the cut within which the exit must be reached
+WAY_TICKS = 600  # ticks after the cut within which the exit must be reached
 
 
 def to_exit(
@@ -184,7 +184,7 @@ def to_exit(
             began.append(time.monotonic())
             return goes_on(ticks) and not results and began[-1] - began[0] < seconds / len(CUTS)
 
-        task = SpanTask(level, inputs, first, first + _AHEAD, goal="won", body=body)
+        task = SpanTask(level, inputs, first, first + WAY_TICKS, goal="won", body=body)
         if results := search_span(task, report, seed=seed, threads=threads):
             return results[0].inputs
     return None

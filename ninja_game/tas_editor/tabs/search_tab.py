@@ -8,35 +8,20 @@ from functools import partial
 import pygame
 
 from ninja_game.errors import ArgumentError, NinjaGameError
-from ninja_game.formats.recording import Recording
 from ninja_game.play.menu_screen import Menu
 from ninja_game.play.workspace import Commands
-from ninja_game.runs.compare import Split, run_splits
-from ninja_game.runtime import NewestJob
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import SpanResult, SpanTask
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.tas.goals import (
-    GOALS,
-    IMPROVE,
-    IMPROVE_GOLD,
-    IMPROVES,
-    PRESETS,
-    RunPiece,
-    SearchedSpan,
-    SpanGoal,
-    pieces_of,
-    whole_run,
-)
-from ninja_game.tas.tracks import InputTrack
+from ninja_game.tas.goals import IMPROVE, IMPROVE_GOLD, IMPROVES, PRESETS, RunPiece, SearchedSpan, SpanGoal, whole_run
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
-from ninja_game.tas_editor.span_results import WITHOUT_REST, SpanResults
+from ninja_game.tas_editor.span_pieces import SpanPieces
+from ninja_game.tas_editor.span_results import SpanResults
 from ninja_game.tas_editor.tabs.tab import SMALL, TAB_ROW, UNPLACED, EntryField, Rows, Tab, what_is_wrong
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice, Widget
 
-PATIENCE = 5.0  # seconds of a search before pieces of its span are proposed
 FORGET = "Forget earlier"
 PIECES = "Nothing better so far. A click searches one of these, best first:"
 
@@ -62,10 +47,6 @@ _EXPLAINED = (
     "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "
     "the greatest or smallest then. Other keys for these ticks are searched; a click puts a result into the run."
 )
-
-
-Cut = tuple[InputTrack, Recording]
-Splits = tuple[InputTrack, tuple[Split, ...]]
 
 
 class PresetMenu(Menu):
@@ -94,21 +75,16 @@ class SearchTab(Tab):
         super().__init__(editor)
         self.span: Span = (0, 0)
         self._first_behind = 0  #: the first tick that follows the goal in the run
-        self._span_reason = ""  #: why the span is not the selection
+        self.span_reason = ""  #: why the span is not the selection
         self._last_selection: Span = (0, 0)  #: of which the span was made
         self.order = EARLIEST
         self.rest = False  #: whether what follows the goal is played, too
         self.method = "auto"
         self.results: SpanResults | None = None
         self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal, str] | None = None
-        self.better: tuple[SpanResult, ...] = ()
+        self.proposed: SpanPieces | None = None
         self.earlier: list[tuple[SpanResults, SpanResult]] = []
         self._rows: list[tuple[SpanResults, SpanResult] | RunPiece] = []
-        self.pieces: tuple[RunPiece, ...] = ()  #: proposed parts of the span
-        self._pieced_span: Span | None = None
-        self._cut_track: InputTrack | None = None  #: the run that was cut into these pieces
-        self._asked_track: InputTrack | None = None  #: the run whose splits were last asked for
-        self._splits = NewestJob[Cut, Splits](lambda cut: (cut[0], run_splits(cut[1], tuple(GOALS)).splits))
         fields = ("x > 400, taken(12), distance(300, 200) < 6 ...", "speed; vx, y, gold ...")
         self.goal, self.measure = (
             EntryField(prompt, self.start, longest=_MAX_FORMULA, hint=_NAMES, put=self._typed) for prompt in fields
@@ -117,31 +93,29 @@ class SearchTab(Tab):
         self._forget = Button(UNPLACED, "", self.earlier.clear, size=8, hint="The results of earlier searches")
         hint = "Under the mouse: its path in the level; a click puts it into the run"
         self.list = Rows(self._draw_row, self._use_row, keeps=False, hint=hint)
-        self.widgets = [
-            Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL),
-            Button(UNPLACED, "Presets", self.propose, size=SMALL, hint="Common goals, to begin with"),
-            self.goal,
-            Choice(UNPLACED, "", _ORDERS, lambda: self.order, self._set_order,
-                   hint="Best is what reaches the goal first, or has the most or least of the value beside this"),
-            self.measure,
-            Choice(UNPLACED, "", _RESTS, lambda: self.rest, self._set_rest,
-                   hint="What follows the goal in the run is played, too, and must still reach the exit"),
-            Choice(UNPLACED, "", _METHODS, lambda: self.method, self._set_method,
-                   hint="Beam: many states at once; small changes: of the keys there; all keys: short spans only"),
-            self._button,
-            self._forget,
-            self.list,
-        ]  # fmt: skip
+        common = "Common goals, to begin with"
+        with_rest = "What follows the goal in the run is played, too, and must still reach the exit"
+        best = "Best is what reaches the goal first, or has the most or least of the value beside this"
+        ways = "Beam: many states at once; small changes: of the keys there; all keys: short spans only"
+        #: Widgets with left, top, width and height, px; what is not above 0 is counted from the right, or from below.
+        self._placed: tuple[tuple[Widget, Area], ...] = (
+            (Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL), (-182, 4, 96, 18)),
+            (Button(UNPLACED, "Presets", self.propose, size=SMALL, hint=common), (-82, 4, 78, 18)),
+            (self.goal, (40, 25, -4, 18)),
+            (Choice(UNPLACED, "", _ORDERS, lambda: self.order, self._set_order, hint=best), (4, 46, 118, 18)),
+            (self.measure, (126, 46, -154, 18)),
+            (Choice(UNPLACED, "", _RESTS, lambda: self.rest, self._set_rest, hint=with_rest), (-150, 46, 146, 18)),
+            (Choice(UNPLACED, "", _METHODS, lambda: self.method, self._set_method, hint=ways), (4, 67, 150, 18)),
+            (self._button, (158, 67, 58, 18)),
+            (self._forget, (-80, 86, 76, 13)),
+            (self.list, (4, 99, -4, -2)),
+        )
+        self.widgets = [widget for widget, _ in self._placed]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        areas = (
-            (x + w - 182, y + 4, 96, 18), (x + w - 82, y + 4, 78, 18), (x + 40, y + 25, w - 44, 18),
-            (x + 4, y + 46, 118, 18), (x + 126, y + 46, w - 280, 18), (x + w - 150, y + 46, 146, 18),
-            (x + 4, y + 67, 150, 18), (x + 158, y + 67, 58, 18), (x + w - 80, y + 86, 76, 13),
-            (x + 4, y + 99, w - 8, h - 101),
-        )  # fmt: skip
-        for widget, area in zip(self.widgets, areas, strict=True):
-            widget.area = area
+        for widget, (left, top, wide, high) in self._placed:
+            left += w * (left < 0)  # noqa: PLW2901
+            widget.area = x + left, y + top, wide if wide > 0 else w + wide - left, high if high > 0 else h + high - top
 
     def commands(self) -> Commands:
         return {"search": self.focus_goal}
@@ -165,8 +139,8 @@ class SearchTab(Tab):
         """
         first, last = self._last_selection = self.editor.selection
         second = min(first + TICKS_PER_SECOND, max(len(self.editor.track), last))
-        before, self.span = (self.span, self._span_reason), (first, last if last > first + 1 else second)
-        self._first_behind, self._span_reason = 0, ""
+        before, self.span = (self.span, self.span_reason), (first, last if last > first + 1 else second)
+        self._first_behind, self.span_reason = 0, ""
         self.method = "auto" if self.method in IMPROVES else self.method
         if before == (self.span, ""):
             return
@@ -202,7 +176,7 @@ class SearchTab(Tab):
         self.rest = goal.rest
         self.method = goal.method or ("auto" if self.method in IMPROVES else self.method)
         first, self._first_behind = self.span
-        self.span, self._span_reason = (0 if goal.method else first, goal.last or self._first_behind), goal.why
+        self.span, self.span_reason = (0 if goal.method else first, goal.last or self._first_behind), goal.why
         if start:
             self.start()
 
@@ -240,7 +214,7 @@ class SearchTab(Tab):
         session = self.editor.session
         session.timeline.simulate(len(session.timeline))
         goal = whole_run(SearchedSpan(session, *self.span))
-        self.span, self._span_reason = (0, goal.last), goal.why
+        self.span, self.span_reason = (0, goal.last), goal.why
         return SpanTask(session.origin.level, session.track.inputs, *self.span, "won", body=session.origin.body)
 
     # --- the search ---
@@ -288,8 +262,7 @@ class SearchTab(Tab):
             self.results.close()
             reached = [result for result in self.results.better if result.missed_by is None]
             self.earlier[:0] = [(self.results, result) for result in reached]
-        self.results, self.better = None, ()
-        self.pieces, self._pieced_span, self._cut_track = (), None, None
+        self.results = self.proposed = None
         self._fill_list()
 
     def update(self, real_ms: int) -> None:
@@ -300,10 +273,20 @@ class SearchTab(Tab):
             if results.first_behind is None and results.running:
                 results.stop()
             results.refresh()
-            self.better = results.better
-            self._propose_pieces(results)
+            if self.proposed is None and results.in_vain:
+                self.proposed = SpanPieces(self.editor, self.span, results.task)
+            if self.proposed is not None:
+                self.proposed.refresh()
         self._forget.enabled, self._forget.text = bool(self.earlier), FORGET if self.earlier else ""
         self._fill_list()
+
+    @property
+    def better(self) -> tuple[SpanResult, ...]:
+        return self.results.better if self.results else ()
+
+    @property
+    def pieces(self) -> tuple[RunPiece, ...]:
+        return self.proposed.pieces if self.proposed else ()
 
     def _fill_list(self) -> None:
         results = self.results
@@ -319,38 +302,14 @@ class SearchTab(Tab):
         results, result = row
         return results.shown_run(result)
 
-    def _propose_pieces(self, results: SpanResults) -> None:
-        """When a search for an earlier end has found nothing for a while, propose the pieces of its span.
-
-        They are those of the present run.
-        """
-        search, task, whole = results.search, results.task, self.method in IMPROVES
-        late = search.ticks_run and (search.seconds > PATIENCE or not (results.running or results.stopped))
-        nothing = late and all(run.missed_by is not None for run in self.better)
-        sooner = not task.measure and (search.own is not None or task.rest or "won" in task.goal)
-        if self._pieced_span is None and nothing and sooner and not whole and results.first_behind is not None:
-            self._pieced_span = self.span
-        session, track, splits = self.editor.session, self.editor.track, self._splits.result
-        if self._pieced_span is None or self._cut_track is track:
-            return
-        self.pieces = ()
-        if splits is not None and splits[0] is track:
-            pieces = pieces_of(SearchedSpan(session, *self._pieced_span), splits[1])
-            if task.rest and task.goal and self._pieced_span[1] <= len(track):
-                pieces.insert(1, RunPiece(*self._pieced_span, WITHOUT_REST, SpanGoal(task.goal)))
-            self._cut_track, self.pieces = track, tuple(pieces)
-        elif self._asked_track is not track:
-            self._asked_track = track
-            self._splits.ask((track, session.recording()))  # in a thread: runs may be long
-
     def _use_row(self, index: int) -> None:
         """Use a result, or search a piece; the others stay for later."""
         row = self._rows[index]
         if isinstance(row, RunPiece):
-            proposed = self._pieced_span, self._cut_track, self.pieces
+            proposed = self.proposed
             self.span = row.first, row.last
             self._fill(row.name, lambda _: row.wanted, start=True)
-            self._pieced_span, self._cut_track, self.pieces = proposed
+            self.proposed = proposed
         else:
             results, result = row
             results.put_into_run(result)
@@ -362,15 +321,15 @@ class SearchTab(Tab):
         if results:
             state += (results.status, results.running, results.first_behind, self.pieces, *map(id, self.better))
         wanted = self.order, self.rest, self.goal.text
-        return self.span, self._span_reason, self.editor.selection, *wanted, self.list.over, state
+        return self.span, self.span_reason, self.editor.selection, *wanted, self.list.over, state
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
         palette, results, (x, y, w, h) = theme.palette, self.results, self.area
         first, last = self.span
         theme.text(surface, f"Ticks {first} to {last - 1}", x + 6, y + 8, size=11, bold=True, width=120)
-        if self._span_reason or (self.span != self.editor.selection and self.editor.anchor is not None):
-            why = self._span_reason or "not the selection"
+        if self.span_reason or (self.span != self.editor.selection and self.editor.anchor is not None):
+            why = self.span_reason or "not the selection"
             theme.text(surface, why, x + 132, y + 9, size=SMALL, colour=palette.faint, width=w - 318)
         theme.text(surface, "Goal", x + 6, y + 29, size=11)
         self._button.text = "Stop" if results is not None and results.running else "Start"

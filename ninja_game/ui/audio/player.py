@@ -204,7 +204,7 @@ def _open_mixer() -> bool:
 
 CHAIN_TICKS = 60  # between two pieces of gold of a chain, in which the pitch rises
 
-_STRIDE = 32.4  # px between two footsteps: half a cycle of the drawn legs (view/ninja/figure.py)
+STEP_PX = 32.4  # px between two footsteps: half a cycle of the drawn legs (view/ninja/figure.py)
 
 
 class Variants:
@@ -239,16 +239,16 @@ class Footsteps:
     """Decides when a foot touches the floor. The first step of a run comes after half a stride."""
 
     def __init__(self) -> None:
-        self._way = _STRIDE / 2
+        self._way = STEP_PX / 2
 
     def loudness(self, ninja: Ninja) -> float:
         """Loudness of the step of this tick, a share by speed; 0: no step. To be called every tick."""
         if ninja.state != RUNNING:
-            self._way = _STRIDE / 2
+            self._way = STEP_PX / 2
             return 0.0
         speed = abs((ninja.x - ninja.prev_x) * -ninja.floor_y + (ninja.y - ninja.prev_y) * ninja.floor_x)
         self._way += speed
-        if self._way < _STRIDE:
+        if self._way < STEP_PX:
             return 0.0
-        self._way -= _STRIDE
+        self._way -= STEP_PX
         return min(1.0, 0.4 + speed / 6)

@@ -209,7 +209,7 @@ def medal_mark(medal: str) -> Content:
     return tag("span", medal[0].upper(), class_=f"medal {medal}", title=medal) if medal in MEDALS else joined()
 
 
-_SORT_ORDERS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
+SORT_ORDERS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
 
 _MAX_NAME = 60  # characters of a name in the list
 
@@ -263,7 +263,7 @@ def _episodes(shown: PublishedLevels) -> Mapping[str, str]:
 
 def search(episodes: Mapping[str, str]) -> Markup:
     """The search above a list; hidden without a script."""
-    options = [tag("option", name, value=value) for value, name in _SORT_ORDERS]
+    options = [tag("option", name, value=value) for value, name in SORT_ORDERS]
     chosen = [tag("option", name, value=value) for value, name in episodes.items()]
     select = tag("label", "Episode ", tag("select", tag("option", "all", value=""), *chosen, name="episode"))
     sort = tag("label", "Sort ", tag("select", *options, name="sort"))

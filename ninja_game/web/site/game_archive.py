@@ -136,7 +136,7 @@ def library_zip(files: Mapping[str, bytes]) -> bytes:
     return out.getvalue()
 
 
-_LEFT_OUT = {
+NOT_IN_PAGE = {
     "package": ("batch/", "board/", "cli/", "learn/", "search/", "tas", "web/board/", "web/page", "web/site/"),
     "levels": (),
     "assets": ("bench.", "generated.tsv.xz", "sounds/music/"),
@@ -159,14 +159,14 @@ def game_files() -> Iterator[tuple[str, bytes]]:
     """Name and content of every file of the package, its data, and the library for TOML."""
     for path in PACKAGE.rglob("*.py"):
         name = path.relative_to(PACKAGE).as_posix()
-        if not name.startswith(_LEFT_OUT["package"]):
+        if not name.startswith(NOT_IN_PAGE["package"]):
             yield f"ninja_game/{name}", path.read_bytes()
     yield "boot.py", (PACKAGE / "web" / "page" / "boot.py").read_bytes()
     for folder in ("levels", "assets"):
         root = data_folder(folder)
         for path in root.rglob("*"):
             name = path.relative_to(root).as_posix()
-            if path.is_file() and path.suffix != ".md" and not name.startswith(_LEFT_OUT[folder]):
+            if path.is_file() and path.suffix != ".md" and not name.startswith(NOT_IN_PAGE[folder]):
                 yield f"ninja_game/data/{folder}/{name}", path.read_bytes()
     root = Path(tomlkit.__file__).parent
     for path in root.rglob("*.py"):

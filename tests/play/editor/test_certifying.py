@@ -17,7 +17,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.brush import object_of_type, placed, with_switch
-from ninja_game.editor.certify import _LANDED, Ask, Certification, find_reach, passed_by, search_of
+from ninja_game.editor.certify import LANDED_TICK, Ask, Certification, find_reach, passed_by, search_of
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import open_source
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
@@ -308,7 +308,7 @@ def test_who_stands_goes_nowhere_before_the_jump_and_steers_in_the_air() -> None
     lefts, ups, rights = (arcs[k : k + 2] for k in (0, 2, 4))
     for way, both in ((-1, lefts), (0, ups), (1, rights)):
         for arc in both:
-            assert {x for x, _ in arc[: _LANDED + 1]} == {396.0}
+            assert {x for x, _ in arc[: LANDED_TICK + 1]} == {396.0}
             assert (arc[-1][0] - 396) * way > 24 if way else arc[-1][0] == 396
         low, high = (min(y for _, y in arc) for arc in both)
         assert high < low - 24, "who holds the key jumps higher"

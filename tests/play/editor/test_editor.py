@@ -15,7 +15,7 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.document import History
 from ninja_game.editor import packs
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed, tile_key
-from ninja_game.editor.certify import _LANDED, SQUARE, STARTS, Certification, Reach, with_ninja_at
+from ninja_game.editor.certify import LANDED_TICK, SQUARE, STARTS, Certification, Reach, with_ninja_at
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
@@ -509,7 +509,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     # A jump straight up is the world's own: the highest square is where the highest of a run is.
     jump = run_level(
         with_ninja_at(room.draft, room.editor.session.tools.pointer),
-        with_press_bits(bytes([0] * _LANDED + [4] * (40 - _LANDED))),
+        with_press_bits(bytes([0] * LANDED_TICK + [4] * (40 - LANDED_TICK))),
         memory="plain",
     )
     top = min(y for _, y, _ in standing.spans)

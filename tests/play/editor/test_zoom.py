@@ -10,7 +10,7 @@ from ninja_game.editor.motion import SYMMETRIES
 from ninja_game.editor.specs import BODY_PART, points
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.play.editor.sheet import GRIDS
-from ninja_game.play.editor.view import _AXES
+from ninja_game.play.editor.view import SYMMETRY_AXES
 from ninja_game.sim.grid import Cell, Point, middle_of
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import ObjectSpec
@@ -232,7 +232,7 @@ def test_all_that_lies_over_the_level_is_repaired_wherever_it_was_moved_to(
 
 @pytest.mark.parametrize("name", [name for name in SYMMETRIES if name != "off"])
 def test_the_lines_of_a_symmetry_are_alike_under_it(name: str) -> None:
-    lines = {frozenset(line) for line in _AXES[name]}
+    lines = {frozenset(line) for line in SYMMETRY_AXES[name]}
     assert all(len(line) == 2 for line in lines)
     for motion in SYMMETRIES[name]:
         assert {frozenset(motion.point(*end) for end in line) for line in lines} == lines

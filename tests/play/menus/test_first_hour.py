@@ -44,7 +44,7 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import CLASSIC, Theme
 from ninja_game.ui.widgets import Button
-from ninja_game.view.hud import _CLEAR, _IN_BORDER, Hud, PlacedMessage, placed_message
+from ninja_game.view.hud import BORDER_MESSAGE_TOP, CLEAR_AWAY, Hud, PlacedMessage, placed_message
 from ninja_game.view.places import MUST, away_from, hidden_by, solid_place, tag_top
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
@@ -612,7 +612,7 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     assert hud_view(level.play).message == PlacedMessage("Another one", tiles, things, (40, 500), covers=False)
     for about in ((40.0, 440.0), (750.0, 440.0)):
         lines, left, y, w, high, *_ = hud.box(PlacedMessage(text, tiles, things, about, covers=False))
-        assert y < _IN_BORDER
+        assert y < BORDER_MESSAGE_TOP
         cells = {(int(a // 24) - 1, int(b // 24) - 1) for a in (left, left + w) for b in (y, y + high * len(lines))}
         assert all(tiles[column * ROWS + row] == 1 for column, row in cells), "over rock only"
         far.append(left)
@@ -622,7 +622,7 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     assert shown.top < driver.app.canvas.px(120), "near the upper border, in the open too"
     assert not shown.collidepoint(driver.app.canvas.point(396, 60)), "but never over the ninja"
     everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
-    assert hud.box(PlacedMessage(text, (0,) * 713, everywhere, None, covers=False)).y == _IN_BORDER
+    assert hud.box(PlacedMessage(text, (0,) * 713, everywhere, None, covers=False)).y == BORDER_MESSAGE_TOP
 
 
 @pytest.mark.parametrize("place", [(204.0, 516.0), (36.0, 36.0), (756.0, 564.0), (396.0, 300.0), (756.0, 36.0)])
@@ -645,7 +645,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
         lines, x, y, w, high, margin, _ = hud.box(PlacedMessage(text, tiles, things, *view.message[3:]))
         h = high * len(lines) + 2 * margin - 1
         away = hypot(max(x - place[0], 0, place[0] - x - w), max(y - place[1], 0, place[1] - y - h))
-        assert _CLEAR <= away <= 2.2 * CELL, "beside it, and solid while the ninja is there"
+        assert CLEAR_AWAY <= away <= 2.2 * CELL, "beside it, and solid while the ninja is there"
         assert 24 <= x < x + w <= 768
         assert 24 <= y < y + h <= 576
         surface.fill("black")

@@ -16,10 +16,10 @@ from PIL import Image
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.reader import room_level
 from ninja_game.play.lab.cells import CellsTouched, GridOfCells, NineCells, RayCast
-from ninja_game.play.lab.edges import _STATES, Doors, EdgeStates, WalkingEnemies
+from ninja_game.play.lab.edges import EDGE_WORDS, Doors, EdgeStates, WalkingEnemies
 from ninja_game.play.lab.figure import FIGURE, Figure, Sheet, room_world
 from ninja_game.play.lab.grids import Bullets, FiveCells, LooseGrid
-from ninja_game.play.lab.one_tick import _PLAYED, PHASES, OneTick
+from ninja_game.play.lab.one_tick import LAB_INPUTS, PHASES, OneTick
 from ninja_game.play.lab.projection import PUSH, Bodies, Projection, Response, candidates
 from ninja_game.play.lab.screen import FIGURES, FILM_TICKS, FigureArea, LabScreen, export_figure, figure_pictures
 from ninja_game.sim.collision.box import collide_box
@@ -191,7 +191,7 @@ def test_edge_states_follow_paint_and_door() -> None:
         cell, neighbour = figure.cell, figure.cell + NEIGHBOUR_OFFSET[side]
         assert figure.tiles.tiles[cell] == 5
         own, other = FACE[4 * 5 + side], FACE[4 * figure.tiles.tiles[neighbour] + (side ^ 2)]
-        assert numbers(figure)["3. the state"] == _STATES[EDGE_OF_FACES[3 * own + other]]
+        assert numbers(figure)["3. the state"] == EDGE_WORDS[EDGE_OF_FACES[3 * own + other]]
     assert figure.is_open, "painting moves no door"
     figure.press(60, 60)
     assert figure.tiles.tiles[figure.cell] == 0
@@ -365,8 +365,8 @@ def test_one_tick_shows_every_call_of_the_real_world() -> None:
     figure = OneTick()
     plain = Simulation(room_level(figure.room, figure.objects), memory="plain")
     seen = set()
-    for tick in range(len(_PLAYED)):
-        plain.step_keys(_PLAYED[tick])
+    for tick in range(len(LAB_INPUTS)):
+        plain.step_keys(LAB_INPUTS[tick])
         assert world_digest(plain.world) == world_digest(figure.stage.world)
         phases = []
         for at in range(len(figure.calls)):

@@ -19,7 +19,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menus.browser import Browser, LevelChoice
-from ninja_game.play.menus.episodes import _NAMED, Cells, EpisodeGrid
+from ninja_game.play.menus.episodes import NAMED_CELL, Cells, EpisodeGrid
 from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
@@ -206,7 +206,7 @@ def test_grids_of_every_size_keep_inside_their_place(numbers: list[int]) -> None
     assert h <= 287
     assert sorted(number for number in cells.numbers if number >= 0) == sorted(numbers)
     assert cells.numbers[cells.index] >= 0
-    assert (cells.cell_height >= _NAMED) == (len(numbers) == 20), "names stand where there is room"
+    assert (cells.cell_height >= NAMED_CELL) == (len(numbers) == 20), "names stand where there is room"
 
 
 def test_all_problems_of_files_are_shown_whole(driver: MenuDriver) -> None:

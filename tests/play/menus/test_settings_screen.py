@@ -7,8 +7,8 @@ import pytest
 
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import Menu
-from ninja_game.play.panels.bindings import _ROW, LIST, SLOTS, Capture, clash
-from ninja_game.play.panels.settings import _LEFT, _STEP, _TOP, SettingsScreen
+from ninja_game.play.panels.bindings import BINDING_ROW, LIST, SLOTS, Capture, clash
+from ninja_game.play.panels.settings import PALETTE_PREVIEW, SettingsScreen
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, bindable
 from ninja_game.ui.theme import PALETTES
 from ninja_game.ui.widgets import Choice, Slider
@@ -101,12 +101,12 @@ def test_taken_key_asks_what_becomes_of_it(
 def test_only_a_click_on_a_slot_waits_for_a_press(driver: MenuDriver, screen: SettingsScreen) -> None:
     driver.settings_page("Keyboard")
     x, y, width, _ = LIST
-    driver.mouse(x + 10, y + 2.5 * _ROW)
+    driver.mouse(x + 10, y + 2.5 * BINDING_ROW)
     assert driver.top() is screen
     assert screen.tables["keys"].index == 2
-    driver.mouse(x + width - 12, y + 2.5 * _ROW)
+    driver.mouse(x + width - 12, y + 2.5 * BINDING_ROW)
     assert screen.tables["keys"].slot == 0, "the bar begins where the slots end"
-    driver.mouse(x + width / 2, y + 2.5 * _ROW)
+    driver.mouse(x + width / 2, y + 2.5 * BINDING_ROW)
     assert driver.shown(Capture)
 
 
@@ -140,7 +140,8 @@ def test_a_palette_is_seen_in_a_level_beside_its_setting(driver: MenuDriver) -> 
 
     def sample() -> pygame.Color:
         driver.frames(1)
-        return driver.app.surface.get_at(driver.app.canvas.point(_LEFT + 2, _TOP + 8 * _STEP + 22))
+        x, y = PALETTE_PREVIEW
+        return driver.app.surface.get_at(driver.app.canvas.point(x + 2, y + 2))
 
     def is_rock(seen: pygame.Color, palette: str) -> bool:
         return max(abs(a - b) for a, b in zip(seen[:3], PALETTES[palette].tile[:3], strict=True)) <= max(GRAIN.values())

@@ -18,7 +18,7 @@ from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from ninja_game.sim.kinds import EXIT
 from ninja_game.simulation import Simulation
-from ninja_game.view.hud import _PRIZE, EndPanel, Hud, HudView, PlacedMessage
+from ninja_game.view.hud import END_MEDAL_SIZE, EndPanel, Hud, HudView, PlacedMessage
 from ninja_game.view.level_view import DANCE_TICKS, DOOR_STEP, ENTER_TICKS, LevelView
 from ninja_game.view.places import MUST
 from tests.support.draw_log import DrawLog
@@ -260,7 +260,7 @@ def test_panel_of_an_end_fades_in_as_a_whole_and_its_medal_hides_no_word(driver:
     assert pygame.image.tobytes(drawn(1.0, 0.0)[0], "RGB") == pygame.image.tobytes(empty, "RGB")
     half = drawn(1.0, 0.5)[0]
     assert abs(2 * half.get_at(box.center).r - whole.get_at(box.center).r) <= 2
-    words = box.move(int(_PRIZE) + 30, 0).clip(box)
+    words = box.move(int(END_MEDAL_SIZE) + 30, 0).clip(box)
     for k in range(1, 10):
         surface, same = drawn(k / 10, 1.0)
         assert same == box

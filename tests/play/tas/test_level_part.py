@@ -22,7 +22,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.menu_screen import FormPanel
 from ninja_game.play.replay.screen import SPEEDS, ReplayScreen
-from ninja_game.runs.compare import _AHEAD
+from ninja_game.runs.compare import SPEED_AHEAD
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, Demo, with_press_bits
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.timeline import Timeline, apart_text
@@ -210,7 +210,7 @@ def test_the_rest_of_another_run_from_the_nearest_place(at: TasDriver) -> None:
     here, there = at.session.timeline.positions[120], editor.others[0].trajectory.positions
     speed = at.session.timeline.trajectory().velocities[120]
     faster = np.hypot(*(editor.others[0].trajectory.velocities - speed).T)
-    nearest = int(np.argmin(np.hypot(*(there - here).T) + _AHEAD * faster))
+    nearest = int(np.argmin(np.hypot(*(there - here).T) + SPEED_AHEAD * faster))
     editor.go(121)
     at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
     theirs = editor.others[0].track
@@ -241,7 +241,7 @@ def test_the_beginning_of_another_run_before_the_rest_of_this_one(at: TasDriver)
     editor.go(120)
     here, there = at.session.timeline.positions[119], other.trajectory.positions
     faster = other.trajectory.velocities - at.session.timeline.trajectory().velocities[119]
-    joint = int(np.argmin(np.hypot(*(there - here).T) + _AHEAD * np.hypot(*faster.T))) + 1
+    joint = int(np.argmin(np.hypot(*(there - here).T) + SPEED_AHEAD * np.hypot(*faster.T))) + 1
     assert joint != 120
     at.choose_in_menu("Take from the other run...")
     at.choose("Its beginning, then my rest")

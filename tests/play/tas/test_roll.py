@@ -7,7 +7,6 @@ import pytest
 
 from ninja_game.formats.replay.notations import Marker
 from ninja_game.tas.tracks import InputTrack
-from ninja_game.tas_editor.roll.part import _MARGIN
 from ninja_game.ui.input.keys import SCANCODES
 from tests.support.tas_driver import TasDriver
 
@@ -74,7 +73,7 @@ def test_rows_scroll_with_the_cursor_before_it_reaches_the_edge(at: TasDriver) -
     assert roll.top == 200 - rows // 2, "far away: into the middle"
     for _ in range(rows):
         at.press("down")
-    assert editor.cursor - roll.top == rows - 1 - rows // _MARGIN
+    assert editor.cursor - roll.top == rows - 1 - rows // 4, "a quarter of them stays below it"
     editor.go(0)
     at.frames()
     assert roll.top == 0

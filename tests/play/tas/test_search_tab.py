@@ -23,9 +23,9 @@ from ninja_game.search.formula.task import SpanResult
 from ninja_game.sim.inputs import Input
 from ninja_game.sim.kinds import EXIT
 from ninja_game.tas.goals import IMPROVE, PRESETS
-from ninja_game.tas_editor import span_results
+from ninja_game.tas_editor import span_pieces, span_results
 from ninja_game.tas_editor.roll.facts import BEFORE, compared, different_keys
-from ninja_game.tas_editor.span_results import _COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults
+from ninja_game.tas_editor.span_results import COMPILING_SEARCHES, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults
 from ninja_game.tas_editor.tabs import search_tab as module
 from ninja_game.tas_editor.tabs.search_tab import SearchTab
 from ninja_game.tas_editor.tabs.tab import SMALL
@@ -85,7 +85,7 @@ def searched(at: TasDriver, tab: SearchTab) -> SpanResults:
 @pytest.fixture
 def nothing_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """Searches end at once without a result, and pieces of their spans are proposed then."""
-    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    monkeypatch.setattr(span_results, "PATIENCE", 0.0)
     monkeypatch.setattr(background, "search_span", lambda task, report, **_: (report(1, ()), ())[1])
 
 
@@ -218,7 +218,7 @@ def test_results_of_one_way_are_one(at: TasDriver, tab: SearchTab) -> None:
 def test_pieces_of_a_span_in_which_nothing_better_is_found_are_searched_by_a_click(
     at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    monkeypatch.setattr(span_results, "PATIENCE", 0.0)
     end = at.session.timeline.end[0]
     at.editor.select(0, end + 1)
     at.choose("Use the selection")
@@ -276,7 +276,7 @@ def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
         threads.append(current_thread())
         return run_splits(*args)
 
-    monkeypatch.setattr(module, "run_splits", watched)
+    monkeypatch.setattr(span_pieces, "run_splits", watched)
     wish(at, "Same end, sooner")
     at.wait(lambda: bool(tab.pieces), "pieces")
     expected = [(100, 115, "To tick 114"), (115, 130, "To tick 129")]
@@ -288,7 +288,11 @@ def test_a_span_with_nothing_to_reach_is_proposed_in_halves(
     row(at, tab, len(tab.better) + 1)
     task = results_of(tab).task
     assert (task.first, task.last, task.goal, task.rest) == (100, 130, goal, False)
-    assert [piece.name for piece in tab.pieces[:2]] == ["Whole run", span_results.WITHOUT_REST]
+    assert [piece.name for piece in tab.pieces[:2]] == ["Whole run", span_pieces.WITHOUT_REST]
+    at.editor.edit(lambda track: track.replaced(len(track), len(track), bytes(3)))
+    at.frames(2)
+    at.wait(lambda: bool(tab.pieces), "those of the run as it is")
+    assert tab.pieces[1].wanted.goal == goal, "of the span, not of the piece that is searched"
 
 
 def test_a_taken_result_leaves_the_cursor_in_its_place_and_undo_too(at: TasDriver, tab: SearchTab) -> None:
@@ -296,7 +300,7 @@ def test_a_taken_result_leaves_the_cursor_in_its_place_and_undo_too(at: TasDrive
     results = searched(at, tab)
     results.stop()
     shorter = replace(tab.better[0], ticks=25, inputs=tab.better[0].inputs[:125])
-    results.better = tab.better = (shorter,)
+    results.better = (shorter,)
     for cursor, expected in ((50, 50), (110, 110), (128, 124), (135, 130)):
         at.editor.go(cursor)
         at.frames(2)
@@ -394,13 +398,13 @@ def test_results_of_earlier_searches_stay_listed_until_they_are_forgotten(at: Ta
 def test_old_pieces_are_no_rows_after_an_edit(at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch) -> None:
     wish(at, "Same end, sooner")
     at.wait(lambda: bool(tab.pieces), "pieces")
-    monkeypatch.setattr(tab._splits, "ask", lambda _: None)
+    held = Event()
+    monkeypatch.setattr(span_pieces, "run_splits", lambda *run: held.wait(LONGEST) and run_splits(*run))
     at.editor.edit(lambda track: track.up_to(110))
     at.frames(2)
     assert not tab.pieces
-    monkeypatch.undo()
-    tab._asked_track = None
-    at.wait(lambda: tab._cut_track is at.editor.track, "the pieces of the run as it is")
+    held.set()
+    at.wait(lambda: bool(tab.pieces), "the pieces of the run as it is")
     assert [piece[:3] for piece in tab.pieces] == [(0, 110, "Whole run")], "it ends before the span"
 
 
@@ -410,7 +414,7 @@ def test_no_pieces_are_proposed_for_what_is_not_to_be_sooner(at: TasDriver, tab:
         tab.goal.show(goal)
         tab.start()
         ended(at, tab)
-        assert tab._pieced_span is None, goal
+        assert tab.proposed is None, goal
 
 
 def test_an_edit_in_front_ends_the_search(at: TasDriver, tab: SearchTab) -> None:
@@ -502,7 +506,7 @@ def test_the_button_stops_what_still_compiles(at: TasDriver, tab: SearchTab, mon
     compiled = Event()
     monkeypatch.setattr(background, "search_span", lambda *_, **__: (compiled.wait(60.0), ())[1])
     wish(at, "Greatest speed")
-    assert results_of(tab).note == _COMPILING
+    assert results_of(tab).note == COMPILING_SEARCHES
     at.choose("Stop")
     assert not results_of(tab).running
     assert (results_of(tab).status, results_of(tab).note) == ("ended", NOT_BEGUN)
@@ -757,7 +761,7 @@ def test_ticks_that_are_not_the_selected_ones_say_why(
     tab.goal.show("x > 1")
     at.editor.select(100, 131)
     tab.use_selection()
-    assert tab._span_reason == "", "what a person has typed is for the selection"
+    assert tab.span_reason == "", "what a person has typed is for the selection"
 
 
 def test_a_speed_of_two_digits_has_room(at: TasDriver) -> None:
@@ -779,9 +783,9 @@ def test_a_selection_is_searched_whatever_ticks_a_goal_of_the_menu_had(
 ) -> None:
     for first in (60, 100):
         wish(at, name)
-        assert tab._span_reason
+        assert tab.span_reason
         selected(at, first, 20)
-        assert (tab.span, tab._span_reason, tab.method, tab.goal.text) == ((first, first + 20), "", "auto", "")
+        assert (tab.span, tab.span_reason, tab.method, tab.goal.text) == ((first, first + 20), "", "auto", "")
     at.write("x > 1")
     assert (tab.task.first, tab.task.last, tab.task.goal) == (100, 120, "x > 1")
 
@@ -792,7 +796,7 @@ def test_a_goal_that_is_typed_leaves_the_whole_run(at: TasDriver, tab: SearchTab
     at.mouse(*tab.goal.centre)
     at.press("end")
     at.write(" and x > 1")
-    assert (tab.span, tab.method, tab._span_reason) == ((100, 130), "auto", "")
+    assert (tab.span, tab.method, tab.span_reason) == ((100, 130), "auto", "")
     assert tab.goal.text == "won and x > 1"
 
 

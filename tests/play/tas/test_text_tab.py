@@ -110,6 +110,10 @@ def test_what_is_wrong_is_told_by_its_word(at: TasDriver, tab: TextTab) -> None:
     assert at.app.notice.startswith("Not changed: word 3: not an input run; found 'jr*2'")
     typed(at, tab, "R*3 L")
     assert at.app.notice == "", "it is done now"
+    typed(at, tab, "R*3 L jr*2")
+    at.app.notify(at.app.notice)
+    typed(at, tab, "R*3 L")
+    assert at.app.notice, "news with the words of a refusal stays"
 
 
 def test_a_name_of_several_words_ends_a_line(at: TasDriver, tab: TextTab) -> None:
