@@ -8,6 +8,9 @@ records.
 from __future__ import annotations
 
 import mmap
+from collections.abc import Callable
+from struct import Struct
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,11 +89,24 @@ STATE_START = WORLD.fields["event_count"][1]  # type: ignore[index]
 """A save-state leaves out the events, which are first."""
 OBJECTS_START = WORLD.fields["objects"][1]  # type: ignore[index]
 
-_set_ninja, _set_event, _set_object = (setter_of(fields_of(cls)) for cls in (Ninja, Event, Object))
+_set_ninja, _set_event = (setter_of(fields_of(cls)) for cls in (Ninja, Event))
 _SCALARS = [field.name for field in scalars_of(World)]
 _get_ninja, _get_event = getter_of(fields_of(Ninja)), getter_of(fields_of(Event))
 _KIND_FIELDS = {kind.number: [field.name for field in fields_of(kind.fields)] for kind in KINDS}
 _GET_KIND = {kind.number: getter_of(fields_of(kind.fields)) for kind in KINDS}
+
+
+def _reader_of(cls: type) -> tuple[Callable[..., tuple[Any, ...]], Callable[[Any, tuple[Any, ...]], None]]:
+    """Functions that read the fields of a kind from the bytes of an object, and write them into an ``Object``."""
+    ordered = sorted(fields_of(cls), key=lambda field: OBJECT_DTYPE.fields[field.name][1])  # type: ignore[index]
+    text, end = "", 0
+    for field in ordered:
+        dtype, offset = OBJECT_DTYPE.fields[field.name][:2]  # type: ignore[index]
+        text, end = f"{text}{offset - end}x{dtype.char}", offset + dtype.itemsize
+    return Struct(text).unpack_from, setter_of(ordered)
+
+
+_READERS = {kind.number: _reader_of(kind.fields) for kind in KINDS}
 
 
 def used_bytes(objects: int) -> int:
@@ -126,7 +142,7 @@ def bytes_of(worlds: Records) -> NDArray[np.uint8]:
 
 
 def plain_copy(worlds: Records, index: int) -> World:
-    """Copy one world of an array, with its events, to plain objects: to read it, hash it or compare it."""
+    """Copy one world of an array, with its events, to plain objects; of each object only the fields of its kind."""
     record = worlds[index]
     w = World()
     for field in fields_of(World):
@@ -136,9 +152,11 @@ def plain_copy(worlds: Records, index: int) -> World:
     _set_ninja(w.ninja, record["ninja"].item())
     for event, values in zip(w.events, record["events"][: w.event_count].tolist(), strict=False):
         _set_event(event, values)
-    for values in record["objects"][1 : w.slots_used].tolist():
-        o = Object()
-        _set_object(o, values)
+    objects = record["objects"][1 : w.slots_used]
+    states = objects.tobytes()
+    for number, kind in enumerate(objects["kind"].tolist()):
+        o, (read, write) = Object(), _READERS[kind]
+        write(o, read(states, number * OBJECT_DTYPE.itemsize))
         w.objects.append(o)
     return w
 

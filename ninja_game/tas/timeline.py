@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import open_worlds, switch_to_compiled
-from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS, MemoryName
+from ninja_game.backend.worlds import TRACED_FLOATS, TRACED_INTS, MemoryName, TraceArrays
 from ninja_game.budget import tick_cost
 from ninja_game.errors import FormatError
 from ninja_game.runs.deaths import death_text, ending_text
@@ -143,16 +143,8 @@ class Timeline:
         self._reserve(len(self))
         stop = min(len(self), self.simulated_until + ticks)
         self._go_on(stop - self.simulated_until)
-        first = self._states.nearest(self.simulated_until)[0]
-        while self.simulated_until < stop:
-            start, state = self._states.nearest(self.simulated_until)
-            # A world at the same tick may have other inputs behind it.
-            if self._worlds.tick() != start or start == first:
-                self._worlds.restore(state)
-            end = min(stop, start + max(1, self._states.spacing))
-            self._run(start, end)
-            if self._states.wants(end):
-                self._states.keep(end, self._worlds.save())
+        if stop > self.simulated_until:
+            self._run(stop)
         return self.complete
 
     def _go_on(self, ticks: int) -> None:
@@ -169,19 +161,27 @@ class Timeline:
         if self.simulated_until <= min(tick, len(self) - 1):
             self.simulate(tick + 1 - self.simulated_until)
 
-    def _run(self, first: int, last: int) -> None:
-        """Simulate the ticks ``first`` … ``last`` - 1 and record them."""
-        inputs = fit_inputs(self.inputs[first:last], last - first)
-        record = self._worlds.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
+    def _run(self, stop: int) -> None:
+        """Simulate from the nearest save-state up to tick ``stop``, and record those ticks; keep save-states."""
+        first, state = self._states.nearest(self.simulated_until)
+        self._worlds.restore(state)
+        end, slots, records = first, [id_ + 1 for id_ in self.watched], []
+        while end < stop:
+            start, end = end, min(stop, end - end % self._states.spacing + self._states.spacing)
+            inputs = fit_inputs(self.inputs[start:end], end - start)
+            records.append(self._worlds.trace(inputs, slots, events=True))
+            if self._states.wants(end):
+                self._states.keep(end, self._worlds.save())
+        record = TraceArrays(*map(np.concatenate, zip(*records, strict=True)))
         for name, values in ninja_columns(record).items():
-            self._columns[name][first:last] = values
+            self._columns[name][first:stop] = values
         if self.watched:
-            watched, objects = self._objects[first:last], object_rows(record, len(self.watched))
+            watched, objects = self._objects[first:stop], object_rows(record, len(self.watched))
             for name in ("x", "y", "s"):
                 watched[name] = objects[name]
             watched["switched"] = switched_doors(record, len(self.watched))
         self._events |= {first + at: names for at, names in enumerate(event_names(record)) if names}
-        self.simulated_until = last
+        self.simulated_until = stop
 
     def _reserve(self, rows: int) -> None:
         if len(self._objects) >= rows:

@@ -124,6 +124,8 @@ class TasScreen(WorkspaceScreen):
         super().enter()
         # Exclude present objects (compiled code has many) from garbage collection: that took 80 ms.
         gc.freeze()
+        self._garbage = gc.get_threshold()
+        gc.set_threshold(20_000)  # a path is a list of thousands of points, which would be searched several times
         if not self._entered:
             self._entered = True
             self.files.offer_recovered()
@@ -131,6 +133,7 @@ class TasScreen(WorkspaceScreen):
     def leave(self) -> None:
         super().leave()
         gc.unfreeze()
+        gc.set_threshold(*self._garbage)
         self.level.stop()
         self.session.end()
         if self not in self.app.stack:

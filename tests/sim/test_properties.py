@@ -13,6 +13,8 @@ from ninja_game.errors import LevelError
 from ninja_game.sim.digest import OVERWRITTEN, differences, state_digest
 from ninja_game.sim.kinds import DRONE, GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import BODIES, Body, Level, ObjectSpec
+from ninja_game.sim.schema.declare import fields_of
+from ninja_game.sim.schema.object_fields import Object
 from ninja_game.sim.states import JUMPING, PSEUDO_RANDOM
 from ninja_game.simulation import Simulation
 from tests.support.crowded import crowded_inputs, crowded_level
@@ -198,3 +200,17 @@ def test_the_digest_of_replays_covers_what_the_world_shows_and_nothing_inside_it
     assert (run.digest() != whole, run.replay_digest()) == (True, shown)
     run.world.objects[2].taken = 1
     assert run.replay_digest() != shown
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+@settings(max_examples=20)
+@given(seed=seeds, ticks=st.integers(0, 120))
+def test_a_copied_world_has_nothing_in_fields_of_other_kinds(seed: int, ticks: int) -> None:
+    """Compiled, those have the bytes of own fields."""
+    fields = [vars(Object)[field.name] for field in fields_of(Object)]
+    plain, compiled = (Simulation(crowded_level(seed), memory=memory) for memory in ("plain", "compiled"))
+    for run in (plain, compiled):
+        for keys in crowded_inputs(seed, ticks):
+            run.step_keys(keys)
+    rows = [[[field.__get__(o) for field in fields] for o in run.world.objects[1:]] for run in (plain, compiled)]
+    assert rows[0] == rows[1]

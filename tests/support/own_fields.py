@@ -16,7 +16,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from ninja_game.backend import layout, memories, plain
+from ninja_game.backend import memories, plain
 from ninja_game.backend.layout import OBJECT_DTYPE, WORLD
 from ninja_game.sim.kinds import KIND_OF, KINDS
 from ninja_game.sim.schema.declare import fields_of
@@ -55,7 +55,6 @@ def own_fields_only() -> Iterator[None]:
         patch.object(Object, "__setattr__", write),
         patch.object(plain, "_get_object", lambda o: tuple(slot.__get__(o) for slot in slots)),
         patch.object(plain, "_set_object", write_all),
-        patch.object(layout, "_set_object", write_all),
         patch.object(memories._PROCESS, "kernels", Interpreted()),
     ):
         yield

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from difflib import SequenceMatcher
 from functools import lru_cache
-from itertools import accumulate, groupby
 from typing import NamedTuple
 
 import numpy as np
@@ -168,14 +167,20 @@ _MAX_ROWS = 400
 """Most spans of equal keys whose changes are found one by one."""
 
 
+def _spans(inputs: bytes) -> tuple[list[tuple[int, int]], list[int]]:
+    """Keys and length of each span of equal keys, and the spans' borders."""
+    keys = np.frombuffer(b"\xff" + inputs + b"\xfe", np.uint8)
+    borders = np.flatnonzero(keys[1:] != keys[:-1])
+    return [*zip(keys[1:][borders[:-1]].tolist(), np.diff(borders).tolist(), strict=True)], borders.tolist()
+
+
 @lru_cache(maxsize=2)
 def changed_ticks(track: InputTrack, saved: InputTrack) -> bytes:
     """For each tick of a track whether it differs from the saved one; ticks that only moved do not."""
     ours, theirs = track.inputs, saved.inputs
     if len(ours) == len(theirs):
         return bytes(np.frombuffer(ours, np.uint8) != np.frombuffer(theirs, np.uint8))
-    old_rows, rows = ([(keys, len(list(ticks))) for keys, ticks in groupby(inputs)] for inputs in (theirs, ours))
-    starts = [list(accumulate((ticks for _, ticks in rows), initial=0)) for rows in (old_rows, rows)]
+    (old_rows, rows), starts = zip(*map(_spans, (theirs, ours)), strict=True)
     spans: list[tuple[str, int, int, int, int]] = [("replace", 0, len(old_rows), 0, len(rows))]
     if max(len(old_rows), len(rows)) <= _MAX_ROWS:
         spans = list(SequenceMatcher(None, old_rows, rows, autojunk=False).get_opcodes())

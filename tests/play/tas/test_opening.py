@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator
 from pathlib import Path
 from threading import Event
@@ -44,6 +45,7 @@ def opened(at: MenuDriver) -> None:
 
 
 def test_the_window_says_what_is_done_until_the_tas_editor_is_there(at: MenuDriver, loaded: Event) -> None:
+    garbage = gc.get_threshold()
     open_tas_editor(at.app, load_replays(RUN)[0], [], 17)
     at.frames(2)
     screen = at.shown(OpeningScreen)
@@ -59,8 +61,10 @@ def test_the_window_says_what_is_done_until_the_tas_editor_is_there(at: MenuDriv
     opened(at)
     editor = at.shown(TasScreen)
     assert editor.editor.cursor == 17
+    assert gc.get_threshold()[0] > garbage[0], "points of a path are not garbage"
     editor.files.leave()
     assert screen not in at.app.stack
+    assert gc.get_threshold() == garbage
 
 
 def test_what_cannot_be_opened_is_told_where_one_came_from(
