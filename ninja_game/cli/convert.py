@@ -68,7 +68,8 @@ def convert(
       file    a level file of N, $name#author#comment#level#, recordings with their demos behind the level
       replay  recordings as our replay texts, run once; several: one file each, in the folder OUT
       episode the recordings, in the order of an episode's levels, as one text: the time is carried on
-      inputs  the same, but not run and with all their inputs; celeste, libtas: in the notations of these tools
+      inputs  recordings as replay texts, not run, with all their inputs
+      celeste, libtas  the same in the notations of these tools
 
     Without --to: replay where OUT ends in .replay.txt or .replay, episode for .episode.txt, inputs for .inputs.txt,
     celeste for .tas, file for .demo, string for .nlevel; else levels of N become ascii and readable ones a level file.
