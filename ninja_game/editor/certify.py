@@ -17,7 +17,7 @@ from ninja_game.backend.memories import compiled_available, open_worlds
 from ninja_game.editor.brush import EMPTY, object_of_type, placed
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import object_type_name
-from ninja_game.editor.stamp import Stamp, put
+from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.formats.messages import SIZE
 from ninja_game.formats.run_time import seconds_text
@@ -388,7 +388,7 @@ _FIRST_WALL = next(number for number, plan in enumerate(FAN) if plan.wall)
 
 
 def with_ninja_at(draft: Draft, place: tuple[float, float]) -> Level:
-    return put(draft, Stamp({}, (placed(object_of_type("ninja"), *place, "px"),))).level
+    return with_stamp(draft, Stamp({}, (placed(object_of_type("ninja"), *place, "px"),))).level
 
 
 def lead_in(level: Level, inputs: bytes, tick: int) -> bytes:

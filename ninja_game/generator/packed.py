@@ -68,7 +68,7 @@ def read_line(line: str) -> PackedLevel:
     return PackedLevel(int(seed), int(wanted), name, float(difficulty), parse_level_string(level), inputs)
 
 
-def generated_levels(difficulty: int | None = None) -> list[PackedLevel]:
+def read_packed_levels(difficulty: int | None = None) -> list[PackedLevel]:
     """Read the generated levels that come with the game, by seed: those of a ``difficulty``, 1 to 10, or all.
 
     Raises FileError if they are missing, as in a page.

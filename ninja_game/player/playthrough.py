@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game.errors import DAMAGED, LevelError
-from ninja_game.files.reading import stamp_of
+from ninja_game.files.reading import file_stamp
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.named_level import NamedLevel
@@ -194,11 +194,11 @@ class LevelPlaythrough(Playthrough):
         super().__init__(data, entry, body=body, practice_mode=practice_mode)
         self._following = following
         self._levels: Sequence[NamedLevel] = [entry.named]
-        self._stamp = stamp_of(Path(entry.named.file))
+        self._stamp = file_stamp(Path(entry.named.file))
 
     def restart(self) -> bool:
         """Read the level's file again if it has changed; whether the level is another one now."""
-        stamp, before = stamp_of(Path(self.entry.named.file)), self.level
+        stamp, before = file_stamp(Path(self.entry.named.file)), self.level
         if stamp == self._stamp:
             return False
         self._stamp = stamp
@@ -223,7 +223,7 @@ class LevelPlaythrough(Playthrough):
             # Files may hold levels without a ninja.
             with suppress(LevelError):
                 Simulation(entry.named.level, body=self.body)
-                self.entry, self._following, self._stamp = entry, ahead[number:], stamp_of(Path(entry.named.file))
+                self.entry, self._following, self._stamp = entry, ahead[number:], file_stamp(Path(entry.named.file))
                 return Navigation.NEXT_LEVEL
         return Navigation.SAME_LEVEL
 

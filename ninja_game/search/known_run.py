@@ -78,7 +78,7 @@ def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], unt
 
 
 @fast
-def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
+def nearest_row(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
     """The row of the run most like this moment, and the ticks ahead from there, with the price."""
     n = w.ninja
     ticks = len(run.keys)

@@ -192,7 +192,7 @@ def _facts(text: str) -> list[str]:
     return [word for line in text.splitlines()[1:] if line != "end" for word in line.split()]
 
 
-def recording_of(origin: Recording, track: InputTrack, name: str = "") -> Recording:
+def recording_of_track(origin: Recording, track: InputTrack, name: str = "") -> Recording:
     """An input track as a recording without claims, with the level and the author of another one."""
     replay = replace(unclaimed_replay(origin, track), name=name or origin.name)
     return replace(origin, file=name or origin.file, replay=replay, form="replay")

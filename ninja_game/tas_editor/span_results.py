@@ -17,7 +17,7 @@ from ninja_game.search.formula.task import SpanResult, SpanTask, distinct_ways, 
 from ninja_game.sim.inputs import fit_inputs, with_press_bits
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.goals import IMPROVE_GOLD
-from ninja_game.tas.tracks import InputTrack, first_difference
+from ninja_game.tas.tracks import InputTrack, first_different_index
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
 
 CLOSING_SECONDS = 0.5  # longest wait for a cancelled search when the TAS editor is left
@@ -166,7 +166,7 @@ class SpanResults:
 
     def is_in_run(self, result: SpanResult) -> bool:
         ours, searched = self.editor.track.inputs, result.inputs
-        return first_difference(ours, searched) == min(len(ours), len(searched))
+        return first_different_index(ours, searched) == min(len(ours), len(searched))
 
     def shown_run(self, result: SpanResult) -> OtherRun:
         if self._preview is None or self._preview[0] is not result:
@@ -210,7 +210,7 @@ class SpanResults:
             more = own.score - result.score
             gain = f"better by {more:.4g}" if self.task.measure else f"{counted(int(more), 'tick', 'ticks')} sooner"
         x, y, vx, vy = result.end
-        other = first_difference(result.inputs, self.task.inputs)
+        other = first_different_index(result.inputs, self.task.inputs)
         return words, str(other), f"{x:.1f}, {y:.1f}", f"{hypot(vx, vy):.3f}", gain
 
     @property

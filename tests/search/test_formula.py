@@ -21,7 +21,7 @@ from ninja_game.batch.batch import Batch
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_replays
 from ninja_game.search.formula import methods
-from ninja_game.search.formula.language import FormulaError, parse_number, parse_truth
+from ninja_game.search.formula.language import FormulaError, parse_measure, parse_truth
 from ninja_game.search.formula.leg import LegSearch
 from ninja_game.search.formula.methods import count_ways, search_span
 from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
@@ -162,7 +162,7 @@ def test_comparisons_in_a_row_hold_together() -> None:
 
 @given(st.text("xyvtick<>=!()+-*/ 0123.andornot,_$", max_size=40))
 def test_any_text_is_a_formula_or_an_error_of_ours(text: str) -> None:
-    for parse in (parse_truth, parse_number):
+    for parse in (parse_truth, parse_measure):
         try:
             formula = parse(text, NAMES, FACTS)
         except FormulaError:
@@ -259,7 +259,7 @@ def test_the_difference_is_that_of_place_and_velocity_until_all_is_the_same() ->
     assert difference(9.0).tolist() == pytest.approx([away[0], away[1], 0])
     for text, message in {"difference(12)": "the run has ticks 0 to 11", "difference(x)": "is a plain number"}.items():
         with pytest.raises(ArgumentError, match=message):
-            parse_number(text, SPAN_NAMES, FACTS).value({**view_of(batch), "difference": difference})
+            parse_measure(text, SPAN_NAMES, FACTS).value({**view_of(batch), "difference": difference})
 
 
 def test_the_same_place_in_another_world_is_a_difference() -> None:

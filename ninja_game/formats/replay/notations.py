@@ -211,7 +211,7 @@ def _libtas_word(line: str, file: str, number: int) -> str:
             hint = "take it out, or replace it: the ninja runs left and right, and jumps"
             raise ReplayError("a key that the ninja has not", file, number, 1, repr(keysym[:20]), expected, hint)
         letters.append(letter)
-    return in_order(letters)
+    return sorted_letters(letters)
 
 
 def _celeste_word(token: str, file: str, number: int) -> str:
@@ -220,9 +220,9 @@ def _celeste_word(token: str, file: str, number: int) -> str:
     if not set(letters) <= set("LRJ"):
         hint = "a second jump key would press again what is held: write J" if "K" in letters else "take it out"
         raise ReplayError("a key that the ninja has not", file, number, 1, repr(token[:40]), "L, R and J", hint)
-    return in_order(letters)
+    return sorted_letters(letters)
 
 
-def in_order(letters: Iterable[str]) -> str:
+def sorted_letters(letters: Iterable[str]) -> str:
     """Sort keys into the order of the notation, L, R, J, without repetition."""
     return "".join(letter for letter in "LRJ" if letter in [*letters]) or "."

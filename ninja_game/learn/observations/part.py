@@ -69,7 +69,7 @@ class PartContext:
         return np.array(list(rows), _dtype(row)) if self.compiled else list(rows)
 
     def ranges(self, lowest: Array, highest: Array, divisors: Array) -> Any:
-        """The records of ``Range`` for ``put``; the limits are those of the divided values."""
+        """The records of ``Range`` for ``put_value``; the limits are those of the divided values."""
         limits = zip(1.0 / divisors, lowest, highest, strict=True)
         return self.records([Range(*map(float, numbers)) for numbers in limits], Range)
 
@@ -156,7 +156,7 @@ class Range(NamedTuple):
 
 
 @fast
-def put(out: Any, index: int, offset: int, j: int, ranges: Any, value: float) -> None:
+def put_value(out: Any, index: int, offset: int, j: int, ranges: Any, value: float) -> None:
     """Write value j, multiplied by its factor and limited to its range."""
     out[index, offset + j] = clamp(value * ranges[j].factor, ranges[j].lowest, ranges[j].highest)
 

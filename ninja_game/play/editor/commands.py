@@ -10,10 +10,18 @@ from pathlib import Path
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.certify import lead_in, place_before, with_ninja_at
 from ninja_game.editor.draft import Draft, change_text
-from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered, save as save_draft
+from ninja_game.editor.files import (
+    SUFFIX,
+    Source,
+    draft_of,
+    new_source,
+    open_source,
+    recovered_drafts,
+    save as save_draft,
+)
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
-from ninja_game.editor.stamp import Stamp, put, stamp_of
+from ninja_game.editor.stamp import Stamp, level_stamp, with_stamp
 from ninja_game.editor.tools import TAKES, TOOLS
 from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import counted, file_stem
@@ -187,14 +195,14 @@ class EditorCommands(DocumentCommands):
         app.push(Menu(app, path.stem, [*rows, CANCEL]))
 
     def _take_stamp(self, path: Path) -> None:
-        self.session.tools.clipboard = stamp_of(open_source(path).draft)
+        self.session.tools.clipboard = level_stamp(open_source(path).draft)
         self.session.tools.paste()
 
     def _keep_stamp(self, stamp: Stamp) -> None:
         def keep(name: str) -> None:
             path = free_path(self._stamps, file_stem(name.strip(), "stamp"), SUFFIX)
             path.parent.mkdir(parents=True, exist_ok=True)
-            save_draft(Source(Draft(Level())), put(Draft(Level(), name), stamp), path)
+            save_draft(Source(Draft(Level())), with_stamp(Draft(Level(), name), stamp), path)
             self.app.notify(f"Kept as a stamp: {path.stem}")
 
         prompt, load = "Name of the stamp", self._load
@@ -495,7 +503,7 @@ class EditorCommands(DocumentCommands):
 
     def offer_recovered(self) -> None:
         """Ask what to do with a level that was open when the program crashed."""
-        draft = next(recovered(self.app.player.folder), None)
+        draft = next(recovered_drafts(self.app.player.folder), None)
         if draft is not None:
             name = draft.draft.name or (draft.source.path.name if draft.source.path else "a new level")
             about = "As it was at most two seconds before the end"

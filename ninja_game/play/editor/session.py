@@ -39,7 +39,7 @@ from ninja_game.editor.files import (
 )
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
-from ninja_game.files.reading import NO_FILE, stamp_of
+from ninja_game.files.reading import NO_FILE, file_stamp
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.messages import parse_messages
@@ -320,7 +320,7 @@ class EditorSession:
         if path is None or now - self._looked_at < LOOK_SPACING or self.tools.history.in_stroke:
             return None
         self._looked_at = now
-        stamp, before = stamp_of(path), self._file_stamp
+        stamp, before = file_stamp(path), self._file_stamp
         self._file_stamp = stamp
         if stamp in (before, NO_FILE):
             return None

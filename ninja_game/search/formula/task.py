@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ninja_game.batch.batch import Batch, Keys
 from ninja_game.errors import ArgumentError
 from ninja_game.search.certificate import without_idle_keys
-from ninja_game.search.formula.language import UNTRUE, Formula, FormulaError, Values, parse_number, parse_truth
+from ninja_game.search.formula.language import UNTRUE, Formula, FormulaError, Values, parse_measure, parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES, UNREACHABLE, difference_from, distance_views, view_of
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Body, Level
@@ -79,7 +79,7 @@ class SpanTask:
         try:
             goal = parse_truth(self.goal or f"tick >= {self.last - 1}", SPAN_NAMES, FACTS)
             what = "measure"
-            return goal, parse_number(self.measure, SPAN_NAMES, FACTS) if self.measure else None
+            return goal, parse_measure(self.measure, SPAN_NAMES, FACTS) if self.measure else None
         except FormulaError as error:
             error.file = what
             raise

@@ -25,7 +25,7 @@ from ninja_game.tas.goals import (
     RunPiece,
     SearchedSpan,
     SpanGoal,
-    pieces_of,
+    span_pieces,
     whole_run,
 )
 from ninja_game.tas.tracks import InputTrack
@@ -335,7 +335,7 @@ class SearchTab(Tab):
             return
         self.pieces = ()
         if splits is not None and splits[0] is track:
-            pieces = pieces_of(SearchedSpan(session, *self._pieced_span), splits[1])
+            pieces = span_pieces(SearchedSpan(session, *self._pieced_span), splits[1])
             if task.rest and task.goal and self._pieced_span[1] <= len(track):
                 pieces.insert(1, RunPiece(*self._pieced_span, WITHOUT_REST, SpanGoal(task.goal)))
             self._cut_track, self.pieces = track, tuple(pieces)

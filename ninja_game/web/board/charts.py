@@ -27,7 +27,7 @@ _MAX_COLUMNS = 400  # of a row
 LABELS_APART = 26  # least px between two numbers of splits
 
 
-def steps(
+def step_chart(
     points: Sequence[tuple[float, float]],
     names: Sequence[str],
     text: Callable[[float], str],

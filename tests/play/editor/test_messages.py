@@ -13,7 +13,7 @@ import pytest
 from ninja_game.editor import packs
 from ninja_game.editor.certify import place_before, search_of
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.stamp import Stamp, put
+from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_messages
 from ninja_game.levels.episodes import Mood
@@ -123,7 +123,7 @@ def test_all_moments_are_listed_and_one_is_taken(room: Maker) -> None:
 
 
 def test_those_of_one_moment_are_numbered_with_their_seconds(room: Maker) -> None:
-    draft = put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),)))
+    draft = with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),)))
     room.editor.session.tools.history.change(replace(draft, says="start: a | gold: b | start: c | switch: d"))
     opened(room)
     shown = drawn(room.app)
@@ -167,7 +167,7 @@ def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
 
 
 def test_all_places_are_seen_and_a_click_on_one_selects_its_message(room: Maker) -> None:
-    draft = put(room.draft, Stamp({}, (ObjectSpec(GOLD, (300.0, 300.0)),)))
+    draft = with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (300.0, 300.0)),)))
     says = "start: a | at 5,5: b | at 20,12: c | gold: d | switch: e"
     room.editor.session.tools.history.change(replace(draft, says=says))
     screen = opened(room)
@@ -259,13 +259,14 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     both = replace(room.draft, says=f"{room.draft.says} | start: Go")
     assert said_places(both) == [(24 * 20 + 12, 24 * 4 + 12), (76.0, 524.0)], "beside the ninja"
     of_things = replace(
-        put(both, Stamp({}, (ObjectSpec(GOLD, (60.0, 84.0)),))), says="gold: a | gold: b | switch: c | after 9 s: d"
+        with_stamp(both, Stamp({}, (ObjectSpec(GOLD, (60.0, 84.0)),))),
+        says="gold: a | gold: b | switch: c | after 9 s: d",
     )
     switch = next(spec.values[2:] for spec in both.objects if spec.kind == EXIT)
     assert said_places(of_things) == [(76.0, 66.0), (switch[0] + 16, switch[1] - 18)], "and beside gold and switch"
     room.frames()
     assert ("said", (492.0, 108.0)) in room.editor.view.sheet.marks
-    tools.history.change(put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
+    tools.history.change(with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
     tools.choose(frozenset({(len(room.draft.objects) - 1, 0)}))
     assert opened(room)._here == (2, 2)
 
@@ -343,7 +344,7 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
 def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room: Maker) -> None:
     mines = tuple(ObjectSpec(MINE, (24 * column + 12.0, 540.0)) for column in range(8, 12))
     block = Stamp(dict.fromkeys([(column, 19) for column in range(14, 26)], 1))
-    draft = put(put(room.draft, block), Stamp({}, mines))
+    draft = with_stamp(with_stamp(room.draft, block), Stamp({}, mines))
     # On a block: from the side of the start, though both sides are alike.
     assert place_before(draft, (19 * 24 + 12.0, 18 * 24 + 12.0)) == (16 * 24 + 12.0, 18 * 24 + 12.0)
     assert place_before(draft, (5 * 24 + 12.0, 540.0)) is None, "that near is the level's start"
@@ -353,7 +354,7 @@ def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room:
     wide, high = (18 * 24 + 12.0, 18 * 24 + 12.0), (19 * 24 + 12.0, 17 * 24 + 12.0)
     assert place_before(draft, wide, (7, 1)) == (14 * 24 + 12.0, 18 * 24 + 12.0), "outside its frame"
     assert place_before(draft, high, (1, 7)) == (18 * 24 + 12.0, 17 * 24 + 12.0), "beside its frame"
-    tight = put(draft, Stamp({}, (ObjectSpec(MINE, (5 * 24 + 12.0, 540.0)),)))
+    tight = with_stamp(draft, Stamp({}, (ObjectSpec(MINE, (5 * 24 + 12.0, 540.0)),)))
     assert place_before(tight, (8 * 24 + 12.0, 540.0)) == (6 * 24 + 12.0, 540.0), "nearer, without room"
 
 
@@ -518,7 +519,7 @@ RIGHT = with_press_bits(bytes([2]) * 125)
 def doors(room: Maker, monkeypatch: pytest.MonkeyPatch) -> Maker:
     """In the level DOORS with a floor; RIGHT is known to pass it."""
     floor = Stamp(dict.fromkeys([(column, 23) for column in range(1, 32)], 1))
-    draft = put(Draft(DOORS, "Doors", "me"), floor)
+    draft = with_stamp(Draft(DOORS, "Doors", "me"), floor)
     room.editor.session.tools.history.change(draft)
     monkeypatch.setattr(type(room.editor.session), "way", property(lambda _: RIGHT))
     return room

@@ -678,7 +678,7 @@ def test_what_was_made_ready_asks_only_at_its_own_desk(
     other = packs.new_pack(path.parent, "Other", "me")
     screen = opened(driver)
     screen.read_packs(path)
-    pack_sharing.make_ready(screen)
+    pack_sharing.prepare_shown(screen)
     screen.read_packs(other)
     driver.wait(lambda: not screen.packer.busy)
     driver.frames(3)
