@@ -370,7 +370,7 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
         """The cost of the cheapest path from a corner of cells to the top, and the path; ``heading``: before it."""
         if at == (wide, 0):
             return _TURN * heading**2, ()
-        ways: list[tuple[float, tuple[_Stretch, ...]]] = [(inf, ())]
+        choices: list[tuple[float, tuple[_Stretch, ...]]] = [(inf, ())]
         for stretch in _STRETCHES:
             x, y = at[0] + stretch.right, at[1] - stretch.up
             # It begins upright in a middle row and ends flat in a middle column; no cell at its ends stays empty.
@@ -378,8 +378,9 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
             first = at[1] == high and stretch.right and (rows % 2 or not stretch.up)
             if x <= wide and y >= 0 and stretch.begins <= heading and not (first or last):
                 cost, path = cheapest((x, y), stretch.ends)
-                ways.append((cost + between(at, stretch) + _TURN * (stretch.begins - heading) ** 2, (stretch, *path)))
-        return min(ways, key=lambda way: way[0])
+                cost += between(at, stretch) + _TURN * (stretch.begins - heading) ** 2
+                choices.append((cost, (stretch, *path)))
+        return min(choices, key=lambda choice: choice[0])
 
     tiles, (x, y) = dict[Cell, int](), (0, high)
     for stretch in cheapest((0, high), 90.0)[1]:

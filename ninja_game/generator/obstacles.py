@@ -52,11 +52,11 @@ def guards(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
 
 def zaps(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     """Around stones and along walls."""
-    way = rng.choice(("surface-cw", "surface-ccw"))
+    turn = rng.choice(("surface-cw", "surface-ccw"))
     edges = [(c, r) for c, r in sorted(scene.steps) if scene.full((c, r + 1)) != scene.full((c, r - 1))]
     for column, row in edges:
-        direction = "right" if scene.full((column, row + 1)) == (way == "surface-ccw") else "left"
-        yield object_of(f"zap drone {column},{row} {way} {direction}")
+        direction = "right" if scene.full((column, row + 1)) == (turn == "surface-ccw") else "left"
+        yield object_of(f"zap drone {column},{row} {turn} {direction}")
 
 
 def patrols(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:

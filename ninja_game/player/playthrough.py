@@ -136,13 +136,13 @@ class Playthrough:
         raise NotImplementedError
 
     @property
-    def shows_hints(self) -> bool:
-        """Whether the level shows texts: not after a pass, nor if the player does not want them."""
+    def shows_messages(self) -> bool:
+        """Whether the level shows its messages: not after a pass, nor if the player does not want them."""
         marks, level = self.data.marks, self.entry.digest
         return self.data.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
 
     def messages(self) -> tuple[LevelMessage, ...]:
-        if not self.shows_hints:
+        if not self.shows_messages:
             return ()
         with suppress(LevelError):
             return parse_messages(self.entry.named.says)
@@ -170,7 +170,7 @@ class Playthrough:
         return Navigation.SAME_LEVEL
 
     @property
-    def way_out(self) -> Navigation:
+    def next_screen(self) -> Navigation:
         """The target of leaving: BACK or EPISODE_END."""
         return Navigation.BACK
 
@@ -370,14 +370,14 @@ class EpisodePlaythrough(Playthrough):
         else:
             self.lifetime = self._passed.lifetime
         if self.is_last:
-            return self.way_out
+            return self.next_screen
         self.position += 1
         self.entry = self.episode.levels[self.position]
         self._passed = None
         return Navigation.NEXT_LEVEL
 
     @property
-    def way_out(self) -> Navigation:
+    def next_screen(self) -> Navigation:
         """After the last level the episode's results, else back."""
         return Navigation.EPISODE_END if self._passed is not None and self.is_last else Navigation.BACK
 

@@ -306,8 +306,8 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
         here, there = slice(start, end), slice(start + shift, end + shift)
         both, left, right = before[start:end], last[start:end], last[start + 1 : end + 1]
         one = np.minimum(left, right)
-        way = (both > one) * (1 + (left > right))  # 0: both step, 1: only ours, 2: only the other
-        cells[start * (m - 1) + diagonal : (end - 1) * (m - 1) + diagonal + 1 : max(1, m - 1)] = way
+        step = (both > one) * (1 + (left > right))  # 0: both step, 1: only ours, 2: only the other
+        cells[start * (m - 1) + diagonal : (end - 1) * (m - 1) + diagonal + 1 : max(1, m - 1)] = step
         apart = np.hypot(x[here] - other_x[there], y[here] - other_y[there])
         costs[start + 1 : end + 1] = np.minimum(both, one) + apart
         # Entries of the oldest beyond the next diagonal are never read, except the place in front of the first ticks.
@@ -342,8 +342,8 @@ def _nearest_on_path(
         distance = float(np.hypot(*(ours[i] - theirs[j])))
         if distance <= smallest[i]:
             partner[i], smallest[i] = j, distance
-        way = came_from[i, j]
-        i, j = i - (way != 2), j - (way != 1)
+        step = came_from[i, j]
+        i, j = i - (step != 2), j - (step != 1)
     return partner
 
 

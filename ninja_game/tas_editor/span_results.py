@@ -13,7 +13,7 @@ from ninja_game.runtime import cores
 from ninja_game.search.certificate import moved_markers
 from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.methods import KEPT
-from ninja_game.search.formula.task import SpanResult, SpanTask, distinct_ways, score_text
+from ninja_game.search.formula.task import SpanResult, SpanTask, distinct_routes, score_text
 from ninja_game.sim.inputs import fit_inputs, with_press_bits
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.goals import IMPROVE_GOLD
@@ -192,7 +192,7 @@ class SpanResults:
             if run.missed_by is None
             and (own is None or run.score < own.score or (run.score == own.score and run.gold > own.gold))
         ]
-        self.better = tuple(distinct_ways(better, measured=bool(self.task.measure))[:KEPT])
+        self.better = tuple(distinct_routes(better, measured=bool(self.task.measure))[:KEPT])
 
     def words(self, result: SpanResult) -> tuple[str, ...]:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""

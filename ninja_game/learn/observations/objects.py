@@ -143,8 +143,8 @@ class NearObjects(Part):
 
     def _range(self) -> Any:
         """Lowest and highest value and divisor of each column."""
-        ways, speeds = [WORLD_WIDTH, WORLD_HEIGHT], [MAX_SPEED] * 2
-        highest = np.array([1.0] * DX + ways + speeds + [1.0] * 3)
+        distances, speeds = [WORLD_WIDTH, WORLD_HEIGHT], [MAX_SPEED] * 2
+        highest = np.array([1.0] * DX + distances + speeds + [1.0] * 3)
         lowest = np.where(np.arange(len(OBJECT_COLUMNS)) < DX, 0.0, -highest)
         divisors = np.array([1.0] * DX + [WORLD_WIDTH] * 2 + speeds + [1.0] * 3)
         divisors = divisors if self.normalised else np.ones(len(OBJECT_COLUMNS))

@@ -292,20 +292,20 @@ class EditorCommands(DocumentCommands):
 
         The way there is that of the known run, or of the last test; without such a run it begins beside the place.
         """
-        session, lines = self.session, parse_messages(says)
-        level, line = session.draft.level, lines[number] if lines else None
-        if line is None or line.when in {"start", "death"}:
-            self.test(None, says, (b"", line.number if line else 0))
+        session, messages = self.session, parse_messages(says)
+        level, message = session.draft.level, messages[number] if messages else None
+        if message is None or message.when in {"start", "death"}:
+            self.test(None, says, (b"", message.number if message else 0))
             return
-        waits = bytes(line.number * TICKS_PER_SECOND + 1)
-        runs = [session.way, *(run.inputs for run in session.tries[-1:] if run.level == level), waits]
+        waits = bytes(message.number * TICKS_PER_SECOND + 1)
+        runs = [session.certifying_inputs, *(run.inputs for run in session.tries[-1:] if run.level == level), waits]
         with suppress(LevelError):  # without a ninja, which the test reports
-            moments = ((run, heard(lines, level, run)[number]) for run in filter(None, runs))
+            moments = ((run, heard(messages, level, run)[number]) for run in filter(None, runs))
             lead = next((lead_in(level, run, moment.due) for run, moment in moments if moment), None)
             if lead is not None:
                 self.test(None, says, (lead, 0))
                 return
-        self.test(place and place_before(session.draft, place, line.size), says)
+        self.test(place and place_before(session.draft, place, message.size), says)
 
     def certify(self) -> None:
         certifier = self.session.certifier
@@ -465,9 +465,9 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        entry, way, test = self._entry(), partial(getattr, self.session, "way"), self.test_message
+        entry, inputs, test = self._entry(), partial(getattr, self.session, "certifying_inputs"), self.test_message
         mood = entry.mood if entry else Mood()
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, mood, way, at))
+        self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, mood, inputs, at))
 
     def _entry(self) -> Entry | None:
         """The level's file as a level to play: in its pack, or alone; None without a file."""
@@ -533,8 +533,8 @@ class TryContext(Playthrough):
 
     def beginning(self) -> tuple[Level, bytes]:
         """The start of the level under edit, wherever the test begins: its texts lie where they will lie in play."""
-        level = self._session.draft.level
-        return (level if any(spec.kind == NINJA for spec in level.objects) else self.level), self._session.way
+        level, inputs = self._session.draft.level, self._session.certifying_inputs
+        return (level if any(spec.kind == NINJA for spec in level.objects) else self.level), inputs
 
     def ghosts(self) -> list[PacedRun]:
         """None: a level under edit has no best run."""

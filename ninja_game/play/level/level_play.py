@@ -101,7 +101,7 @@ class LevelPlay:
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
-        self.messages = MessageQueue(messages, self.attempt.simulation.tiles, helps=context.shows_hints)
+        self.messages = MessageQueue(messages, self.attempt.simulation.tiles, helps=context.shows_messages)
         for _ in range(context.deaths):
             self.messages.on_death()
         self.shown_lifetime = float(self.attempt.lifetime)

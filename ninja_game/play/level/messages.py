@@ -17,9 +17,9 @@ from ninja_game.sim.schema.world_fields import Event, TileMap, World
 from ninja_game.sim.states import SLIDING
 from ninja_game.simulation import Simulation
 
-SHOWN_TICKS = 240  # for which a text is shown after its event
-START_TICKS = 480  # the same in play for a single text of the start or the switch
-_FADE_TICKS = 20  # in which a text near a place fades at its end
+SHOWN_TICKS = 240  # for which a message is shown after its event
+START_TICKS = 480  # the same in play for a single message of the start or the switch
+_FADE_TICKS = 20  # in which a message near a place fades at its end
 _FAR = 60.0  # px outside its frame at which it ends
 
 _STILL = 0.05  # slower than this the ninja is still, px/tick
@@ -224,9 +224,9 @@ class Heard(NamedTuple):
 def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[Heard | None]:
     """When each message comes in a run; None: its moment never does."""
     # Only the lengths of the texts matter, in steps of 20 letters: what is typed seldom runs the level again.
-    texts = [str(number).ljust(-(-len(line.text) // 20) * 20) for number, line in enumerate(messages)]
-    lines = tuple(line._replace(text=text) for line, text in zip(messages, texts, strict=True))
-    together, alone = _heard(lines, level, inputs)
+    texts = [str(number).ljust(-(-len(message.text) // 20) * 20) for number, message in enumerate(messages)]
+    numbered = tuple(message._replace(text=text) for message, text in zip(messages, texts, strict=True))
+    together, alone = _heard(numbered, level, inputs)
     return [
         Heard(alone[text][0], *together.get(text, (None, alone[text][1]))) if text in alone else None for text in texts
     ]
@@ -248,7 +248,7 @@ _Comings = dict[str, tuple[int, Point]]
 def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[_Comings, _Comings]:
     """When texts first come in a run: beside each other, and each as if it were the only one."""
     run, together, alone = Simulation(level), _Comings(), _Comings()
-    queues = [(MessageQueue([line], run.tiles), alone) for line in messages]
+    queues = [(MessageQueue([message], run.tiles), alone) for message in messages]
     queues.append((MessageQueue(messages, run.tiles), together))
     for tick, keys in enumerate(inputs):
         run.step_keys(keys)
@@ -268,10 +268,7 @@ def shown_ticks(when: str, together: int, text: str) -> int:
 
 
 def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
-    return [
-        (line.text, line.seconds * TICKS_PER_SECOND or shown_ticks(line.when, len(messages), line.text), line)
-        for line in messages
-    ]
+    return [(m.text, m.seconds * TICKS_PER_SECOND or shown_ticks(m.when, len(messages), m.text), m) for m in messages]
 
 
 def _is_of(message: LevelMessage, event: Event) -> bool:

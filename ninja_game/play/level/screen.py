@@ -202,7 +202,7 @@ class LevelScreen(Screen):
     def quit(self) -> None:
         self.context.gave_up(self.attempt)
         self.context.data.store.flush()
-        self._leave_to(self.context.way_out)
+        self._leave_to(self.context.next_screen)
 
     def _leave_to(self, where: Navigation) -> None:
         app = self.app

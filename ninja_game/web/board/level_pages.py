@@ -261,8 +261,8 @@ class LevelPages:
             return paths(UP + picture_name(runs[0].level), [(names[0], path_data(ghosts[0].positions))]), None
         by_time = sorted(zip(names, runs, range(len(runs)), strict=True), key=lambda named: named[1].tick)
         rows = _split_rows([self._ghost(run) for _, run, _ in by_time])
-        ways = [(name, path_data(ghost.positions)) for ghost, name in zip(ghosts, names, strict=True)]
-        drawn = paths(UP + picture_name(runs[0].level), ways, [(row.split.x, row.split.y) for row in rows])
+        named_paths = [(name, path_data(ghost.positions)) for ghost, name in zip(ghosts, names, strict=True)]
+        drawn = paths(UP + picture_name(runs[0].level), named_paths, [(row.split.x, row.split.y) for row in rows])
         text = f"Watch the first {len(runs)} together"
         together = tag("p", f"{category.name}: ", self.parts.watch_link(runs, UP, text))
         numbers = range(len(runs))

@@ -378,7 +378,7 @@ def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Mak
     entry = session.entry
     assert entry
     _, way = Playthrough(room.app.player, entry).beginning()
-    assert way == session.way != b""
+    assert way == session.certifying_inputs != b""
 
 
 def test_for_a_level_without_a_file_no_packs_are_read(room: Maker) -> None:
@@ -521,7 +521,7 @@ def doors(room: Maker, monkeypatch: pytest.MonkeyPatch) -> Maker:
     floor = Stamp(dict.fromkeys([(column, 23) for column in range(1, 32)], 1))
     draft = with_stamp(Draft(DOORS, "Doors", "me"), floor)
     room.editor.session.tools.history.change(draft)
-    monkeypatch.setattr(type(room.editor.session), "way", property(lambda _: RIGHT))
+    monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: RIGHT))
     return room
 
 
@@ -573,7 +573,7 @@ def test_a_test_of_what_is_said_after_deaths_or_seconds_begins_there(doors: Make
 
 
 def test_without_a_known_run_a_test_goes_on_from_the_last_one(doors: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(type(doors.editor.session), "way", property(lambda _: b""))
+    monkeypatch.setattr(type(doors.editor.session), "certifying_inputs", property(lambda _: b""))
     said(doors, "trap: Now")
     opened(doors)
     doors.choose("Test")
@@ -799,7 +799,7 @@ def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
 
 
 def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(type(room.editor.session), "way", property(lambda _: bytes(400)))
+    monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: bytes(400)))
     room.editor.session.tools.history.change(replace(room.draft, says="after 1 s: Go | after 2 s: On | after 9 s: No"))
     screen = opened(room)
     assert [line.partition(" at ")[0] for line in drawn(room.app).splitlines() if " late in" in line] == [
@@ -808,7 +808,7 @@ def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, mo
     screen.messages[0].text = "long " * 24
     assert "7 s late in" in drawn(room.app)
     screen.messages[2].when, screen.messages[2].detail = "after", "3"
-    monkeypatch.setattr(type(room.editor.session), "way", property(lambda _: bytes(300)))
+    monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: bytes(300)))
     assert "Not shown in the known run: others are read then" in drawn(room.app)
 
 
