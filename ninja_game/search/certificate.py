@@ -152,11 +152,13 @@ _CHOICES = (*range(8), *range(12, 16))
 def without_idle_keys(
     level: Level, inputs: bytes, original: bytes, *, body: Body = "circle", first: int = 0, last: int | None = None
 ) -> bytes:
-    """Simplify keys in the ticks ``first`` … ``last`` - 1 (None: to the end) without a change of any tick's state.
+    """Remove keys that do nothing from a run: every tick's state stays the same.
 
-    Of keys that lead to the same state a tick gets those of ``original``, the run that ``inputs`` was made from, as
-    long as both go the same way; after that, as few changes as possible. Runs over
-    MAX_SIMPLIFIED_TICKS, and runs with triggers that no keyboard makes, stay as they are.
+    - ``original``: the run that ``inputs`` was made from. As long as both have the same states, a tick gets its keys
+      where they lead there too; after that, the keys change as seldom as possible.
+    - ``first``, ``last``: only ticks before ``last`` change, from ``first`` on; None: to the end.
+
+    Runs over MAX_SIMPLIFIED_TICKS, and runs with triggers that no keyboard makes, stay as they are.
     """
     import numpy as np  # pages do not have it
 

@@ -89,7 +89,7 @@ class Timeline:
             **{name: np.zeros(0, np.int32) for name in TRACED_INTS},
         }
         self._objects = np.zeros((0, 0), _WATCHED_RECORD)
-        self._events: dict[int, str] = {}  # of the ticks that have any
+        self._events: dict[int, str] = {}  #: of the ticks that have any
         self.inputs = b""
         self._death = b"", ""
         self.simulated_until = self._ticks_on_plain = 0

@@ -149,7 +149,7 @@ class Hud:
     """Draws on a theme's canvas. Every method gives the px rectangle that it covered, or several small ones."""
 
     def __init__(self, theme: Theme, measures: Theme | None = None) -> None:
-        self.theme, self._measures = theme, measures or theme  # the letters that tell where a text lies
+        self.theme, self._measures = theme, measures or theme  #: the letters that tell where a text lies
 
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """Draw everything; the covered px rectangles."""

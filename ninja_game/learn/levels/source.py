@@ -35,8 +35,8 @@ class LevelSource:
     """
 
     levels: Sequence[Level]
+    #: If there are too many levels to hold (`bench.py`): one with as many objects as any of them
     largest: Level | None = None
-    """If there are too many levels to hold (`bench.py`): one with as many objects as any of them."""
 
     def __init__(self, names: Sequence[str], levels: Sequence[Level]) -> None:
         if not levels or len(names) != len(levels):

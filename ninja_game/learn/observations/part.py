@@ -107,12 +107,8 @@ class Part(ABC):
     are clamped, and NaN is 0.
     """
 
-    name: ClassVar[str]
-    """Its key in a Dict of several parts."""
-
-    needs_goal: ClassVar[bool] = False
-    """Whether the part reads ``PartContext.goal``."""
-
+    name: ClassVar[str]  #: its key in a Dict of several parts
+    needs_goal: ClassVar[bool] = False  #: whether it reads ``PartContext.goal``
     normalised: bool = field(default=True, kw_only=True)
 
     @property

@@ -58,7 +58,7 @@ class PixelView(NamedTuple):
     frame: Frame
     across: int
     down: int
-    follows: int  # whether the picture moves with the ninja
+    follows: int  #: whether the picture moves with the ninja
     ninja_shade: float
 
 

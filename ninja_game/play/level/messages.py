@@ -60,14 +60,16 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 
 
 class MessageQueue:
-    """The texts of one level. Each event's text is shown once; those of the start at each start until the exit is open.
+    """The messages of a level in play, shown one at a time: the present one, and those that wait for it.
 
-    Texts of one moment follow each other. A new one interrupts those of the start, which go on afterwards; any other
-    stays for its ``read_ticks``, and what happens meanwhile waits in order. A place and a time are waited for by their
-    own condition: one that the ninja has left by then comes at its next visit. ``tiles``: they hide a place from
-    the ninja; None: only full ones and doors do. ``text``: the present text or "", ``place``: its place, px; it ends
-    when the ninja is far from there. ``helps``: the game gives advice too: to try again, to climb. ``named``: the
-    things with a name and an arrow (``arrow_targets``).
+    - ``tiles`` hide a place from the ninja; None: only full ones and doors do.
+    - ``helps``: the game gives advice too: to try again, to climb.
+    - ``text`` is the present one or "", ``place`` its place, px: it ends when the ninja is far from there.
+    - ``named``: the things with a name and an arrow (``arrow_targets``).
+
+    A message of the start comes at each start until the exit is open, any other once. A new one interrupts those of the
+    start, which go on afterwards; any other stays for its ``read_ticks``, and what happens meanwhile waits in order. A
+    place or a time that has passed by then is waited for again.
     """
 
     def __init__(self, messages: Sequence[LevelMessage], tiles: TileMap | None = None, *, helps: bool = False) -> None:

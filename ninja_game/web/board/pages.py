@@ -159,7 +159,7 @@ class BoardPages:
 
     @property
     def _name(self) -> str:
-        """Returns the name of the pack, else that of the only level: the name of its file says nothing to readers."""
+        """The name of the pack, else that of the only level: the name of its file says nothing to readers."""
         titles = [entry.title for entry in self.entries.values()]
         return self.ranking.shown.name if self.ranking.shown.pack else titles[0] if len(titles) == 1 else "own levels"
 

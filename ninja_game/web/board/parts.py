@@ -127,7 +127,7 @@ class Parts:
         return category.difference(row.behind) + word if row.behind else category.decided(row.values, first.values)
 
     def place(self, category: Category, row: Ranked, first: Ranked) -> str:
-        """Returns the place of a run, and by how much it is behind the first; "" for one that waits."""
+        """The place of a run, and by how much it is behind the first; "" for one that waits."""
         behind = self.behind(category, row, first, " behind")
         return f"{row.place}, {behind}" if behind else str(row.place or "")
 
