@@ -66,7 +66,7 @@ def with_stamp(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> D
 
     An equal object at the same place is not drawn twice.
     """
-    objects, there = draft.objects, set(draft.objects if stamp.objects else ())
+    objects, present = draft.objects, set(draft.objects if stamp.objects else ())
     new: dict[ObjectSpec, None] = {}
     tiles: Tiles = {}
     for number, motion in enumerate((Motion(), *symmetry)):
@@ -80,7 +80,7 @@ def with_stamp(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> D
                 # It replaces the one that plays, the last; the first ninja of a level comes before all objects.
                 last = max((place for place, other in enumerate(objects) if other.kind == NINJA), default=-1)
                 objects = (*objects[: max(last, 0)], spec, *objects[last + 1 :])
-            elif spec not in there:
+            elif spec not in present:
                 new[spec] = None
     return draft.with_tiles(tiles).with_objects(objects + tuple(new))
 

@@ -290,12 +290,12 @@ class Scene:
         """The rock's surface in reach: chains of neighbouring faces."""
         faces = list[Face]()
         for cell in sorted(self.steps):
-            for there in neighbours(cell):
-                (x, y), dx, dy = middle_of(cell), there[0] - cell[0], there[1] - cell[1]
-                if self.full(there):
+            for neighbour in neighbours(cell):
+                (x, y), dx, dy = middle_of(cell), neighbour[0] - cell[0], neighbour[1] - cell[1]
+                if self.full(neighbour):
                     faces.append(Face(x + CELL / 2 * dx, y + CELL / 2 * dy, -dx, -dy))
         for cell, tile in sorted(self.tiles.items()):
-            if tile in _LEANS and any(there in self.steps for there in neighbours(cell)):
+            if tile in _LEANS and any(neighbour in self.steps for neighbour in neighbours(cell)):
                 dx, dy = _LEANS[tile]
                 faces.append(Face(*middle_of(cell), dx * 0.7, dy * 0.7))
         chains, left = list[list[Face]](), dict.fromkeys(faces)

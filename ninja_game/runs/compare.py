@@ -261,24 +261,23 @@ def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -
     """
     if level_digest(ours.level) != level_digest(theirs.level):
         raise ArgumentError(f"{ours.file} and {theirs.file} are recordings of different levels")
-    here, there = run_splits(ours, budget=budget), run_splits(theirs, budget=budget)
+    our_splits, their_splits = run_splits(ours, budget=budget), run_splits(theirs, budget=budget)
+    positions = our_splits.positions, their_splits.positions
     first_keys = _first_unequal(*(np.frombuffer(run.inputs, np.uint8) for run in (ours, theirs)))
-    first_place = _first_unequal(here.positions, there.positions)
-    other_splits = there.by_key
+    first_place = _first_unequal(*positions)
+    other_splits = their_splits.by_key
     splits = tuple(
         Lead(split.name, split.x, split.y, split.tick, other_splits[split.key].tick)
-        for split in here.splits
+        for split in our_splits.splits
         if split.key in other_splits
     )
-    partner = aligned(here.positions, there.positions)
+    partner = aligned(*positions)
     places = tuple(
         Lead("", x, y, tick, other)
-        for tick, ((x, y), other) in enumerate(zip(here.positions.tolist(), partner.tolist(), strict=True))
+        for tick, ((x, y), other) in enumerate(zip(our_splits.positions.tolist(), partner.tolist(), strict=True))
         if other >= 0
     )
-    return Comparison(
-        first_keys, first_place, splits, places, (here.positions, there.positions), (here.death, there.death)
-    )
+    return Comparison(first_keys, first_place, splits, places, positions, (our_splits.death, their_splits.death))
 
 
 def each_second(places: tuple[Lead, ...]) -> list[Lead]:

@@ -167,14 +167,14 @@ def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
     lines = []
     # Number the ticks by the markers so far: a line of the text ends at a marker.
     parts = accumulate(tick in names for tick in range(len(inputs)))
-    at = 0
+    written = 0
     for (_, keys), ticks in groupby(zip(parts, (down & KEYS_DOWN for down in inputs), strict=True)):
-        if at in names:
-            lines.append(f"#{names[at]}")
+        if written in names:
+            lines.append(f"#{names[written]}")
         count = sum(1 for _ in ticks)
         frames = (min(_MAX_FRAMES, count - first) for first in range(0, count, _MAX_FRAMES))
         lines += [",".join([f"{frame:>4}", *KEY_NAMES[keys].strip(".")]) for frame in frames]
-        at += count
+        written += count
     return "".join(f"{line}\n" for line in lines)
 
 

@@ -309,9 +309,9 @@ def observe_pixels(
             top = (row - height) * pixel_y
             frame = Frame(width, left, top, pixel_x, pixel_y, 0, whole.last, 0, whole.high, whole.rounded)
             for line in range(height):
-                at = line * width
+                line_start = line * width
                 source = corner + line * view.across
-                copy_values(picture[at : at + width], tiles[source : source + width], width)
+                copy_values(picture[line_start : line_start + width], tiles[source : source + width], width)
             draw_objects(w, picture, frame, things, start, end, EVERYWHERE, True)
         else:
             corner = level * view.down * view.across
@@ -336,9 +336,9 @@ def observe_pixels(
                     first_column, last_column, first_row, last_row = pixels_of(area, frame)
                     wide = last_column + 1 - first_column
                     for line in range(first_row, last_row + 1):
-                        at = line * width + first_column
-                        source = corner + at
-                        copy_values(picture[at : at + wide], tiles[source : source + wide], wide)
+                        line_start = line * width + first_column
+                        source = corner + line_start
+                        copy_values(picture[line_start : line_start + wide], tiles[source : source + wide], wide)
                     part = Frame(
                         width, 0.0, 0.0, pixel_x, pixel_y, first_column, last_column, first_row, last_row, whole.rounded
                     )

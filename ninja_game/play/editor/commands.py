@@ -353,14 +353,14 @@ class EditorCommands(DocumentCommands):
         def ask() -> None:
             self.view.taker, self.view.hint = test_at, "Click where the ninja begins; Esc gives up"
 
-        at = (
+        choose_place = (
             "Test with the ninja at a click",
             ask,
             f"Key at the pointer: {key_text(EDITOR_COMMANDS.by_name['test_here'])}",
         )
         commands = map(EDITOR_COMMANDS.by_name.__getitem__, IN_MORE)
         rows = [(command.label, partial(self.run, command.name), f"Key: {key_text(command)}") for command in commands]
-        self.app.push(Menu(self.app, "More", [at, *rows, CANCEL]))
+        self.app.push(Menu(self.app, "More", [choose_place, *rows, CANCEL]))
 
     def file_menu(self) -> None:
         """The menu behind the button; a drawing is cancelled first."""
