@@ -214,13 +214,13 @@ class RecoveredDraft:
         return remove_abandoned(self.file)
 
 
-def recovered_drafts(folder: Path) -> Iterator[RecoveredDraft]:
+def lost_drafts(folder: Path) -> Iterator[RecoveredDraft]:
     """The drafts of editors that crashed, the newest first; those of running editors are left out."""
     return recovered_from(folder / EDITING, AUTOSAVE_SUFFIX, _read)
 
 
 def _read(file: Path) -> RecoveredDraft:
-    """The content of an autosave; its path counts only if that file still exists. Raises as ``recovered_drafts``."""
+    """The content of an autosave; its path counts only if that file still exists. Raises as ``lost_drafts``."""
     kept = json.loads(read_utf8(file))
     draft = draft_of(parse_levels(kept["level"])[0])
     source = new_source()

@@ -136,7 +136,7 @@ class RecoveredRun:
     beside: tuple[BesideRun, ...] = ()
 
 
-def recovered_runs(folder: Path) -> Iterator[RecoveredRun]:
+def lost_runs(folder: Path) -> Iterator[RecoveredRun]:
     """The runs of sessions that crashed, the newest first; those of running sessions are left out."""
     return recovered_from(folder / JOURNAL_FOLDER, JOURNAL_SUFFIX, read_journal)
 

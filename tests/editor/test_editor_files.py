@@ -23,10 +23,10 @@ from ninja_game.editor.files import (
     draft_of_text,
     keep_history,
     kept_history,
+    lost_drafts,
     new_source,
     open_source,
     reads_as,
-    recovered_drafts,
     save,
     updated_text,
 )
@@ -227,13 +227,13 @@ def test_an_autosave_is_found_only_after_its_editor_has_died(tmp_path: Path) -> 
     autosave.poll(History(draft), source)
     autosave._job.finish()
     assert not autosave.problem
-    assert not list(recovered_drafts(tmp_path))
+    assert not list(lost_drafts(tmp_path))
     autosave.close(keep=True)
-    found = list(recovered_drafts(tmp_path))
+    found = list(lost_drafts(tmp_path))
     assert [one.draft for one in found] == [draft]
     assert found[0].source == source
     path.write_text(HAND_WRITTEN.replace("somebody", "me"), "utf-8")
-    later = next(iter(recovered_drafts(tmp_path)))
+    later = next(iter(lost_drafts(tmp_path)))
     with pytest.raises(OccupiedError):
         save(later.source, later.draft, path)
     found[0].forget()
@@ -253,11 +253,11 @@ def test_an_autosave_knows_no_file_but_a_level_that_is_there(tmp_path: Path) -> 
     (tmp_path / "dangling").symlink_to(tmp_path / "nothing")
     for path in (tmp_path / "missing", other, tmp_path / "dangling", tmp_path, "/dev/null", "a\0b"):
         kept(tmp_path, path, digest_of_file(other))
-        (found,) = recovered_drafts(tmp_path)
+        (found,) = lost_drafts(tmp_path)
         assert found.source.path is None
     path = hand_written(tmp_path)
     kept(tmp_path, path, "0" * 64)
-    (found,) = recovered_drafts(tmp_path)
+    (found,) = lost_drafts(tmp_path)
     assert found.source.path == path
     with pytest.raises(OccupiedError, match="another program has changed"):
         save(found.source, found.draft, path)
@@ -288,7 +288,7 @@ def test_an_autosave_names_its_file_wherever_the_next_editor_starts(
     (tmp_path / "elsewhere").mkdir()
     monkeypatch.chdir(tmp_path / "elsewhere")
     hand_written(tmp_path / "elsewhere")
-    assert [found.source.path for found in recovered_drafts(tmp_path)] == [tmp_path / "cave.txt"]
+    assert [found.source.path for found in lost_drafts(tmp_path)] == [tmp_path / "cave.txt"]
 
 
 def test_an_autosave_goes_when_the_draft_is_saved_or_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -311,7 +311,7 @@ def test_a_damaged_autosave_and_a_folder_that_cannot_be_written_stop_nothing(tmp
     (tmp_path / EDITING).mkdir()
     for number, text in enumerate(("", "{}", "[1]", "[" * 100_000, '{"path": 3, "level": "x", "digest": ""}')):
         (tmp_path / EDITING / f"{number}.json").write_text(text)
-    assert not list(recovered_drafts(tmp_path))
+    assert not list(lost_drafts(tmp_path))
     blocked = tmp_path / "file"
     blocked.write_text("")
     autosave = Autosave(blocked)
@@ -382,7 +382,7 @@ def test_after_kill_9_at_most_two_seconds_are_lost(tmp_path: Path, root: Path) -
         child.kill()
         child.wait()
         last = int(child.stdout.read().split()[-1])
-    draft = next(iter(recovered_drafts(tmp_path))).draft
+    draft = next(iter(lost_drafts(tmp_path))).draft
     assert 0 <= last - (34 * draft.tile((1, 1)) + draft.tile((2, 1))) <= 2.0 / 0.05
 
 

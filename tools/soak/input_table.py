@@ -252,7 +252,7 @@ def _name(text: str) -> None:
 
 def _journal(path: Path) -> None:
     journal.read_journal(path)
-    for found in journal.recovered_runs(path.parent.parent):
+    for found in journal.lost_runs(path.parent.parent):
         if len(found.opened.track) <= MAX_RUN_TICKS and all(len(take) <= MAX_RUN_TICKS for take in found.tracks):
             TasSession(found.opened, path.parent.parent, memory="plain").recover(found)
 
@@ -355,7 +355,7 @@ ENTRY_POINTS: dict[str, EntryPoint] = {
     "board": _of_file(lambda path: read_board(path, datetime(2026, 1, 1, tzinfo=UTC))),
     "journal": _of_file(_journal, "tas/odd.jsonl", 6),
     "branches": EntryPoint(_branches),
-    "autosave": _of_file(lambda path: list(editor_files.recovered_drafts(path.parent.parent)), "editing/odd.json"),
+    "autosave": _of_file(lambda path: list(editor_files.lost_drafts(path.parent.parent)), "editing/odd.json"),
     "backup": EntryPoint(_backup, 2),
     "database": EntryPoint(_database, 1),
     "database rows": EntryPoint(_rows, 1),

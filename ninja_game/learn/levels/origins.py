@@ -19,7 +19,7 @@ from ninja_game.files.bundled import own_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.formats.pack.index import LEVELS_PER_EPISODE
-from ninja_game.learn.levels.source import Curriculum, LevelSource, closest_word
+from ninja_game.learn.levels.source import Curriculum, LevelSource, word_like
 from ninja_game.sim.level import Level
 
 DEFAULT_LEVEL = "00-0-first-steps"
@@ -87,9 +87,7 @@ def level_source(origin: Origin) -> LevelSource:
     if origin and "\0" not in origin and Path(origin).exists():
         return _named(load_levels(origin))
     words = ["set", "train", "test", "curriculum", *files]
-    raise ArgumentError(
-        f"there is no level, and no file, {origin!r:.100}; expected such as {closest_word(origin, words)}"
-    )
+    raise ArgumentError(f"there is no level, and no file, {origin!r:.100}; expected such as {word_like(origin, words)}")
 
 
 _own_levels = cache(own_levels)

@@ -10,15 +10,7 @@ from pathlib import Path
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.certify import lead_in, place_before, with_ninja_at
 from ninja_game.editor.draft import Draft, change_text
-from ninja_game.editor.files import (
-    SUFFIX,
-    Source,
-    draft_of,
-    new_source,
-    open_source,
-    recovered_drafts,
-    save as save_draft,
-)
+from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source, save as save_draft
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
 from ninja_game.editor.stamp import Stamp, level_stamp, with_stamp
@@ -503,7 +495,7 @@ class EditorCommands(DocumentCommands):
 
     def offer_recovered(self) -> None:
         """Ask what to do with a level that was open when the program crashed."""
-        draft = next(recovered_drafts(self.app.player.folder), None)
+        draft = next(lost_drafts(self.app.player.folder), None)
         if draft is not None:
             name = draft.draft.name or (draft.source.path.name if draft.source.path else "a new level")
             about = "As it was at most two seconds before the end"
