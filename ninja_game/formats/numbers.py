@@ -34,7 +34,7 @@ def parse_flash_number(text: str) -> float:
     without a sign is hexadecimal, and digits 0-7 after a leading 0 are octal, both as wrapping 32-bit integers.
     A zero has no sign.
 
-    >>> parse_number("408.15"), parse_number("0.707106781186547"), parse_number("685 ")
+    >>> parse_flash_number("408.15"), parse_flash_number("0.707106781186547"), parse_flash_number("685 ")
     (408.15000000000003, 0.7071067811865468, nan)
     """
     if _PLAIN.fullmatch(text):

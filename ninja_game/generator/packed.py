@@ -1,6 +1,6 @@
 """The thousand generated levels that come with the game, made by tools/generated_levels.py: nobody waits for them.
 
->>> first = generated_levels(difficulty=3)[0]
+>>> first = read_packed_levels(difficulty=3)[0]
 >>> first.seed, first.wanted, len(first.inputs) > 0
 (2, 3, True)
 """
