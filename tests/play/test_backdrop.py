@@ -137,8 +137,8 @@ def test_what_lies_within_what_was_drawn_before_it_is_covered_with_that() -> Non
     """A drone's eye needs no rectangle of its own; what reaches beyond has one."""
     target = DrawTarget(CANVAS, CLASSIC, SpriteBook(CANVAS.scale, CLASSIC))
     target.begin(pygame.Surface(CANVAS.size))
-    for key, x, count in ((moving_sprites.drone(0, 0, 0, 0), 200, 1), (moving_sprites.drone_eye(0), 204, 1),
-                          (moving_sprites.drone_eye(0), 240, 2)):  # fmt: skip
+    for key, x, count in ((moving_sprites.drone(0, 0, 0, 0), 200, 1), (moving_sprites.eye(0), 204, 1),
+                          (moving_sprites.eye(0), 240, 2)):  # fmt: skip
         target.sprite(key, x, 200)
         assert len(target.covered) == count
 

@@ -106,7 +106,7 @@ def test_every_drawing_can_be_made(palette: Palette) -> None:
     examples = (
         *AT_REST, static.gold(), static.one_way(), static.exit_door(5), static.exit_switch(1), static.door(2, 0),
         static.door_switch(1, 0), static.launch_pad(3), static.launcher_base(2), static.crosshair(3),
-        static.gold_streak(2), static.lightning(1), moving.bounce_block(1), moving.barrel(1, 4), moving.drone_eye(2),
+        static.gold_streak(2), static.lightning(1), moving.bounce_block(1), moving.barrel(1, 4), moving.eye(2),
         moving.rocket(1), moving.flame(3), moving.impact_burst(4), particles.puff("dust", 3, 1),
         particles.fireball(2, 1), particles.burst_star(3), particles.muzzle(1),
     )  # fmt: skip

@@ -46,7 +46,7 @@ def drone(label: str, weapon: int, *, seeker: int = 0, chasing: int = 0, heat: i
     parts: list[tuple[SpriteKey, float, float]] = [(body, 0, 3)]
     if weapon == 2:
         parts.append((moving.barrel(0, heat), 0, 3))
-    parts.append((moving.drone_eye(mood), 4.5, 3))
+    parts.append((moving.eye(mood), 4.5, 3))
     return label, parts
 
 

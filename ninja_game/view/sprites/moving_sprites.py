@@ -112,7 +112,7 @@ def barrel(s: Sketch, p: Palette, spin: int, heat: int) -> None:
 
 
 @drawing(4)
-def drone_eye(s: Sketch, p: Palette, mood: int) -> None:
+def eye(s: Sketch, p: Palette, mood: int) -> None:
     """A drone's eye, its pupil looking to the right. ``mood``: 0 calm, 1 hunting, 2 armed."""
     s.disc(p.outline, 0, 0, 3.0)
     s.disc((p.bright, p.spark, p.warning)[mood], 0, 0, 2.3)
@@ -248,7 +248,7 @@ def _drone(target: DrawTarget, m: MovingObject) -> None:
         spin = m.animation.tick // 2 % 2 if o.routine in {states.DRONE_PRE_FIRE, states.DRONE_FIRING} else 0
         target.sprite(barrel(spin, heat).turned(turn), m.x, m.y)
     mood = 1 if o.chasing else 2 if o.routine != states.DRONE_MOVE else 0
-    target.sprite(drone_eye(mood).turned(turn), m.x + _EYE_OUT * cos(angle), m.y + _EYE_OUT * sin(angle))
+    target.sprite(eye(mood).turned(turn), m.x + _EYE_OUT * cos(angle), m.y + _EYE_OUT * sin(angle))
 
 
 def _heat(m: MovingObject) -> int:
