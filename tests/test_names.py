@@ -21,6 +21,12 @@ TWO_MEANINGS = {
 }
 """Names that two modules share with a good reason: both are plain words that are read beside their module."""
 
+TWINS = {
+    "collide_own_tile": "of the box and of the circle: each body's form of one rule",
+    "main": "what a program begins with",
+}
+"""Functions of one name in two modules, with a good reason; a command may have the name of what does its work."""
+
 
 def modules() -> dict[str, ast.Module]:
     """The modules of the package by their files, as syntax trees."""
@@ -68,3 +74,19 @@ def test_no_two_public_classes_have_one_name() -> None:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 files[node.name].append(file)
     assert not {name: where for name, where in files.items() if len(where) > 1}
+
+
+def test_no_two_public_functions_have_one_name() -> None:
+    files = defaultdict(list)
+    for file, tree in modules().items():
+        for node in tree.body:
+            if isinstance(node, ast.FunctionDef) and not node.name.startswith("_") and not is_command(node):
+                files[node.name].append(file)
+    shared = {name: where for name, where in files.items() if len(where) > 1}
+    assert not {name: where for name, where in shared.items() if name not in TWINS}, "say in the name what it is of"
+    assert not TWINS.keys() - shared.keys(), "they have names of their own now: strike them out"
+
+
+def is_command(node: ast.FunctionDef) -> bool:
+    """Whether it is a command of click, named as users type it."""
+    return any("command(" in ast.unparse(decorator) for decorator in node.decorator_list)

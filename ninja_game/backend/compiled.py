@@ -19,7 +19,7 @@ from ninja_game.backend.kernels import (
     step_world,
     trace_world,
 )
-from ninja_game.backend.layout import TILE_MAP, Records, bytes_of, new_worlds, plain_copy, write_plain
+from ninja_game.backend.layout import TILE_MAP, Records, new_worlds, plain_copy, world_bytes, write_plain
 from ninja_game.backend.worlds import (
     TRACED_FLOATS,
     TRACED_INTS,
@@ -87,7 +87,7 @@ class CompiledWorlds(Worlds):
         self.worlds: Records = new_worlds(count + len(tables) + 1, self.slots)
         self.maps = _loaded(compiled, self.levels, tables, self.worlds, count, box)
         self.records, self.fresh = self.worlds[:count], self.worlds[count:]
-        self._all_states = bytes_of(self.worlds)
+        self._all_states = world_bytes(self.worlds)
         self.states: NDArray[np.uint8] = self._all_states[:count]
         self._numbers = {field: self.records[field] for field in ("tick", "outcome", "gold", "id_count")}
         self._ninja, self._events, self._event_count = (self.records[f] for f in ("ninja", "events", "event_count"))
@@ -198,7 +198,7 @@ class CompiledWorlds(Worlds):
 
     def put_levels(self, numbers: NDArray[np.intp], levels: Sequence[Level]) -> None:
         self.maps[numbers], fresh = load_worlds(self._compiled, levels, box=self.box)
-        states = bytes_of(fresh)
+        states = world_bytes(fresh)
         for rows in (numbers, self.count + numbers):
             self._all_states[rows] = 0
             self._all_states[rows, : states.shape[1]] = states

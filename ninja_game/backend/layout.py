@@ -133,7 +133,7 @@ def new_worlds(count: int, objects: int) -> Records:
     return np.ndarray((count,), WORLD, block, 0, (stride,))
 
 
-def bytes_of(worlds: Records) -> NDArray[np.uint8]:
+def world_bytes(worlds: Records) -> NDArray[np.uint8]:
     """View the states of worlds, without events, as a matrix of bytes, one row per world.
 
     Save-states and copies between worlds are copies of rows. ``worlds``: an array from ``new_worlds``, not a slice.

@@ -120,9 +120,9 @@ class PlainWorlds(Worlds):
 
     @cached_property
     def states(self) -> Any:
-        from ninja_game.backend.layout import bytes_of
+        from ninja_game.backend.layout import world_bytes
 
-        return bytes_of(self.records)
+        return world_bytes(self.records)
 
     def _show(self, index: int) -> None:
         """Copy a world into its record, if the records are in use."""

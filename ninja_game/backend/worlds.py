@@ -76,19 +76,16 @@ class Worlds(ABC):
     name: MemoryName
     levels: Sequence[Level]
     count: int
-    box: bool
-    """Whether the ninjas are boxes."""
-    slots: int
-    """Slots for objects in each world: what the level with the most objects needs."""
+    box: bool  #: whether the ninjas are boxes
+    slots: int  #: for objects in each world: what the level with the most objects needs
     level_of: Any
     maps: Any
     worlds: Any
     fresh: Any
+    #: The worlds as NumPy records (count,), in one block; of the plain memory as after the last ``run_batch``, ``load``
+    #: or ``restore_many``, without events
     records: Any
-    """The worlds as NumPy records (count,), in one block; of the plain memory as after the last ``run_batch``, ``load``
-    or ``restore_many``, without events."""
-    states: Any
-    """The records as a matrix of bytes, one row per world, without events."""
+    states: Any  #: the records as a matrix of bytes, one row per world, without events
 
     @abstractmethod
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:

@@ -33,12 +33,12 @@ def chunks(count: int, ticks: int, threads: int) -> list[tuple[int, int]]:
         return [(0, count)]
     if small * threads < count:
         size = max(-(-count // (threads * CHUNKS_PER_THREAD)), small)
-        own = 0
+        first_size = 0
     else:
-        own = min(count, (count + HEAD_START // max(ticks, 1) * (threads - 1)) // threads)
-        size = -(-(count - own) // (threads - 1)) or 1
-    rest = [(first, min(first + size, count)) for first in range(own, count, size)]
-    return [(0, own), *rest] if own else rest
+        first_size = min(count, (count + HEAD_START // max(ticks, 1) * (threads - 1)) // threads)
+        size = -(-(count - first_size) // (threads - 1)) or 1
+    rest = [(first, min(first + size, count)) for first in range(first_size, count, size)]
+    return [(0, first_size), *rest] if first_size else rest
 
 
 def whole_number(name: str, number: object, least: int = 1, most: int = 2**63 - 1) -> int:

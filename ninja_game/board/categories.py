@@ -16,7 +16,7 @@ from ninja_game.errors import FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.untrusted import parse_toml
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_number, parse_truth
+from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_measure, parse_truth
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 RUN_NUMBERS: dict[str, Callable[[Run], float]] = {
@@ -56,7 +56,7 @@ class Category:
 
     def __post_init__(self) -> None:
         """Read the formulas. Raises FormulaError."""
-        object.__setattr__(self, "_numbers", tuple(parse_number(number, _ARGUMENTS, ()) for number in self.rank))
+        object.__setattr__(self, "_numbers", tuple(parse_measure(number, _ARGUMENTS, ()) for number in self.rank))
         object.__setattr__(self, "_truth", parse_truth(self.when or "0 == 0", _ARGUMENTS, ()))
 
     def values(self, runs: Sequence[Run]) -> list[tuple[float, ...] | None]:

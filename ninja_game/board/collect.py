@@ -10,7 +10,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from ninja_game.errors import FileError, NinjaGameError, ReplayError, reason
-from ninja_game.files.reading import Skipped, decoded, files_below, read_bytes, stamp_of
+from ninja_game.files.reading import Skipped, decoded, file_stamp, files_below, read_bytes
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import holds_recordings
 from ninja_game.formats.replay.text import (
@@ -111,8 +111,8 @@ class RunFolder:
             return SentFile(name, problem=reason(error))
 
     def stamp(self, name: str) -> list[int]:
-        """As ``stamp_of``; [] for a file so new that a change in the same moment would not show."""
-        now = stamp_of(f"{self.folder}/{name}")
+        """As ``file_stamp``; [] for a file so new that a change in the same moment would not show."""
+        now = file_stamp(f"{self.folder}/{name}")
         return now if now and time.time_ns() - max(now[1:3]) > SETTLED else []
 
     def recordings(self, file: SentFile) -> list[Sent]:

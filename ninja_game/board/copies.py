@@ -55,7 +55,7 @@ class Course:
     places: frozenset[float]  #: the ninja's places in whole pixels: x + 10^6 y
 
     def inputs_shared(self, other: Course) -> int:
-        """Returns the number of ticks with the other's inputs; 0 if too many differ."""
+        """The number of ticks with the other's inputs; 0 if too many differ."""
         changed = edit_distance(self.keys, other.keys)
         alike = changed <= CHANGED * max(len(self.strokes), len(other.strokes))
         return max(0, len(self.keys) - changed) if alike else 0
@@ -158,7 +158,7 @@ class Courses:
         self._places.mark(course.places, column, has=has)
 
     def near(self, course: Course) -> Callable[[NDArray[np.bool_]], Near]:
-        """Returns a function: for columns, chosen by truth values, the runs in them that are near to a course."""
+        """A function of columns, chosen by truth values: the runs in them that are near to a course."""
         columns = len(self.numbers)
         places, presses = self._places.counts(course.places, columns), np.zeros(columns, np.int64)
         for shift in range(-SHIFTED, SHIFTED + 1):
@@ -219,7 +219,7 @@ def edit_distance(ours: bytes, theirs: bytes) -> int:
 
 
 def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run], list[Rejected]]:
-    """Returns the runs that are no copies, with near copies marked, and the copies.
+    """The runs that are no copies, with near copies marked, and the copies.
 
     If several players sent the same run at one moment, nobody knows who was first: all stay, with a remark. ``owners``:
     as of Ledger.
@@ -254,7 +254,7 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
 
 
 def _marked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Iterator[Run]:
-    """Returns the runs of a level, in order, each with a mark if it is near to earlier ones by others alone.
+    """The runs of a level, in order, each with a mark if it is near to earlier ones by others alone.
 
     Of two of one moment nobody knows which was first: the second has the mark, and is no near copy. That is when the
     board took them in: dates of an older board make no near copy. Nor is an assisted run one that names whose it was.
@@ -293,7 +293,7 @@ class _Compared:
         self._last: tuple[Key, Course] | None = None
 
     def _key_of(self, run: Run) -> str:
-        """Returns the key of a run's likeness, which depends only on it, the level's earlier runs and their moments."""
+        """The key of a run's likeness, which depends only on it, the level's earlier runs and their moments."""
         return sha256(f"{self._key} {run.digest} {run.record} {run.player}".encode("utf-8", "replace")).hexdigest()
 
     def begin_moment(self) -> None:
@@ -305,7 +305,7 @@ class _Compared:
         self._runs.append(run)
 
     def likeness(self, run: Run) -> Likeness:
-        """Returns what a run shares with the run by another player that it nearly copies, if it does."""
+        """What a run shares with the run by another player that it nearly copies, if it does."""
         noted = self._memo.recall(key := self._key_of(run))
         if isinstance(noted, list) and [*map(type, noted)] == [str, str, bool, bool, str, int]:
             return Likeness(*noted)
@@ -333,7 +333,7 @@ class _Compared:
 def _near_to_another(
     player: str, course: Course, earlier: Courses, players: Sequence[str], until_moment: int
 ) -> Near | None:
-    """Returns the nearest runs by other players, if there are some.
+    """The nearest runs by other players, if there are some.
 
     Only runs before the player's own first near one count. ``players``: of the earlier runs; the first ``until_moment``
     of these, of earlier moments, are preferred.

@@ -108,25 +108,25 @@ def judge(
 
 
 def _parted(items: Iterable[Run | Rejected]) -> tuple[list[Run], list[Rejected]]:
-    """Returns the runs, and the others."""
+    """The runs, and the others."""
     items = [*items]
     return [run for run in items if isinstance(run, Run)], [item for item in items if isinstance(item, Rejected)]
 
 
 def _dated(run: Run, dates: Dates | None, taken: Dates | None) -> Run:
-    """Returns the run with the dates that the ledger has of it."""
+    """The run with the dates that the ledger has of it."""
     added, later = (of_run(run.key, run.way) if of_run else "" for of_run in (dates, taken))
     return replace(run, added=added, taken=later)
 
 
 def _possible(run: Run, ledger: Ledger) -> Run | Rejected:
-    """Returns the run; rejected if no keyboard can do it, unless the keeper has put it on the assisted ladder."""
+    """The run; rejected if no keyboard can do it, unless the keeper has put it on the assisted ladder."""
     decision = ledger.decision(run)
     return run if not run.kind or (decision and decision.what != PLAYED) else run.rejected(run.kind, run.why)
 
 
 def _first_again(runs: Sequence[Run], owners: Rows) -> Iterator[Run]:
-    """Returns the runs; one that was withdrawn, or is in another file now, keeps its date if its player sent it."""
+    """The runs; one that was withdrawn, or is in another file now, keeps its date if its player sent it."""
     known = {(run.level, run.way, run.added) for run in runs}
     for run in runs:
         owner = owners.get(way := (run.level, run.way))
@@ -137,14 +137,14 @@ def _first_again(runs: Sequence[Run], owners: Rows) -> Iterator[Run]:
 
 
 def _of_players(runs: Iterable[Run], players: Players) -> Iterator[Run]:
-    """Returns the runs, each assigned to its author's player."""
+    """The runs, each assigned to its author's player."""
     for run in runs:
         player, mark = players.meet(run.player)
         yield replace(run.marked(mark), player=player)
 
 
 def _named(item: Rejected, players: Players) -> Rejected:
-    """Returns a run that does not count, assigned to its author's player if it has one."""
+    """A run that does not count, assigned to its author's player if it has one."""
     return item if item.kind == "unreadable" else replace(item, player=players.meet(item.player)[0])
 
 
@@ -263,7 +263,7 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
 
 
 def _with_row(run: Run, ledger: Ledger, owner: Mapping[str, Any]) -> Run:
-    """Returns a run with what only the ledger knows: it is confirmed, or near to one that may be gone.
+    """A run with what only the ledger knows: it is confirmed, or near to one that may be gone.
 
     ``owner``: the row of who did it first; that of its own file counts if several did it together.
     """
@@ -277,7 +277,7 @@ def _with_row(run: Run, ledger: Ledger, owner: Mapping[str, Any]) -> Run:
 
 
 def _of_senders(runs: Sequence[Run], ledger: Ledger, confirm: Collection[str]) -> Iterator[Run]:
-    """Returns the runs; one from another folder than its player's own is marked, until one from there is confirmed.
+    """The runs; one from another folder than its player's own is marked, until one from there is confirmed.
 
     A folder is a player's own if most of its runs are by that player. Runs that the ledger has without a question, or
     of their player's first moment, keep their places; any other waits.

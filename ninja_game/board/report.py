@@ -224,7 +224,7 @@ def dates_of(before: Ledger, now: datetime, dates_by_file: Mapping[str, str]) ->
     return added, taken
 
 
-def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
+def board_news(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
     """Each difference from the board before: whether it is allowed, and a line about it."""
     runs, rejected, *_ = before
     now = {run.key: _run_data(run) for run in ranking.judged.runs}

@@ -201,11 +201,11 @@ class Run(Judged):
         return run_level(self.entry.named.level, self.inputs).positions
 
     def rejected(self, kind: str, why: str, first: Key | None = None) -> Rejected:
-        """Returns it as a run that does not count."""
+        """The run as one that does not count."""
         return Rejected(*self.key, kind, why, self.player, self.entry.title, self.way, self.added, first)
 
     def decided(self, decision: Decision | None) -> Run | Rejected:
-        """Returns the run after a decision on it, if there is one."""
+        """The run after a decision on it, if there is one."""
         if decision is None:
             return self
         reason = f": {decision.reason}" if decision.reason else ""

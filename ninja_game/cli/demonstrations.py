@@ -90,7 +90,7 @@ def demonstrations(
     for recording in with_progress(recordings, "recording"):
         try:
             episodes.append(learn.demonstration(recording, memory=memory, most_bytes=left_bytes, **settings))
-            left_bytes -= learn.bytes_of(episodes[-1].observations)
+            left_bytes -= learn.observation_size(episodes[-1].observations)
         except learn.UnplayableRecordingError as error:
             print_error(f"left out: {error}")
     if not episodes:

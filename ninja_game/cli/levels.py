@@ -107,12 +107,12 @@ def pack_up(pack: Path, seconds: float, jobs: int, zip_path: Path | None) -> int
       ninja-game levels pack my-pack/
       ninja-game levels pack my-pack/ --seconds 60 --zip shared.zip
     """
-    from ninja_game.editor.ready_pack import make_ready
+    from ninja_game.editor.ready_pack import prepare_pack
 
     path = zip_path or pack.resolve().with_name(f"{pack.resolve().name}.zip")
     check_output(path)
     with progress_line() as report:
-        ready = make_ready(pack, seconds=seconds, jobs=jobs, say=lambda text, _: report.say(text))
+        ready = prepare_pack(pack, seconds=seconds, jobs=jobs, say=lambda text, _: report.say(text))
     write_atomically(path, ready.zipped)
     code = _tell(ready.pack, ready.findings)
     click.echo("\n".join([*ready.notes, f"wrote {path}", ready.link]).strip())

@@ -182,11 +182,11 @@ def compile_everything(processes: int, *, quiet: bool) -> None:
     """
     from ninja_game.backend.kernel_cache import are_cached, code_folder
     from ninja_game.backend.kernels import run_world
-    from ninja_game.runs.workers import in_order, workers
+    from ninja_game.runs.workers import results_of, workers
 
     began = time.monotonic()
     with workers(processes, processes=processes > 1) as pool:
-        for number, (name, lost) in enumerate(in_order(pool, compile_for, WORK), 1):
+        for number, (name, lost) in enumerate(results_of(pool, compile_for, WORK), 1):
             if lost is not None:
                 raise lost
             if number == 1 and not any(are_cached([run_world], checked) for checked in (False, True)):
@@ -270,7 +270,7 @@ def export(file: Path) -> None:
 
 @player.command("import")
 @click.argument("file", type=OLD_FILE)
-def take_in(file: Path) -> None:
+def import_backup(file: Path) -> None:
     """Import FILE. Better runs replace worse ones; nothing of yours is overwritten."""
     from ninja_game.files.reading import read_bytes
     from ninja_game.player.backup import MAX_BACKUP_BYTES, read_backup

@@ -145,7 +145,7 @@ def _compare(traces: Readable[FiledTrace], expected: Iterator[FiledTrace], again
 def _write(traces: Readable[FiledTrace], output: Path | None, files: Sequence[Path]) -> None:
     """Write the table: to the terminal, to a .npz file, or as CSV to any other file."""
     from ninja_game.files.writing import write_atomically
-    from ninja_game.runs.trace_files import write_csv, write_npz
+    from ninja_game.runs.trace_files import write_csv, write_trace_arrays
 
     first = next(iter(traces), None)
     if first is None:
@@ -154,7 +154,7 @@ def _write(traces: Readable[FiledTrace], output: Path | None, files: Sequence[Pa
     if output is None:
         write_csv(runs, data_output())
     elif output.suffix == ".npz":
-        write_atomically(output, partial(write_npz, runs), keep=files)
+        write_atomically(output, partial(write_trace_arrays, runs), keep=files)
     else:
         write_atomically(output, partial(_fill_csv, runs), keep=files)
 

@@ -171,7 +171,7 @@ def board(
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
-    from ninja_game.board.report import board_text, changes, check_confirmed, gone, moderate, plain, summary, unnamed
+    from ninja_game.board.report import board_news, board_text, check_confirmed, gone, moderate, plain, summary, unnamed
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.pages.frame import GAME_PAGE
@@ -208,7 +208,7 @@ def board(
         if how := unnamed(judged):
             click.echo(how, err=True)
         return 0
-    rows = list(changes(ranking, before))
+    rows = list(board_news(ranking, before))
     for _, line in rows:
         click.echo(line)
     click.echo(summary(judged) if rows else f"nothing has changed: {summary(judged)}")

@@ -17,7 +17,7 @@ from ninja_game.backend.memories import compiled_available, open_worlds
 from ninja_game.editor.brush import EMPTY, object_of_type, placed
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import object_type_name
-from ninja_game.editor.stamp import Stamp, put
+from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.formats.messages import SIZE
 from ninja_game.formats.run_time import seconds_text
@@ -388,7 +388,7 @@ _FIRST_WALL = next(number for number, plan in enumerate(FAN) if plan.wall)
 
 
 def with_ninja_at(draft: Draft, place: tuple[float, float]) -> Level:
-    return put(draft, Stamp({}, (placed(object_of_type("ninja"), *place, "px"),))).level
+    return with_stamp(draft, Stamp({}, (placed(object_of_type("ninja"), *place, "px"),))).level
 
 
 def lead_in(level: Level, inputs: bytes, tick: int) -> bytes:
@@ -412,10 +412,10 @@ def place_before(draft: Draft, place: tuple[float, float], size: Cell = SIZE) ->
     if abs(start[0] - place[0]) <= across and abs(start[1] - place[1]) <= down and start != place:
         return None
     sides, far = (1, -1) if start > place else (-1, 1), range(size[0] // 2 + 1, 0, -1)
-    ways = [[(column + side * k, row) for k in range(1, last + 1)] for last in far for side in sides]
-    for way in sorted(ways, key=lambda way: (-len(way), -sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way))):
-        if all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way):
-            run = _played(with_ninja_at(draft, at := middle_of(way[-1])), bytes(TICKS))
+    strips = [[(column + side * k, row) for k in range(1, last + 1)] for last in far for side in sides]
+    for strip in sorted(strips, key=lambda s: (-len(s), -sum(draft.tile((x, row + 1)) != EMPTY for x, _ in s))):
+        if all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in strip):
+            run = _played(with_ninja_at(draft, at := middle_of(strip[-1])), bytes(TICKS))
             if run and run.outcome != "dead":
                 return at
     return None

@@ -87,16 +87,16 @@ def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -
     Raises OccupiedError if that would replace another file, or one that has changed since it was read, unless
     ``replacing``; FileError, OSError if writing fails.
     """
-    own = source.path is not None and path == source.path
-    there = digest_of_file(path)
-    if own and draft == source.draft and there == source.digest:
+    same_file = source.path is not None and path == source.path
+    digest = digest_of_file(path)
+    if same_file and draft == source.draft and digest == source.digest:
         return source
-    check_free(path, there, source.digest if own else None, replacing=replacing)
-    text = updated_text(source.text, source.draft, draft) if own and source.text else ascii_text(draft)
-    data = (text.replace("\n", "\r\n") if own and source.windows else text).encode("utf-8", "replace")
-    if digest_of(data) != there:
+    check_free(path, digest, source.digest if same_file else None, replacing=replacing)
+    text = updated_text(source.text, source.draft, draft) if same_file and source.text else ascii_text(draft)
+    data = (text.replace("\n", "\r\n") if same_file and source.windows else text).encode("utf-8", "replace")
+    if digest_of(data) != digest:
         write_atomically(path, data)
-    return Source(draft, path, text, digest_of(data), own and source.windows)
+    return Source(draft, path, text, digest_of(data), same_file and source.windows)
 
 
 def draft_of_text(text: str, about: Draft) -> Draft:
@@ -214,13 +214,13 @@ class RecoveredDraft:
         return remove_abandoned(self.file)
 
 
-def recovered(folder: Path) -> Iterator[RecoveredDraft]:
+def lost_drafts(folder: Path) -> Iterator[RecoveredDraft]:
     """The drafts of editors that crashed, the newest first; those of running editors are left out."""
     return recovered_from(folder / EDITING, AUTOSAVE_SUFFIX, _read)
 
 
 def _read(file: Path) -> RecoveredDraft:
-    """The content of an autosave; its path counts only if that file still exists. Raises as ``recovered``."""
+    """The content of an autosave; its path counts only if that file still exists. Raises as ``lost_drafts``."""
     kept = json.loads(read_utf8(file))
     draft = draft_of(parse_levels(kept["level"])[0])
     source = new_source()

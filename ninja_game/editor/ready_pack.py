@@ -37,7 +37,7 @@ _SOUGHT = {"exit": "run to the exit", "gold": "run with all gold"}
 _GOALS = {"exit": "exit", "gold": "all gold"}
 
 MADE_READY = (*_MISSING, "certificate", "no-pars", "old-pars")
-"""Codes of findings that ``make_ready`` removes, unless its search fails."""
+"""Codes of findings that ``prepare_pack`` removes, unless its search fails."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class ReadyPack:
         return [finding for finding in self.findings if not finding.reason]
 
 
-def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Obstacles | None = None) -> ReadyPack:
+def prepare_pack(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Obstacles | None = None) -> ReadyPack:
     """Certify each level to the exit and with all gold, write the par times, lint; the zip and the link.
 
     ``seconds``: for each search; ``jobs``: levels at a time; ``say`` may raise to end it. ``obstacles``: of earlier

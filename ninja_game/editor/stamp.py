@@ -56,17 +56,17 @@ def area_between(a: Cell, b: Cell) -> CellArea:
     return column, row, abs(a[0] - b[0]) + 1, abs(a[1] - b[1]) + 1
 
 
-def cells_of(area: CellArea) -> list[Cell]:
+def area_cells(area: CellArea) -> list[Cell]:
     column, row, columns, rows = area
     return [(i, j) for j in range(row, row + rows) for i in range(column, column + columns)]
 
 
-def put(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> Draft:
+def with_stamp(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> Draft:
     """Draw a stamp, and its images in a symmetry. New objects come last; there is one ninja, and exits have no images.
 
     An equal object at the same place is not drawn twice.
     """
-    objects, there = draft.objects, set(draft.objects if stamp.objects else ())
+    objects, present = draft.objects, set(draft.objects if stamp.objects else ())
     new: dict[ObjectSpec, None] = {}
     tiles: Tiles = {}
     for number, motion in enumerate((Motion(), *symmetry)):
@@ -80,7 +80,7 @@ def put(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> Draft:
                 # It replaces the one that plays, the last; the first ninja of a level comes before all objects.
                 last = max((place for place, other in enumerate(objects) if other.kind == NINJA), default=-1)
                 objects = (*objects[: max(last, 0)], spec, *objects[last + 1 :])
-            elif spec not in there:
+            elif spec not in present:
                 new[spec] = None
     return draft.with_tiles(tiles).with_objects(objects + tuple(new))
 
@@ -119,20 +119,20 @@ def everything(draft: Draft) -> Selection:
 
 def copied(draft: Draft, selection: Selection) -> Stamp:
     """The selection as a stamp; an object with one selected part is copied whole."""
-    tiles = {cell: draft.tile(cell) for cell in cells_of(selection.area) if is_inside(cell)} if selection.area else {}
+    tiles = {cell: draft.tile(cell) for cell in area_cells(selection.area) if is_inside(cell)} if selection.area else {}
     return Stamp(tiles, tuple(draft.objects[number] for number in sorted(selection.numbers)))
 
 
-def stamp_of(draft: Draft) -> Stamp:
+def level_stamp(draft: Draft) -> Stamp:
     """All of a level, from its first to its last column and row with a tile."""
-    parts, tiles = everything(draft).parts, [cell for cell in cells_of((1, 1, COLUMNS, ROWS)) if draft.tile(cell)]
+    parts, tiles = everything(draft).parts, [cell for cell in area_cells((1, 1, COLUMNS, ROWS)) if draft.tile(cell)]
     columns, rows = zip(*tiles, strict=True) if tiles else ((), ())
     area = area_between((min(columns), min(rows)), (max(columns), max(rows))) if tiles else None
     return copied(draft, Selection(area, parts))
 
 
 def removed(draft: Draft, selection: Selection) -> Draft:
-    tiles = dict.fromkeys(cells_of(selection.area), 0) if selection.area else {}
+    tiles = dict.fromkeys(area_cells(selection.area), 0) if selection.area else {}
     kept = tuple(spec for number, spec in enumerate(draft.objects) if number not in selection.numbers)
     return draft.with_tiles(tiles).with_objects(kept)
 
@@ -158,7 +158,7 @@ def moved(draft: Draft, selection: Selection, motion: Motion) -> tuple[Draft, Se
     area = None
     tiles: Tiles = {}
     if selection.area is not None:
-        tiles = dict.fromkeys(cells_of(selection.area), 0)
+        tiles = dict.fromkeys(area_cells(selection.area), 0)
         tiles |= copied(draft, Selection(selection.area)).carried(motion).tiles
         column, row, columns, rows = selection.area
         area = area_between(motion.cell((column, row)), motion.cell((column + columns - 1, row + rows - 1)))
@@ -183,7 +183,7 @@ def arranged(draft: Draft, selection: Selection, axis: int, share: float | None)
 
 def pasted(draft: Draft, stamp: Stamp) -> tuple[Draft, Selection]:
     """The draft with a stamp on it, and the selection of the pasted things: objects are added, but a ninja moves."""
-    after, stamped = put(draft, stamp), set(stamp.objects)
+    after, stamped = with_stamp(draft, stamp), set(stamp.objects)
     new = {number for number, spec in enumerate(after.objects) if spec in stamped}
     parts = {(number, part) for number in new for part in points(after.objects[number])}
     cells = list(stamp.tiles)
@@ -191,7 +191,7 @@ def pasted(draft: Draft, stamp: Stamp) -> tuple[Draft, Selection]:
     return after, Selection(area, frozenset(parts))
 
 
-def middle_of(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[float, float]:
+def turning_centre(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[float, float]:
     """The centre for turning a selection, px, so that cells fall onto cells; ``quarter``: by a quarter turn.
 
     If its middle is no such point, one beside it, to the right and to the left in turn: four turns are none.
@@ -207,7 +207,7 @@ def middle_of(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[flo
     return x + (sideways if x % CELL == 0.0 else -sideways), y
 
 
-def nearest(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None:
+def nearest_part(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None:
     """The part of an object nearest to a point and within ``reach`` px of it; of equals the newest."""
     closest: ObjectPart | None = None
     best = reach * reach
@@ -278,7 +278,7 @@ def curve(shape: str, a: Point, b: Point, bend: float = 0.0) -> list[Point]:
     ]
 
 
-def spread(path: list[Point], spacing: float) -> list[Point]:
+def spaced_places(path: list[Point], spacing: float) -> list[Point]:
     """Places along a path, evenly and about ``spacing`` px apart, from its first point to its last."""
     lengths = list(accumulate((dist(*ends) for ends in pairwise(path)), initial=0.0))
     count = max(1, round(lengths[-1] / spacing))
@@ -302,18 +302,18 @@ def covered(shape: str, a: Cell, b: Cell, bend: float) -> list[Cell]:
     column, row, columns, rows = area
     x, y = column + (columns - 1) / 2, row + (rows - 1) / 2
     return [
-        (i, j) for i, j in cells_of(area) if shape == "rectangle" or hypot((i - x) / columns, (j - y) / rows) <= 0.5
+        (i, j) for i, j in area_cells(area) if shape == "rectangle" or hypot((i - x) / columns, (j - y) / rows) <= 0.5
     ]
 
 
-def joined(cells: list[Cell]) -> list[Cell]:
+def ramp_cells(cells: list[Cell]) -> list[Cell]:
     """A line of cells with those beside slanted parts, so that consecutive cells share a side: two make a ramp."""
     (left, right), (top, bottom) = ((min(along), max(along)) for along in zip(*cells, strict=True))
     dx, dy = (0, 1) if right - left >= bottom - top else (1, 0)
     return cells if left == right or top == bottom else [*cells, *((x + dx, y + dy) for x, y in cells)]
 
 
-def steps(cells: list[Cell]) -> list[Cell]:
+def stair_cells(cells: list[Cell]) -> list[Cell]:
     """Of a line, for two cells that touch only at a corner: the cell below the upper one, so that slopes join them."""
     return [(min(a, b, key=lambda cell: cell[1])[0], max(a[1], b[1])) for a, b in pairwise(cells) if dist(a, b) > 1]
 
@@ -370,7 +370,7 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
         """The cost of the cheapest path from a corner of cells to the top, and the path; ``heading``: before it."""
         if at == (wide, 0):
             return _TURN * heading**2, ()
-        ways: list[tuple[float, tuple[_Stretch, ...]]] = [(inf, ())]
+        choices: list[tuple[float, tuple[_Stretch, ...]]] = [(inf, ())]
         for stretch in _STRETCHES:
             x, y = at[0] + stretch.right, at[1] - stretch.up
             # It begins upright in a middle row and ends flat in a middle column; no cell at its ends stays empty.
@@ -378,17 +378,18 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
             first = at[1] == high and stretch.right and (rows % 2 or not stretch.up)
             if x <= wide and y >= 0 and stretch.begins <= heading and not (first or last):
                 cost, path = cheapest((x, y), stretch.ends)
-                ways.append((cost + between(at, stretch) + _TURN * (stretch.begins - heading) ** 2, (stretch, *path)))
-        return min(ways, key=lambda way: way[0])
+                cost += between(at, stretch) + _TURN * (stretch.begins - heading) ** 2
+                choices.append((cost, (stretch, *path)))
+        return min(choices, key=lambda choice: choice[0])
 
     tiles, (x, y) = dict[Cell, int](), (0, high)
     for stretch in cheapest((0, high), 90.0)[1]:
         tiles |= dict.fromkeys(((i, j) for i in range(x, x + stretch.right) for j in range(y, high)), FULL)
         y -= stretch.up
-        boxed = cells_of((x, y, stretch.right, stretch.up))
+        boxed = area_cells((x, y, stretch.right, stretch.up))
         tiles |= dict(zip(boxed, stretch.tiles, strict=True))
         x += stretch.right
-    for i, j in cells_of((0, 0, columns, rows)):
+    for i, j in area_cells((0, 0, columns, rows)):
         tile = tiles.get((min(i, columns - 1 - i), min(j, rows - 1 - j)), EMPTY)
         tile = MIRROR.tile(tile) if i >= wide else tile
         tiles[i, j] = FLIP.tile(tile) if j >= high else tile

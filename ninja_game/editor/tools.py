@@ -228,7 +228,7 @@ class EditorTools:
         return busy
 
     def pick(self) -> None:
-        part = stamps.nearest(self.draft, *self.pointer, PICK_REACH)
+        part = stamps.nearest_part(self.draft, *self.pointer, PICK_REACH)
         if part:
             self.pick_up(self.draft.objects[part[0]])
         else:
@@ -258,7 +258,7 @@ class EditorTools:
 
     def _with(self, stamp: stamps.Stamp, draft: Draft) -> Draft:
         """The draft with a stamp on it, in all images of the symmetry, and with automatic slopes."""
-        after = stamps.put(draft, stamp, SYMMETRIES[self.symmetry])
+        after = stamps.with_stamp(draft, stamp, SYMMETRIES[self.symmetry])
         sloped = self.sets_slopes and set(stamp.tiles.values()) <= {brush.EMPTY, brush.FULL}
         return stamps.sloped(draft, after) if sloped else after
 
@@ -280,7 +280,7 @@ class EditorTools:
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
         if not self.draws_objects:
             tile, cells = 0 if erasing else self.tile, stamps.covered("line", before, self.cell, 0.0)
-            cells += stamps.steps(cells) if self.slopes and tile in (brush.EMPTY, brush.FULL) else []
+            cells += stamps.stair_cells(cells) if self.slopes and tile in (brush.EMPTY, brush.FULL) else []
             self._change(stamps.Stamp(self._lined(cells, tile, self.draft)))
         elif erasing:
             self.delete_nearest()
@@ -299,7 +299,7 @@ class EditorTools:
             tiles = dict.fromkeys(cells, self.tile)
             if self._gesture == Gesture.LINE:
                 ramp = self.slopes and self.tile in (brush.EMPTY, brush.FULL)
-                tiles = self._lined(stamps.joined(cells) if ramp else cells, self.tile, self.history.began)
+                tiles = self._lined(stamps.ramp_cells(cells) if ramp else cells, self.tile, self.history.began)
             elif self.slopes and self._gesture == Gesture.ELLIPSE and self.tile == brush.FULL:
                 column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
                 tiles = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
@@ -310,7 +310,7 @@ class EditorTools:
             return
         ends = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)
         if self._gesture in CURVES:
-            places, snap = stamps.spread(stamps.curve(self._gesture, *ends, self._bend), self.spacing), "px"
+            places, snap = stamps.spaced_places(stamps.curve(self._gesture, *ends, self._bend), self.spacing), "px"
         else:
             step, snap = max(brush.SNAPS[self.snap], 12.0), self.snap
             (x, right), (y, bottom) = (sorted(along) for along in zip(*ends, strict=True))
@@ -339,7 +339,7 @@ class EditorTools:
     def delete_nearest(self, reach: float = REACH) -> None:
         """Delete the object nearest to the pointer, and its images in the symmetry."""
         places = [self.pointer, *(motion.point(*self.pointer) for motion in SYMMETRIES[self.symmetry])]
-        parts = [stamps.nearest(self.draft, *place, reach) for place in places]
+        parts = [stamps.nearest_part(self.draft, *place, reach) for place in places]
         self.history.change(stamps.removed(self.draft, stamps.Selection(parts=frozenset(filter(None, parts)))))
 
     # --- choosing ---
@@ -353,7 +353,7 @@ class EditorTools:
     def near(self, reach: float) -> stamps.ObjectPart | None:
         """The part of an object at the pointer, within that many px; None if Select takes only tiles."""
         tiles = self.tool == "select" and self.takes == "tiles"
-        return None if tiles else stamps.nearest(self.draft, *self.pointer, reach)
+        return None if tiles else stamps.nearest_part(self.draft, *self.pointer, reach)
 
     def take(self, what: str) -> None:
         """Set what Select takes, one of TAKES, and deselect the rest."""
@@ -375,7 +375,7 @@ class EditorTools:
 
     def _choose(self, *, add: bool) -> None:
         part, area = self.near(PICK_REACH), self.selection.area
-        if not add and (part in self.selection.parts or (area and self.cell in stamps.cells_of(area))):
+        if not add and (part in self.selection.parts or (area and self.cell in stamps.area_cells(area))):
             self._begin_drag()
             return
         self._chosen_before = self.selection if add else stamps.Selection()
@@ -451,7 +451,7 @@ class EditorTools:
             return True
         self.finish()
         if self.selection:
-            about = motion.about(*stamps.middle_of(self.draft, self.selection, quarter=bool(motion.xy)))
+            about = motion.about(*stamps.turning_centre(self.draft, self.selection, quarter=bool(motion.xy)))
             return self._carry(self.selection, about)
         elif self.draws_objects:
             self.spec = stamps.Stamp({}, (self.spec,)).carried(motion.about(36.0, 36.0)).objects[0]
@@ -461,7 +461,7 @@ class EditorTools:
         return True
 
     def _carry(self, selection: stamps.Selection, motion: Motion) -> bool:
-        cells = list(stamps.cells_of(selection.area)) if selection.area else []
+        cells = list(stamps.area_cells(selection.area)) if selection.area else []
         cells += [cell_of(*points(self.draft.objects[number])[part]) for number, part in selection.parts]
         if not all(is_inside(motion.cell(cell)) for cell in cells if is_inside(cell)):
             return False

@@ -139,7 +139,7 @@ def open_regular(path: Path) -> IO[bytes]:
 NO_FILE: list[int] = []  # the stamp of a missing file
 
 
-def stamp_of(path: Path | str) -> list[int]:
+def file_stamp(path: Path | str) -> list[int]:
     """Changes when a file or folder is written or replaced: its size, times and number; copies set no ctime."""
     try:
         status = os.stat(path)  # noqa: PTH116 - a path of text is cheaper, and a board asks of each run

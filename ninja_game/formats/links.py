@@ -273,7 +273,7 @@ def linked_texts(link: str | Path, *kinds: LinkKind) -> tuple[str, ...]:
     return tuple(map(_whole, content.texts))
 
 
-def recordings_of(texts: Iterable[str]) -> list[Recording]:
+def recordings_in_links(texts: Iterable[str]) -> list[Recording]:
     """The recordings in untrusted texts that contain their levels. Raises LinkError, ReplayError, LevelError."""
     recordings = []
     for text in texts:

@@ -12,14 +12,14 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
 MAX_MESSAGES, MAX_LETTERS = 8, 120
-SIZE = 5, 5  # columns and rows of the frame around the cell of a text with a place, unless it has a size of its own
-ANY: Cell = 0, 0  # the cell of a text that is about none
-BAR = "|"  # separates two texts
+SIZE = 5, 5  # columns and rows of the frame around the cell of a message with a place, unless it has a size of its own
+ANY: Cell = 0, 0  # the cell of a message that is about none
+BAR = "|"  # separates two messages
 
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
-"""Actions whose key a text may name: {jump} becomes the player's key or button."""
+"""Actions whose key a message may name: {jump} becomes the player's key or button."""
 
-TARGETS = ("switch", "exit")  # objects that a text may name in the same way: an arrow points to each of them
+TARGETS = ("switch", "exit")  # objects that a message may name in the same way: an arrow points to each of them
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _COUNTED = re.compile(r"death ([1-9][0-9]?)|after ([1-9][0-9]?) s")
@@ -62,14 +62,14 @@ class LevelMessage(NamedTuple):
 
 
 def parse_messages(value: str) -> tuple[LevelMessage, ...]:
-    """The texts in a header's value, separated by bars. Raises LevelError.
+    """The messages in a header's value, separated by bars. Raises LevelError.
 
     >>> parse_messages("start: {jump} jumps | death 3 for 9 s: Wait for the drone")[1]
     LevelMessage(when='death', text='Wait for the drone', number=3, cell=(0, 0), seconds=9, size=(5, 5))
     """
     parts = value.split(BAR) if value.strip() else []
     if len(parts) > MAX_MESSAGES:
-        raise LevelError("too many texts in 'says'", found=str(len(parts)), expected=f"at most {MAX_MESSAGES}")
+        raise LevelError("too many messages in 'says'", found=str(len(parts)), expected=f"at most {MAX_MESSAGES}")
     return tuple(map(_read, parts))
 
 
@@ -110,9 +110,9 @@ def _read(part: str) -> LevelMessage:
     when, colon, text = (piece.strip() for piece in part.partition(":"))
     found = repr(part.strip()[:40])
     if not colon or not text:
-        raise LevelError("not a text in 'says'", found=found, expected="WHEN: text", hint=f"WHEN is {_WHEN}")
+        raise LevelError("not a message in 'says'", found=found, expected="WHEN: text", hint=f"WHEN is {_WHEN}")
     if len(text) > MAX_LETTERS or not text.isprintable():
-        raise LevelError("a text in 'says'", found=found, expected=f"at most {MAX_LETTERS} printable letters")
+        raise LevelError("a message in 'says'", found=found, expected=f"at most {MAX_LETTERS} printable letters")
     for name in unknown_words(text):
         raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + TARGETS))
     timed = _TIME.fullmatch(when)

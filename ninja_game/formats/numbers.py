@@ -27,14 +27,14 @@ _EXPONENT_LIMIT = 10**6
 _SMALLEST = math.ulp(0.0)
 
 
-def parse_number(text: str) -> float:
+def parse_flash_number(text: str) -> float:
     """Read ``text`` as Flash does; NaN if it is not a number (game.md §5.2).
 
     A number has blanks, a sign, digits with an optional point, an optional exponent; nothing may follow. ``0x1F``
     without a sign is hexadecimal, and digits 0-7 after a leading 0 are octal, both as wrapping 32-bit integers.
     A zero has no sign.
 
-    >>> parse_number("408.15"), parse_number("0.707106781186547"), parse_number("685 ")
+    >>> parse_flash_number("408.15"), parse_flash_number("0.707106781186547"), parse_flash_number("685 ")
     (408.15000000000003, 0.7071067811865468, nan)
     """
     if _PLAIN.fullmatch(text):
@@ -114,7 +114,7 @@ def format_number(value: float) -> str:
 
 @lru_cache(maxsize=2**17)  # all numbers of a level with the most objects, which is written and then compared
 def format_exact(value: float) -> str:
-    """Write the shortest decimal that ``parse_number`` reads as exactly this value; the nearest one if there is none.
+    """Write the shortest decimal that ``parse_flash_number`` reads as exactly this value; the nearest if there is none.
 
     Digit sums miss some float64 values, such as 1.13 and 1.15, but hardly any coordinate.
     """

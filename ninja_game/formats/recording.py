@@ -195,7 +195,7 @@ def _read_recordings(records: Iterable[LevelRecord], file: str, level: Level | N
     for record in records:
         if record.level and record.demo and record.level not in known:
             known[record.level] = parse_level_string(record.level, file=file, line=record.line)
-        recordings.append(recording_of(record, file, known.get(record.level, level)))
+        recordings.append(demo_recording(record, file, known.get(record.level, level)))
         legacy_ticks += recordings[-1].ticks if record.demo.startswith("A") else 0
         if legacy_ticks > MAX_LEGACY_TICKS:
             what = "the demos of older versions in this file are too long together"
@@ -204,7 +204,7 @@ def _read_recordings(records: Iterable[LevelRecord], file: str, level: Level | N
     return recordings
 
 
-def recording_of(record: LevelRecord, file: str, level: Level | None) -> Recording:
+def demo_recording(record: LevelRecord, file: str, level: Level | None) -> Recording:
     """Read the demo of a record, on its level. Raises ReplayError or DemoError with ``file`` and the record."""
     if not record.demo:
         found = repr(record.note[:40]) if record.note else ""

@@ -73,18 +73,18 @@ def _route_score(stops: Sequence[Cell], steps: Callable[[Cell], Mapping[Cell, in
     spread = min(dist(a, b) for number, a in enumerate(stops) for b in stops[:number])
     if spread < CLOSE_CELLS:
         return None
-    way = 0
+    walked = 0
     for number, pair in enumerate(pairwise(stops)):
         there = steps(pair[1 - number % 2]).get(pair[number % 2])
         if there is None:
             return None
-        way += there
+        walked += there
     width = max(column for column, _ in stops) - min(column for column, _ in stops)
     height = max(row for _, row in stops) - min(row for _, row in stops)
     near = dist(stops[0], stops[-1])
     apart = max(BESIDE_CELLS[0] - near, near - BESIDE_CELLS[1], 0.0)
     even = sum(mirrored(a) in stops for a in stops[1:-1])
-    return even * 2 + min(spread, 10.0) + min(height, 14) / 2 + width / 2 - apart - abs(way - far) / 3
+    return even * 2 + min(spread, 10.0) + min(height, 14) / 2 + width / 2 - apart - abs(walked - far) / 3
 
 
 _SOLID = 0.13, 0.64

@@ -22,7 +22,7 @@ from ninja_game.formats.pack.pack import INDEX, PARS, certificate_name
 from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars, write_pars
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
-from ninja_game.generator.packed import AUTHOR, PACKED, generated_levels
+from ninja_game.generator.packed import AUTHOR, PACKED, read_packed_levels
 
 _FIRST = date(2026, 11, 23)  # the Monday of the first packed level; a week has seven levels of seven difficulties
 
@@ -56,7 +56,7 @@ def take_packed(levels: Path, day: date) -> bool:
     # Pages do not have them: they would be a sixth of the download.
     if week < 0 or not (data_folder("assets") / PACKED).exists():
         return False
-    levels_of_day = generated_levels(daily_difficulty(day))
+    levels_of_day = read_packed_levels(daily_difficulty(day))
     if week >= len(levels_of_day):
         return False
     from ninja_game.search.certificate import verified_run  # pages have no search

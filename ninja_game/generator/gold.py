@@ -79,7 +79,7 @@ def hoard(scene: Scene, rng: Random) -> list[Point]:
     return [point for x, t in row if _fits(scene, point := (x, y + 4 - high * 4 * t * (1 - t)))]
 
 
-def rows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
+def gold_rows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     """A few pieces on a floor, the smallest floors first: for a guard, thwump or mine to watch."""
     floors = sorted(scene.runs(), key=lambda run: (run.length > 6) + rng.random())
     for run in floors:
@@ -161,7 +161,7 @@ def lay_gold(scene: Scene, rng: Random) -> bool:
     return len(scene.gold) >= MIN_PIECES and len(scene.baits) >= 3
 
 
-PATTERNS: tuple[Pattern, ...] = (round_stones, along_walls, bows, falls, rows)
+PATTERNS: tuple[Pattern, ...] = (round_stones, along_walls, bows, falls, gold_rows)
 
 
 def _lay(scene: Scene, points: list[Point], count: int) -> bool:

@@ -205,7 +205,7 @@ def volcano(board: RockBoard, rng: Random) -> None:
     board.spots = [(MID, 15.5)]
 
 
-def eye(board: RockBoard, rng: Random) -> None:
+def rock_eye(board: RockBoard, rng: Random) -> None:
     """An eye: the iris a ring of rock, the vault in the pupil, lashes over it."""
     board.air(disc(MID, 19, 17.5, 16) & disc(MID, 5.5, 17.5, 16.5))
     board.rock(disc(MID, 12.2, 7.8, 6.6) & ~disc(MID, 12.2, 6.5, 5.4))
@@ -235,8 +235,8 @@ def waves(board: RockBoard, rng: Random) -> None:
 
 LAYOUTS: dict[str, Layout] = {
     "heart": heart, "cascade": cascade, "web": web, "cathedral": cathedral, "islands": islands, "mask": mask,
-    "pyramid": pyramid, "hive": hive, "volcano": volcano, "eye": eye, "umbrellas": umbrellas, "hourglass": hourglass,
-    "waves": waves, "skull": skull, "wheel": wheel,
+    "pyramid": pyramid, "hive": hive, "volcano": volcano, "eye": rock_eye, "umbrellas": umbrellas,
+    "hourglass": hourglass, "waves": waves, "skull": skull, "wheel": wheel,
 }  # fmt: skip
 """The ground plans by name."""
 

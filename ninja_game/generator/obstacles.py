@@ -11,7 +11,7 @@ import numpy as np
 
 from ninja_game.formats.ascii.legend import WEAPONS
 from ninja_game.generator.gold import along, lay_about
-from ninja_game.generator.scene import MIDDLE_COLUMN, Scene, mirrored, object_of, places
+from ninja_game.generator.scene import MIDDLE_COLUMN, Scene, mirrored, object_of, object_places
 from ninja_game.sim import kinds
 from ninja_game.sim.grid import Cell, Point, middle_of
 from ninja_game.sim.kinds import ENEMIES
@@ -52,11 +52,11 @@ def guards(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
 
 def zaps(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     """Around stones and along walls."""
-    way = rng.choice(("surface-cw", "surface-ccw"))
+    turn = rng.choice(("surface-cw", "surface-ccw"))
     edges = [(c, r) for c, r in sorted(scene.steps) if scene.full((c, r + 1)) != scene.full((c, r - 1))]
     for column, row in edges:
-        direction = "right" if scene.full((column, row + 1)) == (way == "surface-ccw") else "left"
-        yield object_of(f"zap drone {column},{row} {way} {direction}")
+        direction = "right" if scene.full((column, row + 1)) == (turn == "surface-ccw") else "left"
+        yield object_of(f"zap drone {column},{row} {turn} {direction}")
 
 
 def patrols(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
@@ -159,7 +159,7 @@ def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
     """Fill large empty places with a few pieces of gold around a moving drone, a turret or a mine."""
     air = [middle_of(cell) for cell in sorted(scene.steps)]
     for _ in range(MAX_VOIDS):
-        taken = np.array([point for spec in scene.objects for point in places(spec)])
+        taken = np.array([point for spec in scene.objects for point in object_places(spec)])
         away = np.hypot(*(np.array(air)[:, None] - taken[None]).transpose(2, 0, 1)).min(1)
         x, y = air[int(away.argmax())]
         if away.max() < VOID or not lay_about(scene, (x, y), rng):

@@ -1,6 +1,6 @@
 """The thousand generated levels that come with the game, made by tools/generated_levels.py: nobody waits for them.
 
->>> first = generated_levels(difficulty=3)[0]
+>>> first = read_packed_levels(difficulty=3)[0]
 >>> first.seed, first.wanted, len(first.inputs) > 0
 (2, 3, True)
 """
@@ -68,7 +68,7 @@ def read_line(line: str) -> PackedLevel:
     return PackedLevel(int(seed), int(wanted), name, float(difficulty), parse_level_string(level), inputs)
 
 
-def generated_levels(difficulty: int | None = None) -> list[PackedLevel]:
+def read_packed_levels(difficulty: int | None = None) -> list[PackedLevel]:
     """Read the generated levels that come with the game, by seed: those of a ``difficulty``, 1 to 10, or all.
 
     Raises FileError if they are missing, as in a page.

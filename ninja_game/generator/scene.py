@@ -290,12 +290,12 @@ class Scene:
         """The rock's surface in reach: chains of neighbouring faces."""
         faces = list[Face]()
         for cell in sorted(self.steps):
-            for there in neighbours(cell):
-                (x, y), dx, dy = middle_of(cell), there[0] - cell[0], there[1] - cell[1]
-                if self.full(there):
+            for neighbour in neighbours(cell):
+                (x, y), dx, dy = middle_of(cell), neighbour[0] - cell[0], neighbour[1] - cell[1]
+                if self.full(neighbour):
                     faces.append(Face(x + CELL / 2 * dx, y + CELL / 2 * dy, -dx, -dy))
         for cell, tile in sorted(self.tiles.items()):
-            if tile in _LEANS and any(there in self.steps for there in neighbours(cell)):
+            if tile in _LEANS and any(neighbour in self.steps for neighbour in neighbours(cell)):
                 dx, dy = _LEANS[tile]
                 faces.append(Face(*middle_of(cell), dx * 0.7, dy * 0.7))
         chains, left = list[list[Face]](), dict.fromkeys(faces)
@@ -313,7 +313,7 @@ class Scene:
 
     def wanted(self) -> list[Point]:
         """The places that a player wants or has to touch, px: groups of gold (middle), exit, doors, switches."""
-        return [*self.baits, *(point for spec in self.key[1:] for point in places(spec))]
+        return [*self.baits, *(point for spec in self.key[1:] for point in object_places(spec))]
 
     def twin(self, points: list[Point]) -> list[Point]:
         """Mirror the points at the middle column."""
@@ -325,7 +325,7 @@ class Scene:
         return ok and all(
             dist(point, place) >= (key if spec.kind in _KEY else max(other, _CLEARANCE.get(spec.kind, 0.0)))
             for spec in self.objects
-            for place in places(spec)
+            for place in object_places(spec)
         )
 
     def sees(self, a: Point, b: Point) -> bool:
@@ -340,7 +340,7 @@ _CLEARANCE = {kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0, kinds.BOUNCE_BLOCK: 2
 """px around fixtures that stay free."""
 
 
-def places(spec: ObjectSpec) -> Iterator[Point]:
+def object_places(spec: ObjectSpec) -> Iterator[Point]:
     """The place of an object, and that of its switch."""
     x, y, *more = spec.values
     yield x, y

@@ -44,16 +44,16 @@ def _costs() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 def fitted(ink: Ink, *, even: bool) -> NDArray[np.int64]:
     """The number of the tile of each cell, (rows, columns); ``even``: mirrored at the middle column."""
     cells = ink.reshape(ROWS, SAMPLES, COLUMNS, SAMPLES).swapaxes(1, 2)[:, :, None]
-    own = (cells != masks()).sum((3, 4)) + COSTS
-    own[:, COLUMNS // 2, even * (masks() != masks()[:, :, ::-1]).any((1, 2))] += SAMPLES * SAMPLES
+    costs = (cells != masks()).sum((3, 4)) + COSTS
+    costs[:, COLUMNS // 2, even * (masks() != masks()[:, :, ::-1]).any((1, 2))] += SAMPLES * SAMPLES
     below, right = _costs()
     best = np.full((ROWS + 2, COLUMNS + 2), _FULL)
-    best[1:-1, 1:-1] = own.argmin(2)
+    best[1:-1, 1:-1] = costs.argmin(2)
     odd = np.indices((ROWS, COLUMNS)).sum(0) % 2
     for number in range(_ROUNDS):  # alternating, like the squares of a chessboard
         sides = below[best[:-2, 1:-1]] + below.T[best[2:, 1:-1]]
         sides += right[best[1:-1, :-2]] + right.T[best[1:-1, 2:]]
-        best[1:-1, 1:-1] = np.where(odd == number % 2, (own + sides).argmin(2), best[1:-1, 1:-1])
+        best[1:-1, 1:-1] = np.where(odd == number % 2, (costs + sides).argmin(2), best[1:-1, 1:-1])
     return best[1:-1, 1:-1]
 
 

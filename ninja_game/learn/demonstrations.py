@@ -88,7 +88,7 @@ def demonstration(
     buttons = ((down[:, np.newaxis] & BUTTON_KEYS) > 0).astype(np.int8)
     played = buttons if actions == "buttons" else _ACTION_OF_KEYS[down]
     seen = [env.reset()[0]]
-    size = bytes_of(seen[0])
+    size = observation_size(seen[0])
     rewards: list[float] = []
     info: dict[str, Any] = {}
     terminated = False
@@ -116,7 +116,7 @@ def demonstration(
     )  # fmt: skip
 
 
-def bytes_of(observations: Observed) -> int:
+def observation_size(observations: Observed) -> int:
     return sum(part.nbytes for part in (observations.values() if isinstance(observations, dict) else [observations]))
 
 

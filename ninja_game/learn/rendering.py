@@ -107,7 +107,7 @@ class EpisodePicture:
             self._pygame.display.quit()
 
 
-def episode_text(level: Level, body: Body, inputs: bytes) -> str:
+def state_text(level: Level, body: Body, inputs: bytes) -> str:
     """Show the state after these inputs as text: the level by quarter blocks and the legend's characters, then a line.
 
     Gold taken, exploded mines and the switch of an open exit are left out; moving objects are at their present places.

@@ -22,7 +22,7 @@ from gymnasium.error import ClosedEnvironmentError, ResetNeeded, UnsupportedMode
 from ninja_game.learn.actions import Actions
 from ninja_game.learn.levels.origins import DEFAULT_LEVEL, Origin
 from ninja_game.learn.levels.source import checked_seed
-from ninja_game.learn.rendering import EpisodePicture, checked_size, episode_text
+from ninja_game.learn.rendering import EpisodePicture, checked_size, state_text
 from ninja_game.learn.worlds import EnvSettings, EnvState, EnvWorlds, checked_options, refuse_unknown
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, with_press_bit
@@ -190,7 +190,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
             gymnasium.logger.warn("render() was called without a render mode: make the environment with render_mode=…")
             return None
         if self.render_mode == "ansi":
-            return episode_text(self.level, self.worlds.body, self.inputs)
+            return state_text(self.level, self.worlds.body, self.inputs)
         picture = self._followed(0)
         return None if self.render_mode == "human" else picture.rgb()
 

@@ -11,7 +11,7 @@ import pygame
 from ninja_game.backend.memories import warm_up
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.bundled import data_folder
-from ninja_game.formats.links import is_link, read_link, recordings_of
+from ninja_game.formats.links import is_link, read_link, recordings_in_links
 from ninja_game.formats.load import load_level, load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, is_pack
@@ -141,7 +141,7 @@ def watch_screen(texts: Sequence[str], colours: Sequence[int] = ()) -> Callable[
 
     ``colours``: as of ReplayScreen. Raises NinjaGameError for a replay that cannot be read.
     """
-    return _watch(recordings_of(texts), colours, over_menu=True)
+    return _watch(recordings_in_links(texts), colours, over_menu=True)
 
 
 def _watch(recordings: Sequence[Recording], colours: Sequence[int] = (), *, over_menu: bool) -> Callable[[App], Screen]:

@@ -7,7 +7,7 @@ from random import Random
 
 import pygame
 
-from ninja_game.editor.files import recovered
+from ninja_game.editor.files import lost_drafts
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.bundled import bundled_replays
 from ninja_game.files.shown_text import shown_text
@@ -67,7 +67,7 @@ class MainMenu(MenuScreen):
         return self.app.menu_theme
 
     def enter(self) -> None:
-        draft = next(recovered(self.player.folder), None)
+        draft = next(lost_drafts(self.player.folder), None)
         self._lost = f"Not saved last time: {shown_text(draft.draft.name, 40)}" if draft else ""
         self.run = next_run(self.player, practice_mode=self.player.settings.practice)
         super().enter()

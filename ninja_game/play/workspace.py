@@ -129,15 +129,11 @@ Commands = Mapping[str, Callable[[], object]]  # actions by the names of the tab
 
 
 class Pane:
-    """A part of a workspace, drawn again only when its ``render_key`` changes. ``area``: logical px.
+    """A part of a workspace, drawn again only when its ``render_key`` changes."""
 
-    ``widgets``: in it; what they show is part of ``render_key``. ``wants``: the widget that gets the focus as soon as
-    the part is shown.
-    """
-
-    area: Area = (0, 0, 0, 0)
-    widgets: Sequence[Widget] = ()
-    wants: Widget | None = None
+    area: Area = (0, 0, 0, 0)  #: logical px
+    widgets: Sequence[Widget] = ()  #: in it; what they show is part of ``render_key``
+    wants: Widget | None = None  #: gets the focus as soon as the part is shown
     _drawn: tuple[object, ...] | None = None
 
     def render_key(self) -> tuple[object, ...]:

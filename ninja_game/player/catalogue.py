@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.bundled import data_folder
-from ninja_game.files.reading import Skipped, files_below, files_in, stamp_of
+from ninja_game.files.reading import Skipped, file_stamp, files_below, files_in
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.index import PackIndex
 from ninja_game.formats.pack.pack import CERTIFICATES, Pack, PackFiles, certificate_name, is_pack
@@ -74,7 +74,7 @@ class Catalogue:
         A certificate that has not changed since it was last asked for is not read again.
         """
         pack, file = self._pack_of(entry), Path(entry.named.file)
-        stamp = file, pack and pack.pack, stamp_of(file.parent / certificate_name(file.name, "exit"))
+        stamp = file, pack and pack.pack, file_stamp(file.parent / certificate_name(file.name, "exit"))
         if self._runs.get(entry.digest, ((), None))[0] != stamp:
             self._runs[entry.digest] = stamp, self._read_run(entry, pack, file)
         return self._runs[entry.digest][1]
@@ -138,7 +138,7 @@ class Catalogue:
     def _pack_at(self, path: Path) -> Pack | None:
         """A pack, read again if its files have changed; None, with a problem, if it cannot be read."""
         inside = CERTIFICATES, *files_in(path)
-        stamp = [(file, stamp_of(file)) for file in (path, *(path / name for name in inside))]
+        stamp = [(file, file_stamp(file)) for file in (path, *(path / name for name in inside))]
         if path not in self._packs or self._packs[path][0] != stamp:
             try:
                 self._packs[path] = stamp, Pack(path), ""
@@ -169,7 +169,7 @@ class Catalogue:
         return entries
 
     def _entries_of(self, file: Path) -> list[Entry]:
-        stamp = stamp_of(file)
+        stamp = file_stamp(file)
         if file not in self._read or self._read[file][0] != stamp:
             try:
                 self._read[file] = stamp, [Entry(level, YOURS) for level in load_levels(file)], ""

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game.errors import DAMAGED, LevelError
-from ninja_game.files.reading import stamp_of
+from ninja_game.files.reading import file_stamp
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.named_level import NamedLevel
@@ -136,13 +136,13 @@ class Playthrough:
         raise NotImplementedError
 
     @property
-    def shows_hints(self) -> bool:
-        """Whether the level shows texts: not after a pass, nor if the player does not want them."""
+    def shows_messages(self) -> bool:
+        """Whether the level shows its messages: not after a pass, nor if the player does not want them."""
         marks, level = self.data.marks, self.entry.digest
         return self.data.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
 
     def messages(self) -> tuple[LevelMessage, ...]:
-        if not self.shows_hints:
+        if not self.shows_messages:
             return ()
         with suppress(LevelError):
             return parse_messages(self.entry.named.says)
@@ -170,7 +170,7 @@ class Playthrough:
         return Navigation.SAME_LEVEL
 
     @property
-    def way_out(self) -> Navigation:
+    def next_screen(self) -> Navigation:
         """The target of leaving: BACK or EPISODE_END."""
         return Navigation.BACK
 
@@ -194,11 +194,11 @@ class LevelPlaythrough(Playthrough):
         super().__init__(data, entry, body=body, practice_mode=practice_mode)
         self._following = following
         self._levels: Sequence[NamedLevel] = [entry.named]
-        self._stamp = stamp_of(Path(entry.named.file))
+        self._stamp = file_stamp(Path(entry.named.file))
 
     def restart(self) -> bool:
         """Read the level's file again if it has changed; whether the level is another one now."""
-        stamp, before = stamp_of(Path(self.entry.named.file)), self.level
+        stamp, before = file_stamp(Path(self.entry.named.file)), self.level
         if stamp == self._stamp:
             return False
         self._stamp = stamp
@@ -223,7 +223,7 @@ class LevelPlaythrough(Playthrough):
             # Files may hold levels without a ninja.
             with suppress(LevelError):
                 Simulation(entry.named.level, body=self.body)
-                self.entry, self._following, self._stamp = entry, ahead[number:], stamp_of(Path(entry.named.file))
+                self.entry, self._following, self._stamp = entry, ahead[number:], file_stamp(Path(entry.named.file))
                 return Navigation.NEXT_LEVEL
         return Navigation.SAME_LEVEL
 
@@ -370,14 +370,14 @@ class EpisodePlaythrough(Playthrough):
         else:
             self.lifetime = self._passed.lifetime
         if self.is_last:
-            return self.way_out
+            return self.next_screen
         self.position += 1
         self.entry = self.episode.levels[self.position]
         self._passed = None
         return Navigation.NEXT_LEVEL
 
     @property
-    def way_out(self) -> Navigation:
+    def next_screen(self) -> Navigation:
         """After the last level the episode's results, else back."""
         return Navigation.EPISODE_END if self._passed is not None and self.is_last else Navigation.BACK
 

@@ -240,7 +240,7 @@ def _settings_of(data: Mapping[str, Any]) -> tuple[Settings, list[str]]:
             if not isinstance(value, Mapping):
                 wrong[place] = value, f"the table [{place}]"
                 continue
-            place, value = f"{place}.{key_of(name)}", value.get(key_of(name))
+            place, value = f"{place}.{setting_key(name)}", value.get(setting_key(name))
         if value is not None and spec.fits(value):
             values[name] = spec.convert(value)
         elif value is not None:
@@ -258,7 +258,7 @@ def _shown(value: object) -> str:
         return "a number of very many digits"
 
 
-def key_of(name: str) -> str:
+def setting_key(name: str) -> str:
     return name.replace("_", "-")
 
 
@@ -321,7 +321,7 @@ def _put(document: TOMLDocument, name: str, before: Any, after: Any) -> None:
         document[table_name] = tomlkit.table()
         table = document[table_name]
     if name not in BINDING_TABLES:
-        table[key_of(name)] = after
+        table[setting_key(name)] = after
         return
     for action in {**before, **after}:
         if action not in after:

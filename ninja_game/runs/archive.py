@@ -45,7 +45,7 @@ from ninja_game.runs.recording_reader import Unreadable, recordings_in
 from ninja_game.runs.trace import trace_recording
 from ninja_game.runs.trace_files import FiledTrace
 from ninja_game.runs.verify import with_demands
-from ninja_game.runs.workers import ClusterError, WorkerLostError, Workers, in_order, workers
+from ninja_game.runs.workers import ClusterError, WorkerLostError, Workers, results_of, workers
 from ninja_game.runtime import cores
 from ninja_game.sim.level import Level
 
@@ -196,7 +196,7 @@ def _isolate_failing(
 
     ``read``: turns an answer into the results of a job.
     """
-    for job, results in in_order(pool, function, jobs):
+    for job, results in results_of(pool, function, jobs):
         if isinstance(results, WorkerLostError) and len(job) > 1:
             yield from _isolate_failing(pool, function, ((chunk,) for chunk in job), read)
         else:
@@ -288,7 +288,7 @@ def trace_all(
     # Compiled code leaves the interpreter's lock, plain code needs processes.
     processes = choose_memory(memory) == "plain"
     with workers(jobs or cores(), processes=processes) as pool:
-        for job, results in in_order(
+        for job, results in results_of(
             pool, partial(_trace_job, options), chain([first], iter(lambda: list(islice(rest, TRACES)), []))
         ):
             if isinstance(results, WorkerLostError):

@@ -261,24 +261,23 @@ def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -
     """
     if level_digest(ours.level) != level_digest(theirs.level):
         raise ArgumentError(f"{ours.file} and {theirs.file} are recordings of different levels")
-    here, there = run_splits(ours, budget=budget), run_splits(theirs, budget=budget)
+    our_splits, their_splits = run_splits(ours, budget=budget), run_splits(theirs, budget=budget)
+    positions = our_splits.positions, their_splits.positions
     first_keys = _first_unequal(*(np.frombuffer(run.inputs, np.uint8) for run in (ours, theirs)))
-    first_place = _first_unequal(here.positions, there.positions)
-    other_splits = there.by_key
+    first_place = _first_unequal(*positions)
+    other_splits = their_splits.by_key
     splits = tuple(
         Lead(split.name, split.x, split.y, split.tick, other_splits[split.key].tick)
-        for split in here.splits
+        for split in our_splits.splits
         if split.key in other_splits
     )
-    partner = aligned(here.positions, there.positions)
+    partner = aligned(*positions)
     places = tuple(
         Lead("", x, y, tick, other)
-        for tick, ((x, y), other) in enumerate(zip(here.positions.tolist(), partner.tolist(), strict=True))
+        for tick, ((x, y), other) in enumerate(zip(our_splits.positions.tolist(), partner.tolist(), strict=True))
         if other >= 0
     )
-    return Comparison(
-        first_keys, first_place, splits, places, (here.positions, there.positions), (here.death, there.death)
-    )
+    return Comparison(first_keys, first_place, splits, places, positions, (our_splits.death, their_splits.death))
 
 
 def each_second(places: tuple[Lead, ...]) -> list[Lead]:
@@ -306,8 +305,8 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
         here, there = slice(start, end), slice(start + shift, end + shift)
         both, left, right = before[start:end], last[start:end], last[start + 1 : end + 1]
         one = np.minimum(left, right)
-        way = (both > one) * (1 + (left > right))  # 0: both step, 1: only ours, 2: only the other
-        cells[start * (m - 1) + diagonal : (end - 1) * (m - 1) + diagonal + 1 : max(1, m - 1)] = way
+        step = (both > one) * (1 + (left > right))  # 0: both step, 1: only ours, 2: only the other
+        cells[start * (m - 1) + diagonal : (end - 1) * (m - 1) + diagonal + 1 : max(1, m - 1)] = step
         apart = np.hypot(x[here] - other_x[there], y[here] - other_y[there])
         costs[start + 1 : end + 1] = np.minimum(both, one) + apart
         # Entries of the oldest beyond the next diagonal are never read, except the place in front of the first ticks.
@@ -342,8 +341,8 @@ def _nearest_on_path(
         distance = float(np.hypot(*(ours[i] - theirs[j])))
         if distance <= smallest[i]:
             partner[i], smallest[i] = j, distance
-        way = came_from[i, j]
-        i, j = i - (way != 2), j - (way != 1)
+        step = came_from[i, j]
+        i, j = i - (step != 2), j - (step != 1)
     return partner
 
 

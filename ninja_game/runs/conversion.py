@@ -100,12 +100,12 @@ def on_level(recording: Recording, level: Level | None = None) -> Recording:
 
     The same recording if that is the level of the recording, else one without claims.
     """
-    there = replace(recording, level=level or recording.level)
-    digest, now = level_digest(recording.level), level_digest(there.level)
+    moved = replace(recording, level=level or recording.level)
+    digest, now = level_digest(recording.level), level_digest(moved.level)
     recorded = recording.replay.level_digest or digest
     if now == digest == recorded:
         return recording
-    return replace(there, replay=replace(_without_claims(there), made=recording.replay.made.edited(1)))
+    return replace(moved, replay=replace(_without_claims(moved), made=recording.replay.made.edited(1)))
 
 
 def _without_claims(recording: Recording) -> Replay:

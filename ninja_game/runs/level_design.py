@@ -85,10 +85,10 @@ def design(level: Level, inputs: bytes) -> Design:
     run, still = trace_level(level, inputs), trace_level(level, bytes(STANDING_TICKS))
     ground = Ground(level)
     path = np.column_stack([run.ninja["x"], run.ninja["y"]])
-    gold, mines = places(level, kinds.GOLD), places(level, kinds.MINE)
+    gold, mines = places_of_kind(level, kinds.GOLD), places_of_kind(level, kinds.MINE)
     room = len(ground.cells) * CELL * CELL
-    homes = np.concatenate([places(level, kind.number) for kind in HAZARDS])
-    to_exit = distances(places(level, kinds.NINJA)[-1:], places(level, kinds.EXIT))
+    homes = np.concatenate([places_of_kind(level, kind.number) for kind in HAZARDS])
+    to_exit = distances(places_of_kind(level, kinds.NINJA)[-1:], places_of_kind(level, kinds.EXIT))
     return Design(
         float(np.median(distances(homes, path))) if len(homes) else None,
         float(np.mean(in_danger(level, ground, still, gold))) if len(gold) and len(homes) else None,
@@ -101,7 +101,7 @@ def design(level: Level, inputs: bytes) -> Design:
     )
 
 
-def places(level: Level, kind: int) -> Points:
+def places_of_kind(level: Level, kind: int) -> Points:
     points = [record.values[:2] for record in level.objects if record.kind == kind and well_formed(record)]
     return np.array(points, np.float64).reshape(-1, 2)
 
@@ -134,9 +134,9 @@ def in_danger(level: Level, ground: Ground, still: RunTrace, points: Points) -> 
     reached = [np.column_stack([rows["x"], rows["y"]]) for rows in moving]
     lanes = [lane(ground, record) for record in level.objects if record.kind in _LANES and well_formed(record)]
     reached += [np.array(list(cells)).reshape(-1, 2) for cells in lanes]
-    near = distances(points, np.concatenate([places(level, kinds.MINE), *reached])) < BAIT
+    near = distances(points, np.concatenate([places_of_kind(level, kinds.MINE), *reached])) < BAIT
     for kind in (kinds.TURRET, kinds.LAUNCHER):
-        for gun in places(level, kind):
+        for gun in places_of_kind(level, kind):
             near |= np.array([in_sight(ground, gun, point) for point in points], bool)
     return near
 

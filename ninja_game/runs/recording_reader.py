@@ -17,7 +17,7 @@ from ninja_game.formats.load import texts_of
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.named_level import format_of, parse_levels
-from ninja_game.formats.recording import Recording, parse_replays, recording_of
+from ninja_game.formats.recording import Recording, demo_recording, parse_replays
 from ninja_game.formats.replay.text import is_replay
 from ninja_game.sim.level import Level
 
@@ -89,7 +89,7 @@ def recordings_of(
 ) -> Iterator[Recording | Unreadable]:
     for record in records:
         try:
-            yield recording_of(record, file, _level(record.level) if record.level else level)
+            yield demo_recording(record, file, _level(record.level) if record.level else level)
         except NinjaGameError as error:
             yield Unreadable(str(error))
 

@@ -272,7 +272,7 @@ def _first_unequal(
     return tick, names[column], fields[number], value, other
 
 
-def rows(trace: RunTrace) -> Iterator[dict[str, Any]]:
+def trace_rows(trace: RunTrace) -> Iterator[dict[str, Any]]:
     """Every record of a trace as a row: the ninja of a tick with its velocity (px/tick), then that tick's objects."""
     names = NINJA_RECORD.names or ()
     # As Python's numbers a whole run would take ten times the memory.

@@ -21,7 +21,7 @@ from numpy.typing import DTypeLike, NDArray
 from ninja_game.errors import FileError, FormatError
 from ninja_game.files.reading import open_regular
 from ninja_game.files.untrusted import MAX_ARRAYS, UNREADABLE, open_zip, read_array
-from ninja_game.runs.trace import NINJA_NAME, NINJA_RECORD, OBJECT_RECORD, RunTrace, rows
+from ninja_game.runs.trace import NINJA_NAME, NINJA_RECORD, OBJECT_RECORD, RunTrace, trace_rows
 from ninja_game.sim.inputs import MAX_TICKS, Input
 
 TRACE_COLUMNS = (
@@ -68,7 +68,7 @@ def write_csv(traces: Iterable[FiledTrace], out: IO[str]) -> None:
     table.writeheader()
     for record, name, run, file, inputs, _ in traces:
         place = {"file": file, "record": record, "name": name}
-        for row in rows(run):
+        for row in trace_rows(run):
             keys = {"keys": keys_text(inputs[row["tick"]])} if inputs and row["kind"] == NINJA_NAME else {}
             table.writerow({**place, **keys, **row})
 
@@ -137,7 +137,7 @@ def _checked(**fields: Any) -> RunTrace:
     return run
 
 
-def write_npz(traces: Iterable[FiledTrace], out: IO[bytes]) -> None:
+def write_trace_arrays(traces: Iterable[FiledTrace], out: IO[bytes]) -> None:
     """Write traces as arrays: ``ninja_0``, ``objects_0`` and so on of the first, ``ninja_1`` … of the second."""
     arrays: dict[str, Any] = {}
     for number, (record, name, run, file, inputs, _) in enumerate(traces):
@@ -156,7 +156,7 @@ def write_npz(traces: Iterable[FiledTrace], out: IO[bytes]) -> None:
 
 
 def read_npz(data: IO[bytes], path: Path) -> Iterator[FiledTrace]:
-    """The traces of a file that ``write_npz`` wrote. Raises FormatError where it is something else."""
+    """The traces of a file that ``write_trace_arrays`` wrote. Raises FormatError where it is something else."""
     try:
         with open_zip(data, most_files=MAX_ARRAYS, most_bytes=MAX_TRACE_BYTES) as archive:
             arrays = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}

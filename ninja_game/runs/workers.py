@@ -200,7 +200,7 @@ def workers(count: int, *, processes: bool = False, cluster: str = "") -> Iterat
     pool.close()
 
 
-def in_order(pool: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> Iterator[tuple[J, R | WorkerLostError]]:
+def results_of(pool: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> Iterator[tuple[J, R | WorkerLostError]]:
     """Every job with its result, in the jobs' order; WorkerLostError for one that kills every worker it meets."""
     flying: deque[tuple[J, Any]] = deque()
     waiting = iter(jobs)

@@ -12,7 +12,7 @@ of a node; ``action``: the macro (macros.py) that leads from it to the scratch w
 from __future__ import annotations
 
 from ninja_game.search.heuristics import point_at
-from ninja_game.search.known_run import KnownRun, nearest
+from ninja_game.search.known_run import KnownRun, nearest_row
 from ninja_game.search.macros import (
     MAX_ROWS,
     PRESSED,
@@ -37,10 +37,10 @@ from ninja_game.search.nodes import (
     keep_state,
     load_state,
     pop_lowest,
-    push,
+    push_node,
     random_below,
 )
-from ninja_game.search.states import Goal, estimate, find_entry, gold_hash, is_done, is_new, key_of, switch_state_of
+from ninja_game.search.states import Goal, estimate, find_entry, gold_hash, is_done, is_new, state_key, switch_state_of
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.schema.declare import fast, kernel
 from ninja_game.sim.schema.world_fields import Ninja
@@ -67,7 +67,7 @@ def add_root(start: Start, arrays: SearchArrays, goal: Goal, resolution: Resolut
     w = start.worlds[1]
     counters = arrays.counters[0]
     switch_state = max(switch_state_of(w, goal, counters, 0), 0)
-    key = key_of(w, goal, switch_state, 0, resolution)
+    key = state_key(w, goal, switch_state, 0, resolution)
     slot = find_entry(arrays.table, key)
     if arrays.table[slot].key == 0:
         arrays.table[slot].key = key
@@ -81,7 +81,7 @@ def add_root(start: Start, arrays: SearchArrays, goal: Goal, resolution: Resolut
     root.entry = slot
     root.to_go = 0.0
     keep_state(start.scratch, start.initial, root, arrays)
-    push(index, 0.0 + w.tick, arrays)
+    push_node(index, 0.0 + w.tick, arrays)
 
 
 @kernel
@@ -120,7 +120,7 @@ def expand(
         held = here.ninja.jump_held
         row = -1
         if known is not None:
-            row, _ = nearest(known, here, goal.masks[arrays.nodes[index].switch_state])
+            row, _ = nearest_row(known, here, goal.masks[arrays.nodes[index].switch_state])
         for choice in range(CHOICES + FOLLOW_CHOICES if row >= 0 else CHOICES):
             if choice < CHOICES:
                 direction, mode, limit = macro_of(here.ninja, choice, counters, resolution)
@@ -216,17 +216,17 @@ def keep_along(
     switch_state = switch_state_of(w, goal, arrays.counters[0], arrays.nodes[parent].switch_state)
     if switch_state < 0:
         return
-    key = key_of(w, goal, switch_state, 0, resolution)
+    key = state_key(w, goal, switch_state, 0, resolution)
     slot = find_entry(arrays.table, key)
     if not is_new(arrays.table[slot], w.tick, resolution):
         return
-    _, to_go = nearest(known, w, goal.masks[switch_state])
+    _, to_go = nearest_row(known, w, goal.masks[switch_state])
     run_ticks = w.tick + to_go
     delay = known.max_delay if w.tick < known.span[1] else -MIN_GAIN
     if run_ticks <= arrays.counters[0].best_ticks + delay:
         index = keep_node(parent, action, slot, key, to_go, switch_state, start, arrays)
         # Two buckets per tick; the states of the known run itself are in the middle one.
-        push(index, 0.5 * BUCKETS + 2.0 * (run_ticks - len(known.keys)), arrays)
+        push_node(index, 0.5 * BUCKETS + 2.0 * (run_ticks - len(known.keys)), arrays)
 
 
 @fast
@@ -261,7 +261,7 @@ def keep_child(
     other_end = at_end and goal.wanted != 0 and not mask & goal.wanted
     if other_end and counters.other_ends >= OTHER_ENDS:
         return
-    key = key_of(w, goal, switch_state, gold, resolution)
+    key = state_key(w, goal, switch_state, gold, resolution)
     slot = find_entry(arrays.table, key)
     entry = arrays.table[slot]
     if entry.key != 0:
@@ -269,7 +269,9 @@ def keep_child(
         if not is_new(entry, tick, resolution):
             return
     if len(backed_up.table) > 1:
-        known = backed_up.table[find_entry(backed_up.table, key_of(w, goal, switch_state, gold, backed_up.resolution))]
+        known = backed_up.table[
+            find_entry(backed_up.table, state_key(w, goal, switch_state, gold, backed_up.resolution))
+        ]
         if known.key != 0 and known.value < 1.0e8:
             to_go = 0.0 + known.value
         else:
@@ -281,7 +283,7 @@ def keep_child(
     index = keep_node(parent, action, slot, key, to_go, switch_state, start, arrays)
     child = arrays.nodes[index]
     if not at_end:
-        push(index, tick + resolution.weight * to_go, arrays)
+        push_node(index, tick + resolution.weight * to_go, arrays)
     elif child.chunk >= 0 and (goal.rollouts == 0 or survives(child, start, arrays, goal.rollouts)):
         arrays.ends[counters.ends] = index
         counters.ends += 1

@@ -127,12 +127,12 @@ def moved_markers(recording: Recording, inputs: bytes) -> tuple[Marker, ...]:
     from ninja_game.runs.compare import aligned  # pages do not have this module
 
     runs = [run_level(recording.level, keys, body=body).positions for keys in (recording.inputs, inputs)]
-    there = [-1] * len(runs[0])
+    partners = [-1] * len(runs[0])
     with suppress(ArgumentError):
-        there = aligned(*runs).tolist()
+        partners = aligned(*runs).tolist()
     moved = []
     for tick, name in old:
-        place = there[tick] if tick < len(there) else -1
+        place = partners[tick] if tick < len(partners) else -1
         same = inputs[:tick] == recording.inputs[:tick] or place < 0
         moved.append(Marker(min(tick if same else place, len(inputs)), name))
     return tuple(sorted(moved))
@@ -152,11 +152,13 @@ _CHOICES = (*range(8), *range(12, 16))
 def without_idle_keys(
     level: Level, inputs: bytes, original: bytes, *, body: Body = "circle", first: int = 0, last: int | None = None
 ) -> bytes:
-    """Simplify keys in the ticks ``first`` … ``last`` - 1 (None: to the end) without a change of any tick's state.
+    """Remove keys that do nothing from a run: every tick's state stays the same.
 
-    Of keys that lead to the same state a tick gets those of ``original``, the run that ``inputs`` was made from, as
-    long as both go the same way; after that, as few changes as possible. Runs over
-    MAX_SIMPLIFIED_TICKS, and runs with triggers that no keyboard makes, stay as they are.
+    - ``original``: the run that ``inputs`` was made from. As long as both have the same states, a tick gets its keys
+      where they lead there too; after that, the keys change as seldom as possible.
+    - ``first``, ``last``: only ticks before ``last`` change, from ``first`` on; None: to the end.
+
+    Runs over MAX_SIMPLIFIED_TICKS, and runs with triggers that no keyboard makes, stay as they are.
     """
     import numpy as np  # pages do not have it
 
@@ -181,11 +183,11 @@ def without_idle_keys(
     costs[inputs[first - 1] & KEYS_DOWN if first else 0] = 0
     came_from, aligned = [], original[:first] == inputs[:first]
     for tick in range(first, last):
-        own = _CHOICES.index(inputs[tick])
+        present = _CHOICES.index(inputs[tick])
         batch.run(np.array([_CHOICES], np.uint8), stop=True)
-        same = (batch.positions == batch.positions[own]).all(1) & (batch.previous == batch.previous[own]).all(1)
+        same = (batch.positions == batch.positions[present]).all(1) & (batch.previous == batch.previous[present]).all(1)
         for index in np.flatnonzero(same).tolist():
-            same[index] = index == own or state_of(index) == state_of(own)
+            same[index] = index == present or state_of(index) == state_of(present)
         original_keys = original[tick] if tick < len(original) else -1
         aligned = aligned and original_keys in _CHOICES and bool(same[_CHOICES.index(original_keys)])
         other = (np.arange(8) != (original_keys & KEYS_DOWN)) * (100 if aligned else 1) * (original_keys >= 0)
@@ -193,7 +195,7 @@ def without_idle_keys(
         came_from.append(steps.argmin(0))
         costs = steps.min(0)
         state_of.cache_clear()
-        batch.copy([own] * len(_CHOICES), range(len(_CHOICES)))
+        batch.copy([present] * len(_CHOICES), range(len(_CHOICES)))
     if last < len(inputs):  # the next tick must trigger as before
         costs += [0 if with_press_bit(inputs[last], keys & JUMP_HELD) == inputs[last] else np.inf for keys in range(8)]
     made = [int(costs.argmin())]

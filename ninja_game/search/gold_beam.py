@@ -23,7 +23,7 @@ from ninja_game.search.legs import (
     LegFields,
     PieceTicks,
     Spend,
-    pieces_of,
+    piece_numbers,
     short_tour,
 )
 from ninja_game.search.nodes import PASSES, Resolution, Start
@@ -104,7 +104,7 @@ class GoldBeam:
                 checkpoints.append(checkpoint)
         if not self.wanted:
             self.wanted = checkpoints[-1].taken
-        order = [p for a, b in pairwise(checkpoints) for p in pieces_of(b.taken & ~a.taken)]
+        order = [p for a, b in pairwise(checkpoints) for p in piece_numbers(b.taken & ~a.taken)]
         if len(run) < self.ticks:
             self.ticks = len(run)
             self.order = [piece for piece in order if self.wanted >> piece & 1]

@@ -66,7 +66,7 @@ def free_points(levels: Any, costs: Costs) -> None:
 
 
 @kernel
-def spread(costs: Costs, blocked: Blocks, field: DistanceField, queue: NDArray[np.int32], waiting: Blocks) -> None:
+def lower_field(costs: Costs, blocked: Blocks, field: DistanceField, queue: NDArray[np.int32], waiting: Blocks) -> None:
     """Lower ``field`` (ticks, UNREACHED: unknown) to the shortest way to the points that are already set.
 
     ``costs``: factor of a step onto a point, 0: impassable. ``blocked``: bit k of a point forbids its move k.
@@ -289,7 +289,7 @@ class Heuristics:
             free = [point for point in near if costs[point] > 0.0]
             free = free or [point for point in points_about(x, y, 22.0) if costs[point] > 0.0] or near
             field[free] = np.minimum(field[free], np.float32(value))
-        compiled_if_possible(spread)(costs, self.blocked, field, self._queue, self._waiting)
+        compiled_if_possible(lower_field)(costs, self.blocked, field, self._queue, self._waiting)
         return field
 
     def _closed(self, switch_state: int, door_cost: float) -> Costs:

@@ -78,7 +78,7 @@ def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], unt
 
 
 @fast
-def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
+def nearest_row(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
     """The row of the run most like this moment, and the ticks ahead from there, with the price."""
     n = w.ninja
     ticks = len(run.keys)
@@ -98,8 +98,8 @@ def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
         elif run.masks[k] == mask and run.gold[k] <= w.gold:
             run_vx = run.moves[k, 2]
             run_vy = run.moves[k, 3]
-            way = sqrt(run_vx * run_vx + run_vy * run_vy)
-            price = sqrt(dx * dx + dy * dy) * run.place_price / max(way, SLOW)
+            pace = sqrt(run_vx * run_vx + run_vy * run_vy)
+            price = sqrt(dx * dx + dy * dy) * run.place_price / max(pace, SLOW)
             price += (abs(vx - run_vx) + abs(vy - run_vy)) * run.speed_price
             if ticks - k + price <= least:
                 least = ticks - k + price

@@ -78,7 +78,7 @@ class Frontier:
         return self.taken.bit_count()
 
 
-def pieces_of(taken: int) -> Iterator[int]:
+def piece_numbers(taken: int) -> Iterator[int]:
     """The numbers of the pieces in a set of bits."""
     return (k for k in range(taken.bit_length()) if taken >> k & 1)
 
@@ -216,7 +216,7 @@ class PieceTicks:
 
     def learn(self, before: Checkpoint, after: Checkpoint) -> None:
         """Learn from a leg the ticks from one piece to the next."""
-        new = list(pieces_of(after.taken & ~before.taken))
+        new = list(piece_numbers(after.taken & ~before.taken))
         if len(new) == 1 and before.mask == after.mask:
             row, ticks = _last_piece(before), max(1.0, float(after.tick - before.tick))
             self._measured[row, new[0]] = np.fmin(self._measured[row, new[0]], ticks)
@@ -245,4 +245,4 @@ def _last_piece(checkpoint: Checkpoint) -> int:
     """The last piece collected before a checkpoint, -1 if there is none."""
     while checkpoint.before and checkpoint.before.taken == checkpoint.taken:
         checkpoint = checkpoint.before
-    return max(pieces_of(checkpoint.taken & ~(checkpoint.before.taken if checkpoint.before else 0)), default=-1)
+    return max(piece_numbers(checkpoint.taken & ~(checkpoint.before.taken if checkpoint.before else 0)), default=-1)

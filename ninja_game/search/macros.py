@@ -86,7 +86,7 @@ def followed_code(row: int, ticks: int) -> int:
     return FOLLOWED << 2 | ticks << 8 | row << 16
 
 
-def inputs_of(action: int, known: bytes) -> bytes:
+def inputs_of_action(action: int, known: bytes) -> bytes:
     """The inputs of an action, one byte per tick; ``known``: the run that it may follow."""
     if action >> 2 & 3 != FOLLOWED:
         return action_inputs(action)

@@ -319,7 +319,7 @@ def load_state(words: StateWords, initial: StateWords, node: Node, arrays: Searc
 
 
 @fast
-def push(index: int, priority: float, arrays: SearchArrays) -> None:
+def push_node(index: int, priority: float, arrays: SearchArrays) -> None:
     counters = arrays.counters[0]
     bucket = int(priority)
     bucket = 0 if bucket < 0 else min(bucket, BUCKETS - 1)

@@ -22,7 +22,7 @@ from ninja_game.search.legs import (
     Leg,
     LegFields,
     Spend,
-    pieces_of,
+    piece_numbers,
     short_tour,
 )
 from ninja_game.search.nodes import Resolution
@@ -136,12 +136,12 @@ class Route:
         """Begin again from the start; the pieces missed this time get a higher priority."""
         last = max(self.frontiers.values(), key=lambda frontier: (frontier.count, -frontier.tries))
         pieces = set(range(len(self._fields.points)))
-        left = pieces - set(pieces_of(last.taken))
+        left = pieces - set(piece_numbers(last.taken))
         if last.count >= self.gold:
             # The way to the exit is blocked: take the last piece earlier.
             checkpoint: Checkpoint | None = last.checkpoints[0]
             while checkpoint and checkpoint.before and len(left) < len(pieces) // 4 + 1:
-                left |= set(pieces_of(checkpoint.taken & ~checkpoint.before.taken))
+                left |= set(piece_numbers(checkpoint.taken & ~checkpoint.before.taken))
                 checkpoint = checkpoint.before
         self.urgency[list(left)] += 1.0
         self.frontiers = {}

@@ -12,7 +12,7 @@ from ninja_game.search.best_first import MORE, add_root, expand, load_node
 from ninja_game.search.heuristics import POINTS, Heuristics
 from ninja_game.search.known_run import KnownRun, play_known
 from ninja_game.search.legs import Checkpoint, FieldOf, Leg, Spend
-from ninja_game.search.macros import inputs_of
+from ninja_game.search.macros import inputs_of_action
 from ninja_game.search.nodes import (
     ALONG_RUN,
     FROM_START,
@@ -184,7 +184,7 @@ class Search:
         parents, actions = nodes["parent"], nodes["action"]
         parts = []
         while parents[index] >= 0:
-            parts.append(inputs_of(int(actions[index]), self._known_inputs))
+            parts.append(inputs_of_action(int(actions[index]), self._known_inputs))
             index = int(parents[index])
         return index, b"".join(reversed(parts))
 

@@ -171,12 +171,12 @@ class _Job:
         resolution = resolution._replace(slack=resolution.slack * shortest)
         follows_run, early = bool(self.state.task.first), self._early
         bound = shortest + max(4, int(shortest * (GIVEN_BOUND if follows_run else FOUND_BOUND)))
-        way = self._search_once(
+        other_run = self._search_once(
             resolution, OTHER_ROUTE_TICKS, seed=100 + turn, bound=bound, backed_up=resolution.slack > 0.0
         )
-        if not early and not way:
+        if not early and not other_run:
             return
-        run = self.shortener.search_locally(way or self.state.runs[0], self.plan.local)
+        run = self.shortener.search_locally(other_run or self.state.runs[0], self.plan.local)
         if not early and len(run) < shortest * (1.0 + FOUND_BOUND):
             self.shortener.search_spans(run, self.plan.spans)
 

@@ -60,7 +60,7 @@ def state_class(w: World) -> int:
 
 
 @fast
-def key_of(w: World, goal: Goal, switch_state: int, gold: int, resolution: Resolution) -> int:
+def state_key(w: World, goal: Goal, switch_state: int, gold: int, resolution: Resolution) -> int:
     """The key of a state, never 0. ``gold``: a 16-bit hash of the collected pieces, 0 if gold does not matter."""
     n = w.ninja
     x = int((n.x + resolution.shift_x) / resolution.cell) & 511

@@ -192,7 +192,7 @@ def _facts(text: str) -> list[str]:
     return [word for line in text.splitlines()[1:] if line != "end" for word in line.split()]
 
 
-def recording_of(origin: Recording, track: InputTrack, name: str = "") -> Recording:
+def recording_of_track(origin: Recording, track: InputTrack, name: str = "") -> Recording:
     """An input track as a recording without claims, with the level and the author of another one."""
     replay = replace(unclaimed_replay(origin, track), name=name or origin.name)
     return replace(origin, file=name or origin.file, replay=replay, form="replay")
@@ -254,12 +254,12 @@ def save_run(
     Raises OccupiedError if that would replace another file, or one that has changed since it was read, unless
     ``replacing``; FileError, OSError if writing fails.
     """
-    own, branches_file = path == file.path, branches_path(path)
+    same_file, branches_file = path == file.path, branches_path(path)
     for file_path, known in ((path, file.digest), (branches_file, file.branches_digest)):
-        check_free(file_path, digest_of_file(file_path), known if own else None, replacing=replacing)
-    if not own or track != file.track or digest_of_file(path) != file.digest:
+        check_free(file_path, digest_of_file(file_path), known if same_file else None, replacing=replacing)
+    if not same_file or track != file.track or digest_of_file(path) != file.digest:
         replay = replay_of_track(origin, track)
-        write_atomically(path, write_replay(_with_old_path(replay, origin) if own else replay))
+        write_atomically(path, write_replay(_with_old_path(replay, origin) if same_file else replay))
     if len(branches) or branches.watched or branches_file.exists():
         Tree(path.parent).write(branches_file.name, json.dumps(branches.as_json(), indent=1))
     return RunFile(path, digest_of_file(path), digest_of_file(branches_file), track)

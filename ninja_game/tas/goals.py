@@ -172,7 +172,7 @@ MIN_PIECE_TICKS = 10  # ticks; a goal that is reached sooner belongs to the prev
 GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened": "opened({})", "won": "won"}
 
 
-def pieces_of(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
+def span_pieces(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
     """The pieces of a span, from one piece of gold, switch or exit to the next; from the last one to the exit.
 
     ``splits``: of the run, of the events in GOALS. If the run reaches the exit, the rest of it follows, and a span

@@ -28,7 +28,7 @@ from ninja_game.tas.tracks import (
     InputTrack,
     branches_of_json,
     checked_track,
-    first_difference,
+    first_different_index,
     inputs_of_json,
     markers_of_json,
     track_as_json,
@@ -44,7 +44,7 @@ def edit_as_json(old: InputTrack, new: InputTrack) -> dict[str, Any]:
     ``sum``: of the new track, so that a damaged edit is noticed; ``made``: all its contributions.
     """
     at = old.first_difference(new)
-    tail = first_difference(old.inputs[at:][::-1], new.inputs[at:][::-1])
+    tail = first_different_index(old.inputs[at:][::-1], new.inputs[at:][::-1])
     keys = new.inputs[at : len(new) - tail]
     change = {"at": at, "to": len(old) - tail, "keys": keys.hex()[1::2], "sum": _sum(new), "made": new.made.as_json()}
     return change if old.markers == new.markers else change | {"markers": [list(marker) for marker in new.markers]}
@@ -136,7 +136,7 @@ class RecoveredRun:
     beside: tuple[BesideRun, ...] = ()
 
 
-def recovered(folder: Path) -> Iterator[RecoveredRun]:
+def lost_runs(folder: Path) -> Iterator[RecoveredRun]:
     """The runs of sessions that crashed, the newest first; those of running sessions are left out."""
     return recovered_from(folder / JOURNAL_FOLDER, JOURNAL_SUFFIX, read_journal)
 

@@ -12,7 +12,7 @@ from ninja_game.document import History, digest_of_file
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.tas.contributions import NONE, Contributions
-from ninja_game.tas.files import OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
+from ninja_game.tas.files import OpenedRun, RunFile, has_tail, recording_of_track, save_run, unclaimed_replay
 from ninja_game.tas.journal import BesideRun, Journal, RecoveredRun, edit_as_json
 from ninja_game.tas.timeline import EMPTY_TRAJECTORY, Timeline, Trajectory
 from ninja_game.tas.tracks import Branch, Branches, InputTrack, branch_as_json, track_as_json
@@ -270,7 +270,7 @@ class TasSession:
 
     def recording(self, track: InputTrack | None = None, name: str = "") -> Recording:
         """An input track (None: the present one) as a recording, for comparisons and searches."""
-        return recording_of(self.origin, self.track if track is None else track, name)
+        return recording_of_track(self.origin, self.track if track is None else track, name)
 
     # --- files ---
 

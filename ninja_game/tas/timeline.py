@@ -18,7 +18,7 @@ from ninja_game.errors import FormatError
 from ninja_game.runs.deaths import death_text, ending_text
 from ninja_game.runs.save_states import SaveStates
 from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
-from ninja_game.search.formula.language import Formula, Values, parse_number, parse_truth
+from ninja_game.search.formula.language import Formula, Values, parse_measure, parse_truth
 from ninja_game.search.formula.names import FACTS, NAMES, flag_field, id_of, ninja_view, no_object
 from ninja_game.sim.digest import differences, state_digest
 from ninja_game.sim.inputs import MAX_TICKS, fit_inputs
@@ -28,7 +28,7 @@ from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_NAMES
 from ninja_game.simulation import SaveState, Simulation
-from ninja_game.tas.tracks import first_difference
+from ninja_game.tas.tracks import first_different_index
 
 AFTERMATH = 40  # ticks simulated behind the last input, without a key
 _GROWTH = 4096  # least growth of the table, rows
@@ -89,7 +89,7 @@ class Timeline:
             **{name: np.zeros(0, np.int32) for name in TRACED_INTS},
         }
         self._objects = np.zeros((0, 0), _WATCHED_RECORD)
-        self._events: dict[int, str] = {}  # of the ticks that have any
+        self._events: dict[int, str] = {}  #: of the ticks that have any
         self.inputs = b""
         self._death = b"", ""
         self.simulated_until = self._ticks_on_plain = 0
@@ -114,7 +114,7 @@ class Timeline:
         """Set other inputs. Their common beginning stays simulated. Gives the first tick that differs."""
         # Behind the inputs no key is down: a run that grows by such ticks is the same.
         longest = max(len(self.inputs), len(inputs))
-        same = first_difference(fit_inputs(self.inputs, longest), fit_inputs(inputs, longest))
+        same = first_different_index(fit_inputs(self.inputs, longest), fit_inputs(inputs, longest))
         self.inputs = inputs
         self._forget(min(same, len(self)))
         return same
@@ -340,7 +340,7 @@ class Watch:
 def parse_watch(text: str) -> Watch:
     """A number or a truth to watch, in the language of goals. Raises FormulaError."""
     try:
-        return Watch(text, parse_number(text, WATCHABLE, FACTS))
+        return Watch(text, parse_measure(text, WATCHABLE, FACTS))
     except FormatError as error:
         try:
             return Watch(text, parse_truth(text, WATCHABLE, FACTS))

@@ -101,7 +101,7 @@ class InputTrack:
 
     def first_difference(self, other: InputTrack) -> int:
         """The first tick whose input differs; the length of the shorter one if none does."""
-        return first_difference(self.inputs, other.inputs)
+        return first_different_index(self.inputs, other.inputs)
 
 
 def marker_name(text: str) -> str:
@@ -109,7 +109,7 @@ def marker_name(text: str) -> str:
     return text.strip().replace('"', "'")
 
 
-def first_difference(ours: bytes, theirs: bytes) -> int:
+def first_different_index(ours: bytes, theirs: bytes) -> int:
     """The first index at which bytes differ; the length of the shorter ones if none does."""
     shared = min(len(ours), len(theirs))
     unequal = np.frombuffer(ours, np.uint8, shared) != np.frombuffer(theirs, np.uint8, shared)

@@ -25,7 +25,7 @@ from ninja_game.play.workspace import CommandMenu, Commands, CommandTable, Docum
 from ninja_game.player.player_data import keep_replay
 from ninja_game.tas.contributions import NONE
 from ninja_game.tas.files import branches_path, replay_of_track, same_level
-from ninja_game.tas.journal import RecoveredRun, recovered
+from ninja_game.tas.journal import RecoveredRun, lost_runs
 from ninja_game.tas_editor.editor import TasEditor
 
 BY_PAD = {
@@ -187,7 +187,7 @@ class RunCommands(DocumentCommands):
 
         For a run recorded on another level ask whether to edit it on this one.
         """
-        lost = list(recovered(self.app.player.folder))
+        lost = list(lost_runs(self.app.player.folder))
         own = next((run for run in lost if self._is_of_this_run(run)), None)
         if own:
             self._offer(own)
@@ -209,7 +209,7 @@ class RunCommands(DocumentCommands):
     def list_recovered(self) -> None:
         rows: list[MenuRow] = [
             (_name_of(run), partial(self._offer, run), _when(run))
-            for run in islice(recovered(self.app.player.folder), 8)
+            for run in islice(lost_runs(self.app.player.folder), 8)
         ]
         if rows:
             self.app.push(Menu(self.app, "Not saved last time", [*rows, ("Back", nothing, "")]))

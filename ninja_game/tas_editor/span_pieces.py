@@ -6,7 +6,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.runs.compare import Split, run_splits
 from ninja_game.runtime import NewestJob
 from ninja_game.search.formula.task import SpanTask
-from ninja_game.tas.goals import GOALS, RunPiece, SearchedSpan, SpanGoal, pieces_of
+from ninja_game.tas.goals import GOALS, RunPiece, SearchedSpan, SpanGoal, span_pieces
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import Span, TasEditor
 
@@ -36,7 +36,7 @@ class SpanPieces:
             return
         self.pieces = ()
         if splits is not None and splits[0] is track:
-            pieces = pieces_of(SearchedSpan(session, *self._span), splits[1])
+            pieces = span_pieces(SearchedSpan(session, *self._span), splits[1])
             if self._goal_alone and self._span[1] <= len(track):
                 pieces.insert(1, RunPiece(*self._span, WITHOUT_REST, SpanGoal(self._goal_alone)))
             self._cut_track, self.pieces = track, tuple(pieces)

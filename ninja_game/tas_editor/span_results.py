@@ -13,11 +13,11 @@ from ninja_game.runtime import cores
 from ninja_game.search.certificate import moved_markers
 from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.methods import KEPT
-from ninja_game.search.formula.task import SpanResult, SpanTask, distinct_ways, score_text
+from ninja_game.search.formula.task import SpanResult, SpanTask, distinct_routes, score_text
 from ninja_game.sim.inputs import fit_inputs, with_press_bits
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.goals import IMPROVE_GOLD
-from ninja_game.tas.tracks import InputTrack, first_difference
+from ninja_game.tas.tracks import InputTrack, first_different_index
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.tas_editor.span_pieces import WITHOUT_REST
 
@@ -167,7 +167,7 @@ class SpanResults:
 
     def is_in_run(self, result: SpanResult) -> bool:
         ours, searched = self.editor.track.inputs, result.inputs
-        return first_difference(ours, searched) == min(len(ours), len(searched))
+        return first_different_index(ours, searched) == min(len(ours), len(searched))
 
     def shown_run(self, result: SpanResult) -> OtherRun:
         if self._preview is None or self._preview[0] is not result:
@@ -193,7 +193,7 @@ class SpanResults:
             if run.missed_by is None
             and (own is None or run.score < own.score or (run.score == own.score and run.gold > own.gold))
         ]
-        self.better = tuple(distinct_ways(better, measured=bool(self.task.measure))[:KEPT])
+        self.better = tuple(distinct_routes(better, measured=bool(self.task.measure))[:KEPT])
 
     def words(self, result: SpanResult) -> tuple[str, ...]:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
@@ -211,7 +211,7 @@ class SpanResults:
             more = own.score - result.score
             gain = f"better by {more:.4g}" if self.task.measure else f"{counted(int(more), 'tick', 'ticks')} sooner"
         x, y, vx, vy = result.end
-        other = first_difference(result.inputs, self.task.inputs)
+        other = first_different_index(result.inputs, self.task.inputs)
         return words, str(other), f"{x:.1f}, {y:.1f}", f"{hypot(vx, vy):.3f}", gain
 
     @property

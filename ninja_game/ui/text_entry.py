@@ -140,8 +140,8 @@ class TextEntry(Widget):
         x, y, w, h = self.area
         left, text, palette, fill = x + PAD, self.text, theme.palette, theme.canvas.fill_rect
         self._high, room = self._lay_out(theme, left, w - 2 * PAD - 4)
-        high, at = self._high, self._cursor_row
-        self._top = max(0, min(max(self._top, at - room + 1), at, len(self._rows) - room))
+        high, cursor = self._high, self._cursor_row
+        self._top = max(0, min(max(self._top, cursor - room + 1), cursor, len(self._rows) - room))
         self._upper = y + (h - room * high) / 2
         for row, (first, stops) in enumerate(self._rows[self._top : self._top + room], self._top):
             top, last = self._upper + (row - self._top) * high, first + len(stops) - 1
@@ -153,7 +153,7 @@ class TextEntry(Widget):
             line, colour = (text[first:last], palette.text) if text else (self.prompt, palette.faint)
             wide = None if text else w - 2 * PAD
             theme.text(surface, line, left, top + (high - TEXT) / 2, size=TEXT, colour=colour, width=wide)
-            if focused and row == at:
+            if focused and row == cursor:
                 fill(surface, palette.accent, place - 1, top + 1, 1.5, high - 2)
 
     def _lay_out(self, theme: Theme, left: float, room: float) -> tuple[float, int]:

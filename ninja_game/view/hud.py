@@ -149,7 +149,7 @@ class Hud:
     """Draws on a theme's canvas. Every method gives the px rectangle that it covered, or several small ones."""
 
     def __init__(self, theme: Theme, measures: Theme | None = None) -> None:
-        self.theme, self._measures = theme, measures or theme  # the letters that tell where a text lies
+        self.theme, self._measures = theme, measures or theme  #: the letters that tell where a text lies
 
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """Draw everything; the covered px rectangles."""
@@ -270,10 +270,10 @@ class Hud:
     def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:
         """A name with an arrow to its thing: above the thing, or below it at the upper edge."""
         theme, palette = self.theme, self.theme.palette
-        way = -1 if y > TAG_ROOM else 1
+        side = -1 if y > TAG_ROOM else 1
         wide = theme.width(name, _POINTER_SIZE, bold=True) + 12
         left = min(max(x - wide / 2, 26), WIDTH - 26 - wide)
-        tip, base, top = y + way * 17, y + way * 23, tag_top(y)
+        tip, base, top = y + side * 17, y + side * 23, tag_top(y)
         box = theme.canvas.fill_rect(surface, palette.accent, left, top, wide, 16, 4)
         theme.canvas.polygon(surface, palette.accent, [(x - 6, base), (x + 6, base), (x, tip)])
         middle = left + wide / 2

@@ -23,15 +23,15 @@ from ninja_game.editor.files import (
     draft_of_text,
     keep_history,
     kept_history,
+    lost_drafts,
     new_source,
     open_source,
     reads_as,
-    recovered,
     save,
     updated_text,
 )
 from ninja_game.editor.motion import Motion
-from ninja_game.editor.stamp import Selection, Stamp, everything, moved, put, removed
+from ninja_game.editor.stamp import Selection, Stamp, everything, moved, removed, with_stamp
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.bundled import bundled_levels
 from ninja_game.files.user_folder import EDITING, free_path
@@ -120,7 +120,7 @@ def test_our_levels_come_back_with_every_letter(path: Path, tmp_path: Path) -> N
     assert elsewhere
     assert same(load_levels(elsewhere)[0].level, source.draft.level)
     history = History(source.draft)
-    history.change(put(source.draft, Stamp({(30, 2): 5}, (ObjectSpec(GOLD, (700.0, 61.5)),))))
+    history.change(with_stamp(source.draft, Stamp({(30, 2): 5}, (ObjectSpec(GOLD, (700.0, 61.5)),))))
     save(source, history.draft, copy)
     assert same(load_levels(copy)[0].level, history.draft.level)
     kept = [line for line in path.read_text("utf-8").splitlines() if line not in copy.read_text("utf-8").splitlines()]
@@ -138,7 +138,7 @@ def lost_lines(before: str, after: str) -> list[str]:
 def test_comments_order_and_blanks_of_a_hand_written_level_stay(tmp_path: Path) -> None:
     source = open_source(hand_written(tmp_path))
     draft = source.draft
-    more = put(draft, Stamp({(9, 9): 1}, (ObjectSpec(MINE, (500.0, 100.0)),)))
+    more = with_stamp(draft, Stamp({(9, 9): 1}, (ObjectSpec(MINE, (500.0, 100.0)),)))
     text = updated_text(HAND_WRITTEN, draft, more)
     assert reads_as(text, more)
     assert not lost_lines(HAND_WRITTEN, text)
@@ -191,7 +191,7 @@ def test_nobodys_file_is_replaced_without_asking(tmp_path: Path) -> None:
 
 def test_a_level_of_n_is_saved_as_a_file_of_ours(tmp_path: Path) -> None:
     path = tmp_path / "some.nlevel"
-    level = put(Draft(Level()), Stamp({(3, 3): 9}, (ObjectSpec(NINJA, (36.0, 36.0)),))).level
+    level = with_stamp(Draft(Level()), Stamp({(3, 3): 9}, (ObjectSpec(NINJA, (36.0, 36.0)),))).level
     path.write_text(f"{write_level_string(level)}\n{write_level_string(Level(objects=level.objects))}\n")
     source = open_source(path, 0)
     assert source.path is None
@@ -227,13 +227,13 @@ def test_an_autosave_is_found_only_after_its_editor_has_died(tmp_path: Path) -> 
     autosave.poll(History(draft), source)
     autosave._job.finish()
     assert not autosave.problem
-    assert not list(recovered(tmp_path))
+    assert not list(lost_drafts(tmp_path))
     autosave.close(keep=True)
-    found = list(recovered(tmp_path))
+    found = list(lost_drafts(tmp_path))
     assert [one.draft for one in found] == [draft]
     assert found[0].source == source
     path.write_text(HAND_WRITTEN.replace("somebody", "me"), "utf-8")
-    later = next(iter(recovered(tmp_path)))
+    later = next(iter(lost_drafts(tmp_path)))
     with pytest.raises(OccupiedError):
         save(later.source, later.draft, path)
     found[0].forget()
@@ -253,11 +253,11 @@ def test_an_autosave_knows_no_file_but_a_level_that_is_there(tmp_path: Path) -> 
     (tmp_path / "dangling").symlink_to(tmp_path / "nothing")
     for path in (tmp_path / "missing", other, tmp_path / "dangling", tmp_path, "/dev/null", "a\0b"):
         kept(tmp_path, path, digest_of_file(other))
-        (found,) = recovered(tmp_path)
+        (found,) = lost_drafts(tmp_path)
         assert found.source.path is None
     path = hand_written(tmp_path)
     kept(tmp_path, path, "0" * 64)
-    (found,) = recovered(tmp_path)
+    (found,) = lost_drafts(tmp_path)
     assert found.source.path == path
     with pytest.raises(OccupiedError, match="another program has changed"):
         save(found.source, found.draft, path)
@@ -288,7 +288,7 @@ def test_an_autosave_names_its_file_wherever_the_next_editor_starts(
     (tmp_path / "elsewhere").mkdir()
     monkeypatch.chdir(tmp_path / "elsewhere")
     hand_written(tmp_path / "elsewhere")
-    assert [found.source.path for found in recovered(tmp_path)] == [tmp_path / "cave.txt"]
+    assert [found.source.path for found in lost_drafts(tmp_path)] == [tmp_path / "cave.txt"]
 
 
 def test_an_autosave_goes_when_the_draft_is_saved_or_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -311,7 +311,7 @@ def test_a_damaged_autosave_and_a_folder_that_cannot_be_written_stop_nothing(tmp
     (tmp_path / EDITING).mkdir()
     for number, text in enumerate(("", "{}", "[1]", "[" * 100_000, '{"path": 3, "level": "x", "digest": ""}')):
         (tmp_path / EDITING / f"{number}.json").write_text(text)
-    assert not list(recovered(tmp_path))
+    assert not list(lost_drafts(tmp_path))
     blocked = tmp_path / "file"
     blocked.write_text("")
     autosave = Autosave(blocked)
@@ -382,7 +382,7 @@ def test_after_kill_9_at_most_two_seconds_are_lost(tmp_path: Path, root: Path) -
         child.kill()
         child.wait()
         last = int(child.stdout.read().split()[-1])
-    draft = next(iter(recovered(tmp_path))).draft
+    draft = next(iter(lost_drafts(tmp_path))).draft
     assert 0 <= last - (34 * draft.tile((1, 1)) + draft.tile((2, 1))) <= 2.0 / 0.05
 
 

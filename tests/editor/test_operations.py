@@ -19,12 +19,12 @@ from ninja_game.editor.stamp import (
     copied,
     everything,
     filled,
-    middle_of,
     moved,
-    nearest,
+    nearest_part,
     pasted,
-    put,
     removed,
+    turning_centre,
+    with_stamp,
 )
 from ninja_game.editor.tools import remade
 from ninja_game.formats.ascii.object_lines import ListedObject, read_object_line
@@ -72,14 +72,14 @@ def step(history: History[Draft], what: tuple[object, ...]) -> None:
     draft = history.draft
     match what:
         case ("tiles", tiles):
-            history.change(put(draft, Stamp(tiles), SYMMETRIES["both"]))  # type: ignore[arg-type]
+            history.change(with_stamp(draft, Stamp(tiles), SYMMETRIES["both"]))  # type: ignore[arg-type]
         case ("object", ObjectSpec() as one, int(dx)):
-            history.change(put(draft, Stamp({}, (carried(one, Motion(dx=dx)),)), SYMMETRIES["point"]))
+            history.change(with_stamp(draft, Stamp({}, (carried(one, Motion(dx=dx)),)), SYMMETRIES["point"]))
         case ("fill", cell, tile):
             history.change(draft.with_tiles(dict.fromkeys(filled(draft, cell), tile)))  # type: ignore[arg-type]
         case ("move", area, Motion() as motion, int(dx)):
             chosen = chosen_in(draft, area)  # type: ignore[arg-type]
-            middle = middle_of(draft, chosen, quarter=bool(motion.xy))
+            middle = turning_centre(draft, chosen, quarter=bool(motion.xy))
             turned = motion.about(*middle)
             history.change(moved(draft, chosen, turned._replace(dx=turned.dx + 24 * (dx // 24)))[0])
         case ("cut", area):
@@ -239,19 +239,19 @@ def test_a_malformed_record_stays_what_it_is_but_for_its_place() -> None:
 
 def test_a_symmetric_stroke_is_drawn_in_all_its_images() -> None:
     stamp = Stamp({(3, 4): 2, (16, 12): 5}, (spec("thwump 4,4 left"), spec("ninja 2,2")))
-    draft = put(Draft(Level()), stamp, SYMMETRIES["both"])
+    draft = with_stamp(Draft(Level()), stamp, SYMMETRIES["both"])
     assert [draft.tile(cell) for cell in ((3, 4), (29, 4), (3, 20), (29, 20))] == [2, 3, 5, 4]
     assert draft.tile((16, 12)) == 5
     assert [word(one, "direction") for one in draft.objects if one.kind != NINJA] == ["left", "right", "left", "right"]
     assert [one for one in draft.objects if one.kind == NINJA] == [spec("ninja 2,2")]
     way_out = spec("exit 4,4 switch 6,6")
-    assert put(Draft(Level()), Stamp({}, (way_out,)), SYMMETRIES["both"]).objects == (way_out,)
+    assert with_stamp(Draft(Level()), Stamp({}, (way_out,)), SYMMETRIES["both"]).objects == (way_out,)
 
 
 def test_the_ninja_comes_first_and_moves_when_it_is_put_again() -> None:
-    draft = put(Draft(Level(objects=tuple(SPECS[1:4]))), Stamp({}, (SPECS[0],)))
+    draft = with_stamp(Draft(Level(objects=tuple(SPECS[1:4]))), Stamp({}, (SPECS[0],)))
     assert draft.objects[0] == SPECS[0]
-    again = put(draft, Stamp({}, (spec("ninja 9,9"),)))
+    again = with_stamp(draft, Stamp({}, (spec("ninja 9,9"),)))
     assert again.objects == (spec("ninja 9,9"), *SPECS[1:4])
 
 
@@ -273,13 +273,13 @@ def test_a_selection_takes_tiles_objects_and_single_parts() -> None:
     assert after.tile((3, 19)) == 0
     assert after.objects[door] == spec("locked door 9,21 left switch 5,19")
     assert selection.area == (5, 19, 2, 1)
-    assert nearest(after, 133.0, 470.0, 17.0) == (door, 1)
-    assert nearest(after, 133.0, 40.0, 17.0) is None
+    assert nearest_part(after, 133.0, 470.0, 17.0) == (door, 1)
+    assert nearest_part(after, 133.0, 40.0, 17.0) is None
     assert len(removed(after, selection).objects) == len(SPECS) - 1
 
 
 def test_the_whole_level_flipped_twice_is_the_same_level() -> None:
-    draft = put(Draft(Level(objects=tuple(SPECS))), Stamp({(3, 19): 4, (30, 2): 22}))
+    draft = with_stamp(Draft(Level(objects=tuple(SPECS))), Stamp({(3, 19): 4, (30, 2): 22}))
     for motion in (FLIP, MIRROR, HALF_TURN):
         about = motion.about(396, 300)
         once, chosen = moved(draft, everything(draft), about)

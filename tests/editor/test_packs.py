@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.editor import pack_steps, packs, ready_pack
 from ninja_game.editor.pack_steps import Steps
-from ninja_game.editor.ready_pack import Obstacles, make_ready, missing_run
+from ninja_game.editor.ready_pack import Obstacles, missing_run, prepare_pack
 from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, PackFiles
@@ -200,7 +200,7 @@ def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tm
     accept_missing_gold(pack)
     certificate.unlink()
     said: list[str] = []
-    ready = make_ready(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
+    ready = prepare_pack(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
     assert certificate.exists()
     assert other.stat().st_mtime_ns == kept
     assert "Measuring medal times: 8 of 8 levels" in said
@@ -281,7 +281,7 @@ def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Pa
     (pack / FIRST).write_text(text.replace("ox...", "o....").replace("22 |##", "22 |x#"), "utf-8")
     shutil.copy(pack / RUN, pack / RUN.replace("exit", "gold"))
     obstacles: Obstacles = {}
-    ready = make_ready(pack, seconds=4.0, jobs=1, say=_quiet, obstacles=obstacles)
+    ready = prepare_pack(pack, seconds=4.0, jobs=1, say=_quiet, obstacles=obstacles)
     told = "the search found no run to the exit: exit at 30,18 (object 6): the solver never touched its switch"
     assert [finding.text for finding in ready.findings if finding.code == "certificate"] == [told], "not of gold too"
     level = Pack(pack).levels[FIRST].level
@@ -306,14 +306,14 @@ def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(pack: Pa
     why = level_finding("gold-left", (2,), most=1, never="never gold")
     obstacles: Obstacles = {(named.level, "gold"): why for file, named in levels.items() if file != FIRST}
     packs.accept(pack, FIRST, "no-gold-run", "a joke")
-    ready = make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
+    ready = prepare_pack(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     assert searched == []
     assert {finding.code for finding in ready.findings} == {"no-gold-run"}
     assert len(ready.problems) == len(levels) - 1
     assert ready.problems[0].text.startswith("the search found no run with all gold: 1 at most were collected at once")
     packs.take_back(pack, FIRST, "no-gold-run")
     assert "accept" not in (pack / "pack.toml").read_text("utf-8")
-    make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
+    prepare_pack(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     assert searched == ["First Steps"]
 
 
@@ -333,7 +333,7 @@ def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
     said: list[str] = []
-    make_ready(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
+    prepare_pack(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
     assert said[0].startswith("Compiling the solver, the first time on a machine a minute or more. You can go on")
     assert said[1] == "Starting the search", "compiled once, it takes its time too"
     assert said[2] == "Certifying level 1 of 2, First Steps (exit and all gold): 0 s so far, about 3 s left"
@@ -354,10 +354,10 @@ def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, searc
     assert missing
     assert obstacles[missing].text.endswith("gold")
     packs.take_back(pack, FIRST, "no-gold-run")
-    make_ready(pack, seconds=1.0, jobs=1, say=_quiet)
+    prepare_pack(pack, seconds=1.0, jobs=1, say=_quiet)
     assert searched == ["First Steps"]
     packs.accept(pack, gold, "certificate", "it stays so")
-    make_ready(pack, seconds=1.0, jobs=1, say=_quiet)
+    prepare_pack(pack, seconds=1.0, jobs=1, say=_quiet)
     assert searched == ["First Steps"], "what is accepted is not searched again"
 
 

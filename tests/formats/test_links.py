@@ -32,7 +32,7 @@ from ninja_game.formats.links import (
     pack_texts,
     read_link,
     recording_link,
-    recordings_of,
+    recordings_in_links,
     replay_link,
     watched,
     write_link,
@@ -97,7 +97,7 @@ def test_reference_levels_and_recordings_come_back_and_their_links_are_short() -
         assert level_digest(load_levels(link)[0].level) == level_digest(level)
         levels.append(len(link))
     for run in recordings()[::10]:
-        (recording,) = recordings_of([f"$run###{run.data}#{run.demo}#"])
+        (recording,) = recordings_in_links([f"$run###{run.data}#{run.demo}#"])
         link = recording_link([recording])
         (back,) = load_replays(link)
         assert back.inputs == recording.inputs
@@ -208,7 +208,7 @@ def test_replay_in_a_link_reads_no_file(tmp_path: Path, monkeypatch: pytest.Monk
     with pytest.raises(LinkError, match="without its level"):
         load_replays(write_link("replay", [text]))
     with pytest.raises(LinkError, match="without its level"):
-        recordings_of([text])
+        recordings_in_links([text])
     with pytest.raises(LinkError, match="without its level"):
         replay_link([replace(recording.replay, level=None)])
 

@@ -29,7 +29,7 @@ PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
         ("start for 0 s: jump", "unknown moment"),
         ("start: " + "x" * (MAX_LETTERS + 1), "at most 120 printable letters"),
         ("start: \x07", "printable"),
-        (" | ".join(["start: a"] * 9), "too many texts in 'says'; found 9; expected at most 8"),
+        (" | ".join(["start: a"] * 9), "too many messages in 'says'; found 9; expected at most 8"),
     ],
 )
 def test_what_cannot_be_said_is_refused_with_its_line(value: str, words: str) -> None:

@@ -12,7 +12,7 @@ from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import parse_levels
-from ninja_game.formats.numbers import format_exact, format_number, parse_number
+from ninja_game.formats.numbers import format_exact, format_number, parse_flash_number
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from tests.support.strategies import mutations_of
@@ -66,6 +66,6 @@ def test_replays(text: str) -> None:
 
 @given(st.text("0123456789.+-eExX \n", max_size=12) | st.text(max_size=12))
 def test_numbers(text: str) -> None:
-    value = parse_number(text)
+    value = parse_flash_number(text)
     format_number(value)
     format_exact(value)

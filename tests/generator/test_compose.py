@@ -13,7 +13,7 @@ from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.generator.compose import compose
 from ninja_game.generator.generate import plan_of
 from ninja_game.generator.layouts import LAYOUTS, PLACE_NAMES
-from ninja_game.generator.scene import RockBoard, Scene, box, disc, flood, path, places, poly
+from ninja_game.generator.scene import RockBoard, Scene, box, disc, flood, object_places, path, poly
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.lint import level_warnings
 from ninja_game.runs.run import run_level
@@ -75,7 +75,7 @@ def test_gold_lies_in_groups_and_no_piece_is_on_another(plan: str) -> None:
 @pytest.mark.parametrize("plan", PLANS)
 def test_most_hazards_guard_something(plan: str) -> None:
     scene = composed(plan, 10)
-    wanted = [*scene.baits, *(place for record in scene.key[1:] for place in places(record))]
+    wanted = [*scene.baits, *(place for record in scene.key[1:] for place in object_places(record))]
     near = [
         min(dist(record.values[:2], point) for point in wanted) < 120 for group in scene.hazards for record in group
     ]

@@ -12,16 +12,16 @@ from ninja_game.errors import FileError
 from ninja_game.files.bundled import data_folder
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.generator import packed
-from ninja_game.generator.packed import PACKED, generated_levels, pack, read_line
+from ninja_game.generator.packed import PACKED, pack, read_line, read_packed_levels
 from ninja_game.runs.run import run_level
 
-ALL = generated_levels()
+ALL = read_packed_levels()
 
 
 def test_there_are_a_hundred_of_each_difficulty_and_no_two_alike() -> None:
     assert Counter(each.wanted for each in ALL) == dict.fromkeys(range(1, 11), 100)
     assert len({level_digest(each.level) for each in ALL}) == len(ALL)
-    assert generated_levels(difficulty=4) == [each for each in ALL if each.wanted == 4]
+    assert read_packed_levels(difficulty=4) == [each for each in ALL if each.wanted == 4]
 
 
 @pytest.mark.parametrize("number", range(0, 1000, 83))

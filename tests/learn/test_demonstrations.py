@@ -14,7 +14,7 @@ from ninja_game.errors import ArgumentError
 from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
-from ninja_game.formats.recording import demo_replay, recording_of
+from ninja_game.formats.recording import demo_recording, demo_replay
 from ninja_game.learn.demonstrations import (
     Demonstration,
     UnplayableRecordingError,
@@ -184,7 +184,7 @@ def test_reference_recordings_are_demonstrations_unless_they_press_jump_anew() -
     require_reference()
     unplayable = []
     for row in recordings()[::40]:
-        recording = recording_of(LevelRecord(row.label, "", "", row.data, row.demo), "", parse_level_string(row.data))
+        recording = demo_recording(LevelRecord(row.label, "", "", row.data, row.demo), "", parse_level_string(row.data))
         try:
             made = demonstration(recording)
         except UnplayableRecordingError:

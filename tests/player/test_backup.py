@@ -16,7 +16,7 @@ import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
-from ninja_game.editor.files import ascii_text, recovered
+from ninja_game.editor.files import ascii_text, lost_drafts
 from ninja_game.errors import FileError
 from ninja_game.files.tree import Tree
 from ninja_game.player import backup, schema
@@ -412,7 +412,7 @@ def test_a_level_under_edit_of_another_machine_has_no_file_here(tmp_path: Path) 
             archive.writestr(f"editing/{number}.json", text)
     here = player_data(tmp_path / "to")
     read_backup(here, backup.read_bytes())
-    found = list(recovered(tmp_path / "to"))
+    found = list(lost_drafts(tmp_path / "to"))
     assert [(each.draft, each.source.path) for each in found] == [(ROOM, None)] * 2
     assert read_backup(here, backup.read_bytes())[1] == "0 new files"
 

@@ -130,7 +130,7 @@ def test_pass_with_help_opens_what_follows_and_is_called_so_everywhere(tmp_path:
     assert place(data) == 1
     assert data.marks.of(first.digest) is None
     assert data.reached(first, None) == HELPED
-    assert not LevelPlaythrough(data, first).shows_hints, "its texts are done"
+    assert not LevelPlaythrough(data, first).shows_messages, "its texts are done"
     run = EpisodePlaythrough(data, data.catalogue.episodes[0])
     run.passed(played(LEVELS[0]))
     assert data.reached(first, data.marks.of(first.digest)).startswith("Time")

@@ -13,7 +13,7 @@ from ninja_game import parse_level
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.level_file import LevelRecord
-from ninja_game.formats.recording import recording_of
+from ninja_game.formats.recording import demo_recording
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Result
 from ninja_game.runs.recording_reader import Unreadable
@@ -142,7 +142,7 @@ def test_runs_at_a_keyboard_are_possible_by_keyboard() -> None:
     """The published recordings of people; of those made with tools nineteen are not."""
     impossible = dict.fromkeys(("rta", "tas", "mbd"), 0)
     for row in recordings():
-        recording = recording_of(LevelRecord(row.label, "", "", row.data, row.demo), "", parse_level(row.data))
+        recording = demo_recording(LevelRecord(row.label, "", "", row.data, row.demo), "", parse_level(row.data))
         verdict = verify_recording(recording)
         assert verdict.in_time
         impossible[row.source] += not verdict.possible_by_keyboard

@@ -26,8 +26,8 @@ from ninja_game.runs.trace import (
     RunTrace,
     first_difference,
     ninja_columns,
-    rows,
     trace_digests,
+    trace_rows,
 )
 from ninja_game.runs.trace_files import (
     MAX_TRACE_BYTES,
@@ -36,7 +36,7 @@ from ninja_game.runs.trace_files import (
     read_csv,
     read_traces,
     write_csv,
-    write_npz,
+    write_trace_arrays,
 )
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.schema.world_fields import TileMap, World
@@ -111,7 +111,7 @@ def test_files_keep_every_bit(form: str, tmp_path: Path) -> None:
             write_csv(TWICE, text)
     else:
         with path.open("wb") as file:
-            write_npz(TWICE, file)
+            write_trace_arrays(TWICE, file)
     back = list(read_traces(path))
     assert [(trace.record, trace.name, trace.file, trace.inputs) for trace in back] == [
         (trace.record, trace.name, trace.file, trace.inputs) for trace in TWICE
@@ -134,7 +134,7 @@ def test_broken_row_is_refused_with_its_line() -> None:
 
 
 def test_rows_give_velocity_and_events() -> None:
-    row = list(rows(a_trace()))[3]
+    row = list(trace_rows(a_trace()))[3]
     assert (row["tick"], row["kind"], row["vx"], row["events"]) == (1, "ninja", 1.0, "")
 
 
@@ -216,7 +216,7 @@ def test_a_damaged_zip_is_an_error_of_ours(name: str, value: int, tmp_path: Path
 
 def test_a_zip_whose_index_leads_before_its_beginning_is_an_error_of_ours(tmp_path: Path) -> None:
     path = tmp_path / "cut.npz"
-    write_npz(TWICE, whole := io.BytesIO())
+    write_trace_arrays(TWICE, whole := io.BytesIO())
     path.write_bytes(b"PK" + whole.getvalue()[40:])
     with pytest.raises(FormatError, match="this is not a trace"):
         list(read_traces(path))
@@ -234,7 +234,7 @@ def test_a_zip_whose_index_leads_before_its_beginning_is_an_error_of_ours(tmp_pa
 def test_arrays_of_another_kind_size_or_order_are_refused(name: str, array: NDArray[Any], tmp_path: Path) -> None:
     path = tmp_path / "other.npz"
     with path.open("wb") as file:
-        write_npz(TWICE, file)
+        write_trace_arrays(TWICE, file)
     with np.load(path) as arrays:
         np.savez(path, **{**arrays, f"{name}_0": array})
     with pytest.raises(FormatError, match="this is not a trace"):
@@ -252,7 +252,7 @@ def test_objects_of_a_table_stand_in_the_order_of_their_ids() -> None:
 
 def test_damaged_bytes_of_a_trace_never_escape_as_other_errors(tmp_path: Path) -> None:
     whole = io.BytesIO()
-    write_npz(TWICE, whole)
+    write_trace_arrays(TWICE, whole)
     rng = random.Random(3)
     for _ in range(300):
         data = bytearray(whole.getvalue())

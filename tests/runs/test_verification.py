@@ -40,7 +40,7 @@ from ninja_game.runs.chunks import (
 )
 from ninja_game.runs.recording_reader import Unreadable, records_of
 from ninja_game.runs.verify import Verdict, with_demands
-from ninja_game.runs.workers import JOB_SECONDS, WORKER_BYTES, ClusterError, Local, WorkerLostError, in_order, workers
+from ninja_game.runs.workers import JOB_SECONDS, WORKER_BYTES, ClusterError, Local, WorkerLostError, results_of, workers
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import object_table
 from tests.support.samples import (
@@ -298,14 +298,14 @@ def test_jobs_are_taken_as_they_are_needed() -> None:
             yield number
 
     with workers(2) as pool:
-        results = in_order(pool, double, jobs())
+        results = results_of(pool, double, jobs())
         assert [next(results) for _ in range(3)] == [(0, 0), (1, 2), (2, 4)]
         assert len(taken) < 20
 
 
 def test_what_a_dead_process_had_is_done_again_and_counted_once(tmp_path: Path) -> None:
     pool = Local(2, processes=True)
-    results = list(in_order(pool, partial(die_once, str(tmp_path / "mark")), range(20)))
+    results = list(results_of(pool, partial(die_once, str(tmp_path / "mark")), range(20)))
     pool.close()
     assert results == [(number, 2 * number) for number in range(20)]
     assert (tmp_path / "mark").exists()
@@ -325,7 +325,7 @@ def test_ctrl_c_in_a_terminal_is_nothing_to_a_worker_that_starts() -> None:
 @pytest.mark.slow
 def test_a_job_that_kills_every_process_is_named(tmp_path: Path) -> None:
     pool = Local(2, processes=True)
-    results = dict(in_order(pool, die, range(6)))
+    results = dict(results_of(pool, die, range(6)))
     pool.close()
     assert isinstance(results.pop(3), WorkerLostError)
     assert results == {number: 2 * number for number in (0, 1, 2, 4, 5)}
@@ -478,7 +478,7 @@ def test_a_worker_process_has_limits_of_memory_and_time() -> None:
     import resource
 
     pool = Local(1, processes=True)
-    results = dict(in_order(pool, allocate, [10, 3 * WORKER_BYTES >> 21, 20]))
+    results = dict(results_of(pool, allocate, [10, 3 * WORKER_BYTES >> 21, 20]))
     limits = [
         pool.submit(resource.getrlimit, getattr(resource, name)).result()[0] for name in ("RLIMIT_DATA", "RLIMIT_CPU")
     ]

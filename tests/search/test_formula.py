@@ -21,17 +21,17 @@ from ninja_game.batch.batch import Batch
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_replays
 from ninja_game.search.formula import methods
-from ninja_game.search.formula.language import FormulaError, parse_number, parse_truth
+from ninja_game.search.formula.language import FormulaError, parse_measure, parse_truth
 from ninja_game.search.formula.leg import LegSearch
 from ninja_game.search.formula.methods import count_ways, search_span
 from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
 from ninja_game.search.formula.task import (
     MAX_SPAN,
-    SAME_WAY_PX,
+    SAME_ROUTE_PX,
     SpanResult,
     SpanTask,
     SpanWorlds,
-    distinct_ways,
+    distinct_routes,
     score_text,
     target_of,
 )
@@ -162,7 +162,7 @@ def test_comparisons_in_a_row_hold_together() -> None:
 
 @given(st.text("xyvtick<>=!()+-*/ 0123.andornot,_$", max_size=40))
 def test_any_text_is_a_formula_or_an_error_of_ours(text: str) -> None:
-    for parse in (parse_truth, parse_number):
+    for parse in (parse_truth, parse_measure):
         try:
             formula = parse(text, NAMES, FACTS)
         except FormulaError:
@@ -259,7 +259,7 @@ def test_the_difference_is_that_of_place_and_velocity_until_all_is_the_same() ->
     assert difference(9.0).tolist() == pytest.approx([away[0], away[1], 0])
     for text, message in {"difference(12)": "the run has ticks 0 to 11", "difference(x)": "is a plain number"}.items():
         with pytest.raises(ArgumentError, match=message):
-            parse_number(text, SPAN_NAMES, FACTS).value({**view_of(batch), "difference": difference})
+            parse_measure(text, SPAN_NAMES, FACTS).value({**view_of(batch), "difference": difference})
 
 
 def test_the_same_place_in_another_world_is_a_difference() -> None:
@@ -287,7 +287,7 @@ def test_results_are_different_ways_and_sorted() -> None:
     assert list(found) == sorted(found)
     assert len(found) > 1
     for one, other in combinations(found, 2):
-        assert np.abs(one.path - other.path).max() > SAME_WAY_PX
+        assert np.abs(one.path - other.path).max() > SAME_ROUTE_PX
     assert len(searched(SpanTask(LEVEL, WAITING, 0, 30, goal="x > 110"))) == 1, "the way is straight"
 
 
@@ -298,12 +298,12 @@ def test_of_one_way_and_of_what_is_beaten_the_best_stands() -> None:
 
     best, alike, later, higher = result(30, 30, 0), result(31, 31, 9), result(36, 36, 0), result(37, 37, 30)
     much_later, richer = result(45, 45, 0), result(40, 31, 0, gold=1)
-    assert distinct_ways([much_later, higher, alike, richer, later, best], measured=False) == [
+    assert distinct_routes([much_later, higher, alike, richer, later, best], measured=False) == [
         best, higher, richer, much_later
     ]  # fmt: skip
-    assert distinct_ways([much_later, higher, alike, best], measured=True) == [best]
+    assert distinct_routes([much_later, higher, alike, best], measured=True) == [best]
     sooner = result(50, 20, 60)
-    assert distinct_ways([sooner, best], measured=True) == [best, sooner], "it is there before"
+    assert distinct_routes([sooner, best], measured=True) == [best, sooner], "it is there before"
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ from ninja_game.search.nodes import (
     zeroed,
 )
 from ninja_game.search.searching import Search
-from ninja_game.search.states import key_of, switch_state_of
+from ninja_game.search.states import state_key, switch_state_of
 from ninja_game.sim.inputs import KEY_RIGHT, with_press_bits
 from tests.support.heavy import heavy_level
 from tests.support.own_fields import own_fields_only
@@ -266,7 +266,7 @@ def key_after(text: str, ticks: int, resolution: Resolution) -> int:
     memory = PlainWorlds([level], box=False)
     for _ in range(ticks):
         memory.step(0)
-    return key_of(memory.world(), goal, 0, 0, resolution)
+    return state_key(memory.world(), goal, 0, 0, resolution)
 
 
 def test_enemies_that_are_near_tell_moments_apart() -> None:
@@ -317,7 +317,7 @@ def test_states_that_differ_in_a_tenth_switch_are_told_apart() -> None:
     for _ in range(150):
         memory.step(KEY_RIGHT)
         state = switch_state_of(memory.world(), search.goal, search.counters, 0)
-        key = key_of(memory.world(), search.goal, state, 0, Resolution(cell=1000.0, speed=100.0))
+        key = state_key(memory.world(), search.goal, state, 0, Resolution(cell=1000.0, speed=100.0))
         states_of.setdefault(key, set()).add(state)
     assert len(set.union(*states_of.values())) == 14
     assert all(len(states) == 1 for states in states_of.values())

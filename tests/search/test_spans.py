@@ -18,7 +18,7 @@ from ninja_game.search.formula.leg import OtherRoutes
 from ninja_game.search.formula.methods import search_span
 from ninja_game.search.formula.task import SpanTask
 from ninja_game.search.heuristics import UNREACHED, Heuristics
-from ninja_game.search.known_run import nearest
+from ninja_game.search.known_run import nearest_row
 from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.spans import RunShortener, SpanSearches, SpanSettings
 
@@ -47,8 +47,8 @@ def test_a_moment_of_the_run_is_noted_and_is_most_like_itself() -> None:
         w = memory.world()
         n = w.ninja
         assert run.moves[tick].tolist() == [n.x, n.y, n.x - n.prev_x, n.y - n.prev_y]
-        assert nearest(run, w, int(run.masks[tick])) == (tick, float(ticks - tick))
-        assert nearest(run, w, 1 - int(run.masks[tick]))[1] > ticks - tick
+        assert nearest_row(run, w, int(run.masks[tick])) == (tick, float(ticks - tick))
+        assert nearest_row(run, w, 1 - int(run.masks[tick]))[1] > ticks - tick
         memory.step(int(run.keys[tick]))
     assert (run.masks[0], run.masks[-1]) == (0, 1)
 
@@ -58,10 +58,10 @@ def test_what_lacks_gold_or_is_far_from_the_run_is_not_like_it() -> None:
     w = PlainWorlds([LEVEL], box=False).world()
     w.tick = 100
     w.ninja.x = float(with_gold.run.moves[100][0])
-    assert nearest(with_gold.run, w, 0) == (-1, UNREACHED)
-    assert nearest(without.run, w, 0)[0] > 0
+    assert nearest_row(with_gold.run, w, 0) == (-1, UNREACHED)
+    assert nearest_row(without.run, w, 0)[0] > 0
     w.ninja.y -= 200
-    assert nearest(without.run, w, 0) == (-1, UNREACHED)
+    assert nearest_row(without.run, w, 0) == (-1, UNREACHED)
 
 
 def test_a_span_gets_shorter_and_the_rest_is_joined_to_it() -> None:

@@ -13,10 +13,10 @@ from ninja_game.backend.layout import (
     STATE_START,
     TILE_MAP,
     WORLD,
-    bytes_of,
     dtype_of,
     new_worlds,
     used_bytes,
+    world_bytes,
 )
 from ninja_game.backend.memories import compiled_available
 from ninja_game.backend.numba_import import import_numba
@@ -70,9 +70,9 @@ def test_worlds_are_packed_by_what_they_use() -> None:
     assert WORLD.itemsize == used_bytes(CAPACITY)
     worlds["slots_used"] = 70
     worlds[1]["ninja"]["x"] = 5.0
-    states = bytes_of(worlds)
+    states = world_bytes(worlds)
     assert states.shape == (3, worlds.strides[0] - STATE_START)
-    assert len(bytes_of(new_worlds(2, CAPACITY))) == 2
+    assert len(world_bytes(new_worlds(2, CAPACITY))) == 2
     states[2] = states[1]
     assert worlds[2]["ninja"]["x"] == 5.0
     assert worlds[0]["ninja"]["x"] == 0.0

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ninja_game import __version__
 from ninja_game.editor.certify import Certification, TestMap
 from ninja_game.editor.files import Source, draft_of
-from ninja_game.editor.stamp import Stamp, put
+from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.files.bundled import CHECKOUT, bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.named_level import parse_levels
@@ -320,7 +320,7 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
     screen = driver.opened("Editor", EditorScreen)
     draft = draft_of(parse_levels(RANGE)[0])
     gold = tuple(ObjectSpec(GOLD, (300.0 + 12 * k, 200.0)) for k in range(5))
-    draft = put(
+    draft = with_stamp(
         draft, Stamp({(8, 12): 7, (9, 12): 1, (10, 12): 6, (12, 17): 1}, (*gold, ObjectSpec(MINE, (300.0, 420.0))))
     )
     screen.session.begin(Source(draft))

@@ -6,7 +6,7 @@ import pygame
 
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import new_source
-from ninja_game.editor.stamp import Stamp, put
+from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.screen import BaseScreen
@@ -14,7 +14,7 @@ from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
 from tests.support.menu_driver import MenuDriver
 
-ROOM = put(
+ROOM = with_stamp(
     Draft(Level(), "Room", "me"),
     Stamp(
         dict.fromkeys([(column, 23) for column in range(1, 32)], 1),

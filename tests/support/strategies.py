@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import strategies as st
 
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.numbers import parse_number
+from ninja_game.formats.numbers import parse_flash_number
 from ninja_game.formats.replay.notations import Marker, is_marker_name
 from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.sim.inputs import Demo
@@ -25,7 +25,7 @@ decimal_texts = st.one_of(
     ),
     st.integers(10**14, 10**15 - 1).map(lambda digits: f"0.{digits}"),
 )
-values = st.one_of(decimal_texts.map(parse_number), st.just(NAN))
+values = st.one_of(decimal_texts.map(parse_flash_number), st.just(NAN))
 
 NO_TEXT = st.just("")
 

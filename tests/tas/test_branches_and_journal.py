@@ -17,7 +17,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import open_run, save_run
-from ninja_game.tas.journal import JOURNAL_FOLDER, BesideRun, Journal, read_journal, recovered
+from ninja_game.tas.journal import JOURNAL_FOLDER, BesideRun, Journal, lost_runs, read_journal
 from ninja_game.tas.session import OPENED, TasSession
 from ninja_game.tas.tracks import Branch, Branches, InputTrack, branches_of_json
 from tests.support.samples import WALK_END, replay_of_walk
@@ -152,7 +152,7 @@ def test_damaged_journals_give_only_edits_that_there_were(session: TasSession, t
     for _ in range(500):
         file.write_bytes(damaged(whole, rng).encode("utf-8", "surrogatepass"))
         begin = file.read_bytes().split(b"\n")[0] == whole.encode().split(b"\n")[0]
-        for found in recovered(tmp_path):
+        for found in lost_runs(tmp_path):
             if begin:
                 assert {found.opened.track, *found.tracks} <= there
             TasSession(found.opened, tmp_path, memory="plain").close()
@@ -164,10 +164,10 @@ def test_a_run_goes_on_where_a_killed_session_was(session: TasSession, tmp_path:
     session.begin()
     for tick in range(5):
         session.change(session.track.replaced(tick, tick + 1, [4]))
-    assert list(recovered(tmp_path)) == [], "it is running"
+    assert list(lost_runs(tmp_path)) == [], "it is running"
     stroke = session.track
     session.journal.close(keep=True)
-    (found,) = recovered(tmp_path)
+    (found,) = lost_runs(tmp_path)
     assert found.tracks[-1] == stroke, "also in the middle of a stroke"
     assert len(found.tracks) == 2
     again = TasSession(found.opened, tmp_path, memory="plain")
@@ -175,13 +175,13 @@ def test_a_run_goes_on_where_a_killed_session_was(session: TasSession, tmp_path:
     assert again.file.path == tmp_path / "walk.replay.txt"
     assert (again.track, [each.name for each in again.branches.all]) == (stroke, [OPENED, "one"])
     assert not again.is_saved
-    assert list(recovered(tmp_path)) == [], "it is gone on with"
+    assert list(lost_runs(tmp_path)) == [], "it is gone on with"
     with pytest.raises(FileError, match="another window"):
         TasSession(found.opened, tmp_path, memory="plain").recover(found)
     again.change(again.track.replaced(9, 10, [7]))
     last = again.track
     again.journal.close(keep=True)
-    (found,) = recovered(tmp_path)
+    (found,) = lost_runs(tmp_path)
     assert found.tracks[-1] == last
     third = TasSession(found.opened, tmp_path, memory="plain")
     third.recover(found)
@@ -218,7 +218,7 @@ def test_runs_beside_are_there_again_after_a_crash(session: TasSession, tmp_path
     session.change(session.track.replaced(2, 3, [5]))
     session.show_beside(second)
     session.journal.close(keep=True)
-    (found,) = recovered(tmp_path)
+    (found,) = lost_runs(tmp_path)
     assert found.beside == (first, second)
     again = TasSession(found.opened, tmp_path, memory="plain")
     again.recover(found)
@@ -226,19 +226,19 @@ def test_runs_beside_are_there_again_after_a_crash(session: TasSession, tmp_path
     again.save(tmp_path / "walk.replay.txt")
     again.change(again.track.replaced(2, 3, [1]))
     again.journal.close(keep=True)
-    assert next(recovered(tmp_path)).beside == (first, second)
+    assert next(lost_runs(tmp_path)).beside == (first, second)
 
 
 def test_nobody_discards_what_another_window_goes_on_with(session: TasSession, tmp_path: Path) -> None:
     session.change(session.track.replaced(0, 1, [1]))
     session.journal.close(keep=True)
-    (found,) = recovered(tmp_path)
+    (found,) = lost_runs(tmp_path)
     other = TasSession(found.opened, tmp_path, memory="plain")
     other.recover(found)
     assert not remove_abandoned(found.file)
     other.change(other.track.replaced(3, 4, [1]))
     other.journal.close(keep=True)
-    assert [each.tracks[-1] for each in recovered(tmp_path)] == [other.track]
+    assert [each.tracks[-1] for each in lost_runs(tmp_path)] == [other.track]
 
 
 def test_what_cannot_be_written_is_told_and_comes_later(
@@ -255,7 +255,7 @@ def test_what_cannot_be_written_is_told_and_comes_later(
     session.change(session.track.replaced(2, 3, [1]))
     assert session.journal.problem == ""
     session.journal.close(keep=True)
-    (found,) = recovered(tmp_path)
+    (found,) = lost_runs(tmp_path)
     assert found.tracks[-1] == session.track
     assert found.branches.all == session.branches.all
 
@@ -267,7 +267,7 @@ def test_a_run_beside_does_not_lose_edits_that_are_yet_to_be_written(session: Ta
     (tmp_path / JOURNAL_FOLDER).unlink()
     session.change(session.track.replaced(1, 2, [4]))
     session.journal.close(keep=True)
-    (found,) = recovered(tmp_path)
+    (found,) = lost_runs(tmp_path)
     assert (found.tracks[-1:], [run.name for run in found.beside]) == ((session.track,), ["Cy"])
 
 
@@ -345,7 +345,7 @@ def test_a_kill_between_the_file_and_its_journal_loses_nothing(session: TasSessi
     assert path is not None
     session.journal.close(keep=True)
     save_run(session.origin, session.track, session.branches, path, session.file)
-    (found,) = recovered(tmp_path)
+    (found,) = lost_runs(tmp_path)
     again = TasSession(found.opened, tmp_path, memory="plain")
     again.recover(found)
     again.undo()
@@ -361,7 +361,7 @@ def test_edits_of_an_empty_run_are_found_again(session: TasSession, tmp_path: Pa
     session.journal.begin_again(session._opened())
     session.change(InputTrack(b"\1"))
     session.journal.close(keep=True)
-    (found,) = recovered(tmp_path)
+    (found,) = lost_runs(tmp_path)
     assert (found.opened.track, found.tracks) == (InputTrack(b""), (InputTrack(b"\1"),))
 
 
@@ -370,5 +370,5 @@ def test_watched_formulas_alone_are_something_to_save(session: TasSession, tmp_p
     session.watch(["x", "vy > 0"])
     assert (before, session.is_saved) == (True, False)
     session.close(keep=True)
-    (found,) = recovered(tmp_path)
+    (found,) = lost_runs(tmp_path)
     assert found.branches.watched == ("x", "vy > 0")

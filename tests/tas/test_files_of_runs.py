@@ -25,7 +25,7 @@ from ninja_game.runs.verify import Verdict
 from ninja_game.sim.inputs import fit_inputs
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import OpenedRun, RunFile, branches_path, new_run, open_run, save_run, track_of
-from ninja_game.tas.journal import JOURNAL_FOLDER, recovered
+from ninja_game.tas.journal import JOURNAL_FOLDER, lost_runs
 from ninja_game.tas.session import TasSession
 from ninja_game.tas.tracks import Branches, InputTrack
 from tests.support.own_pack import PACK, instead_of_ours
@@ -183,10 +183,10 @@ def test_a_journal_knows_no_file_but_a_run_that_is_there(tmp_path: Path) -> None
     for place, home in ((path, path), (other, None), (tmp_path / "missing", None), (tmp_path, None)):
         said = json.loads(first) | {"path": str(place), "digest": digest_of_file(other)}
         journal.write_text(f"{json.dumps(said)}\n{rest}", "utf-8")
-        (found,) = recovered(tmp_path)
+        (found,) = lost_runs(tmp_path)
         assert found.opened.file.path == home
     journal.write_text(f"{first}\n{rest}", "utf-8")
-    (found,) = recovered(tmp_path)
+    (found,) = lost_runs(tmp_path)
     session = TasSession(found.opened, tmp_path, memory="plain")
     session.recover(found)
     path.unlink()
@@ -359,7 +359,7 @@ def test_keys_that_are_taken_bring_their_authors_and_searches_along(tmp_path: Pa
     expected = Provenance(played=True, edits=2, searches=("solve", "search"), begun_by="Ann"), ("Bob", "Cy")
     assert (session.origin.replay.made, session.origin.replay.co_authors) == expected
     session.close(keep=True)
-    (lost,) = recovered(tmp_path)
+    (lost,) = lost_runs(tmp_path)
     again = TasSession(lost.opened, tmp_path, player="Bob", memory="plain")
     again.recover(lost)
     assert (again.origin.replay.made, again.origin.replay.co_authors) == expected
@@ -413,7 +413,7 @@ def test_what_is_undone_is_credited_no_longer(tmp_path: Path) -> None:
     assert not session.origin.replay.made.edits
     session.change(session.track.replaced(9, 10, [0]))
     session.close(keep=True)
-    (lost,) = recovered(tmp_path)
+    (lost,) = lost_runs(tmp_path)
     again = TasSession(lost.opened, tmp_path, player="Bob", memory="plain")
     again.recover(lost)
     assert (again.origin.replay.made, again.origin.replay.co_authors) == own

@@ -8,7 +8,7 @@ from xml.sax.saxutils import escape
 from ninja_game.cli import windows
 from ninja_game.formats.ascii.legend import TILE_FAMILIES, TILE_OF_CHAR
 from ninja_game.play.lab.screen import export_figure
-from ninja_game.player.settings import BINDING_TABLES, SPECS, Settings, key_of
+from ninja_game.player.settings import BINDING_TABLES, SPECS, Settings, setting_key
 from ninja_game.view.sprites.tile_sheet import outline
 from tools import ROOT
 
@@ -137,7 +137,7 @@ def settings_page() -> str:
     """docs/settings.md, a row for each setting."""
     rows = []
     for name, spec in SPECS.items():
-        key = "*action*" if name in BINDING_TABLES else f"`{key_of(name)}`"
+        key = "*action*" if name in BINDING_TABLES else f"`{setting_key(name)}`"
         table = BINDING_TABLES.get(name, spec.table)
         default = getattr(Settings(), name)
         shown = (

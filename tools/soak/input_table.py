@@ -27,13 +27,13 @@ from ninja_game.files.shown_text import file_stem, shown_text
 from ninja_game.files.user_folder import RECORDS
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.ascii.writer import same_spec, write_ascii_level
-from ninja_game.formats.links import is_link, read_link, recordings_of as watched_recordings, watched, write_link
+from ninja_game.formats.links import is_link, read_link, recordings_in_links as watched_recordings, watched, write_link
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import parse_levels
-from ninja_game.formats.numbers import format_exact, parse_number
+from ninja_game.formats.numbers import format_exact, parse_flash_number
 from ninja_game.formats.pack.index import parse_index
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import parse_pars
@@ -55,7 +55,7 @@ from ninja_game.runs.chunks import (
     verify_chunk,
 )
 from ninja_game.runs.recording_reader import recordings_in, recordings_of, records_of
-from ninja_game.runs.trace import RunTrace, first_difference, rows, trace_digests, trace_level
+from ninja_game.runs.trace import RunTrace, first_difference, trace_digests, trace_level, trace_rows
 from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces
 from ninja_game.search.formula.language import parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES
@@ -202,7 +202,7 @@ def _traces(found: Iterable[FiledTrace]) -> None:
     for trace in found:
         first_difference(known_run(), trace.run)
         trace_digests(trace.run)
-        list(rows(trace.run))
+        list(trace_rows(trace.run))
 
 
 def _pack(pack: Pack) -> None:
@@ -252,7 +252,7 @@ def _name(text: str) -> None:
 
 def _journal(path: Path) -> None:
     journal.read_journal(path)
-    for found in journal.recovered(path.parent.parent):
+    for found in journal.lost_runs(path.parent.parent):
         if len(found.opened.track) <= MAX_RUN_TICKS and all(len(take) <= MAX_RUN_TICKS for take in found.tracks):
             TasSession(found.opened, path.parent.parent, memory="plain").recover(found)
 
@@ -335,7 +335,7 @@ ENTRY_POINTS: dict[str, EntryPoint] = {
     "run with includes": _of_files(_run),
     "clipboard inputs": _of_text(lambda text: inputs_of_text(text, "clipboard")),
     "clipboard level": _of_text(lambda text: draft_of_text(text, Draft(LEVEL))),
-    "number": _of_text(lambda text: format_exact(parse_number(text[:60]))),
+    "number": _of_text(lambda text: format_exact(parse_flash_number(text[:60]))),
     "name": _of_text(_name),
     "goal": _of_text(_goal),
     "watched formula": _of_text(parse_watch),
@@ -355,7 +355,7 @@ ENTRY_POINTS: dict[str, EntryPoint] = {
     "board": _of_file(lambda path: read_board(path, datetime(2026, 1, 1, tzinfo=UTC))),
     "journal": _of_file(_journal, "tas/odd.jsonl", 6),
     "branches": EntryPoint(_branches),
-    "autosave": _of_file(lambda path: list(editor_files.recovered(path.parent.parent)), "editing/odd.json"),
+    "autosave": _of_file(lambda path: list(editor_files.lost_drafts(path.parent.parent)), "editing/odd.json"),
     "backup": EntryPoint(_backup, 2),
     "database": EntryPoint(_database, 1),
     "database rows": EntryPoint(_rows, 1),

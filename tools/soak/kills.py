@@ -27,7 +27,7 @@ from pathlib import Path
 from random import Random
 from typing import Any, NamedTuple, NoReturn
 
-from ninja_game.editor.files import recovered
+from ninja_game.editor.files import lost_drafts
 from ninja_game.errors import NinjaGameError
 from ninja_game.files import writing
 from ninja_game.files.locking import try_lock
@@ -169,7 +169,7 @@ def edit_run_in_window(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
 
 def opened_run(folder: Path) -> TasSession:
     """The run, or what was not saved of it."""
-    found = next(journal.recovered(folder), None)
+    found = next(journal.lost_runs(folder), None)
     session = TasSession(found.opened if found else open_run(folder / RUN), folder, memory="plain")
     if found:
         session.recover(found)
@@ -247,7 +247,7 @@ class Drawing:
         for kind, digest, _ in facts:
             self.saved = {digest} if kind == "saved" else self.saved | {digest} if kind == "about" else self.saved
             self.made |= kind == "saved"
-        there = {level_digest(found.draft.level) for found in recovered(folder)}
+        there = {level_digest(found.draft.level) for found in lost_drafts(folder)}
         file = folder / "levels" / "kept.txt"
         if self.made or file.exists():
             in_file = level_digest(load_levels(file)[0].level)

@@ -10,7 +10,7 @@ import math
 import re
 
 from ninja_game.errors import DemoError
-from ninja_game.formats.numbers import format_number, parse_number
+from ninja_game.formats.numbers import format_number, parse_flash_number
 from ninja_game.sim.inputs import MAX_TICKS, Demo, check_inputs, fit_demo, with_press_bits
 
 TICKS_PER_WORD = 7
@@ -40,14 +40,14 @@ def parse_demo(text: str, *, length: float | None = None) -> Demo:
         raise DemoError("a demo that is too long", found=found, expected=f"at most {MAX_TICKS // TICKS_PER_WORD}")
     # Seven ticks per word, the first in the lowest bits.
     digits = "".join([f"{_word(word):07x}"[::-1] for word in words.split("|")])
-    return fit_demo(digits.encode("ascii").translate(_KEYS_OF_HEX), parse_number(length_text))
+    return fit_demo(digits.encode("ascii").translate(_KEYS_OF_HEX), parse_flash_number(length_text))
 
 
 def _word(text: str) -> int:
     """The low 28 bits of a word; a negative one counts modulo 2^32, a malformed one is 0."""
     if _PLAIN_WORD.fullmatch(text):
         return int(text) & _WORD_BITS
-    value = parse_number(text)
+    value = parse_flash_number(text)
     return int(value) & _WORD_BITS if math.isfinite(value) else 0
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.numbers import format_exact, format_number, parse_number
+from ninja_game.formats.numbers import format_exact, format_number, parse_flash_number
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 
@@ -66,13 +66,13 @@ def _parse_object(text: str) -> ObjectSpec:
     kind_text, caret, rest = text.partition("^")
     kind = _KIND_OF_TEXT.get(kind_text, -1)
     if kind < 0:
-        number = parse_number(kind_text)
+        number = parse_flash_number(kind_text)
         if number not in range(_KINDS):
             return ObjectSpec(-1, (), text)
         kind = int(number)
     if not caret:
         return ObjectSpec(kind, ())
-    return ObjectSpec(kind, tuple(map(parse_number, rest.partition("^")[0].split(","))))
+    return ObjectSpec(kind, tuple(map(parse_flash_number, rest.partition("^")[0].split(","))))
 
 
 def write_level_string(level: Level, *, exact: bool = False) -> str:

@@ -13,7 +13,7 @@ from ninja_game.errors import LevelError, ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.ascii.writer import LEVELS_KEPT
 from ninja_game.formats.lines import MAX_NAME, Line, read_quoted
-from ninja_game.formats.numbers import parse_number
+from ninja_game.formats.numbers import parse_flash_number
 from ninja_game.formats.replay.provenance import Provenance, names_of_text, parse_provenance
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import NAN
@@ -109,7 +109,7 @@ class Headers:
         """A header's number in N's notation; None if it is missing."""
         if key not in self.lines:
             return None
-        value = parse_number(self.raw(key))
+        value = parse_flash_number(self.raw(key))
         if math.isnan(value):
             raise self.error(key, f"no number in '{key}'", "a number, such as 902")
         return value

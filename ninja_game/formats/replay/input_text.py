@@ -13,10 +13,10 @@ from ninja_game.formats.lines import Line, numbered_lines
 from ninja_game.formats.replay.notations import (
     KEY_NAMES,
     Marker,
-    in_order,
     in_our_notation,
     is_marker_name,
     is_tas_text,
+    sorted_letters,
 )
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, with_press_bit
 
@@ -197,7 +197,7 @@ def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
         hint = "a count stands next to its keys, without a blank: R*33"
     elif set(keys.upper()) <= set("LRJ!-."):
         mark = "!" if "!" in keys else "-" if "-" in keys else ""
-        hint = f"write {in_order(keys.upper())}{mark}{star}{count}"
+        hint = f"write {sorted_letters(keys.upper())}{mark}{star}{count}"
     else:
         hint = "L left, R right, J jump, . no key"
     return ReplayError("not an input run", file, line, column, repr(text[:30]), "keys and a count, such as R*30", hint)

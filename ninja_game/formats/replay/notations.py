@@ -167,14 +167,14 @@ def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
     lines = []
     # Number the ticks by the markers so far: a line of the text ends at a marker.
     parts = accumulate(tick in names for tick in range(len(inputs)))
-    at = 0
+    written = 0
     for (_, keys), ticks in groupby(zip(parts, (down & KEYS_DOWN for down in inputs), strict=True)):
-        if at in names:
-            lines.append(f"#{names[at]}")
+        if written in names:
+            lines.append(f"#{names[written]}")
         count = sum(1 for _ in ticks)
         frames = (min(_MAX_FRAMES, count - first) for first in range(0, count, _MAX_FRAMES))
         lines += [",".join([f"{frame:>4}", *KEY_NAMES[keys].strip(".")]) for frame in frames]
-        at += count
+        written += count
     return "".join(f"{line}\n" for line in lines)
 
 
@@ -211,7 +211,7 @@ def _libtas_word(line: str, file: str, number: int) -> str:
             hint = "take it out, or replace it: the ninja runs left and right, and jumps"
             raise ReplayError("a key that the ninja has not", file, number, 1, repr(keysym[:20]), expected, hint)
         letters.append(letter)
-    return in_order(letters)
+    return sorted_letters(letters)
 
 
 def _celeste_word(token: str, file: str, number: int) -> str:
@@ -220,9 +220,9 @@ def _celeste_word(token: str, file: str, number: int) -> str:
     if not set(letters) <= set("LRJ"):
         hint = "a second jump key would press again what is held: write J" if "K" in letters else "take it out"
         raise ReplayError("a key that the ninja has not", file, number, 1, repr(token[:40]), "L, R and J", hint)
-    return in_order(letters)
+    return sorted_letters(letters)
 
 
-def in_order(letters: Iterable[str]) -> str:
+def sorted_letters(letters: Iterable[str]) -> str:
     """Sort keys into the order of the notation, L, R, J, without repetition."""
     return "".join(letter for letter in "LRJ" if letter in [*letters]) or "."

@@ -146,9 +146,9 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
     if not ended and not headers.unclaimed:
         hint = f"its last line is '{LAST_LINE}'; where you have changed it by hand, `ninja-game record` writes it again"
         raise ReplayError("the replay is truncated", file, lines[-1][0], hint=hint)
-    own, level_name, level_author = read_level(headers.section("level-data"), file)
+    embedded, level_name, level_author = read_level(headers.section("level-data"), file)
     if headers.lines.keys().isdisjoint(("level-digest", "level")):
-        own = own or level
+        embedded = embedded or level
     inputs = read_inputs(headers.section("inputs"), file=file, include=include_reader(file))
     length = headers.number("demo-length")
     last = len(inputs.keys) - 1 if length is None else Demo(inputs.keys, length).end
@@ -165,7 +165,7 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
         level_digest=headers.digest("level-digest"),
         level_path=headers.text("level"),
         level_record=headers.count("level-record"),
-        level=own,
+        level=embedded,
         level_name=level_name,
         level_author=level_author,
         waypoints=read_waypoints(headers.section("waypoints"), file),

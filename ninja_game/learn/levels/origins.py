@@ -19,7 +19,7 @@ from ninja_game.files.bundled import own_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.formats.pack.index import LEVELS_PER_EPISODE
-from ninja_game.learn.levels.source import Curriculum, LevelSource, nearest
+from ninja_game.learn.levels.source import Curriculum, LevelSource, word_like
 from ninja_game.sim.level import Level
 
 DEFAULT_LEVEL = "00-0-first-steps"
@@ -87,7 +87,7 @@ def level_source(origin: Origin) -> LevelSource:
     if origin and "\0" not in origin and Path(origin).exists():
         return _named(load_levels(origin))
     words = ["set", "train", "test", "curriculum", *files]
-    raise ArgumentError(f"there is no level, and no file, {origin!r:.100}; expected such as {nearest(origin, words)}")
+    raise ArgumentError(f"there is no level, and no file, {origin!r:.100}; expected such as {word_like(origin, words)}")
 
 
 _own_levels = cache(own_levels)
@@ -128,7 +128,7 @@ def _packed(difficulty: str) -> LevelSource:
 
     if difficulty and difficulty not in map(str, range(1, 11)):
         raise ArgumentError(f"found 'packed:{difficulty:.60}'; expected 'packed', or 'packed:1' to 'packed:10'")
-    made = packed.generated_levels(int(difficulty) if difficulty else None)
+    made = packed.read_packed_levels(int(difficulty) if difficulty else None)
     return LevelSource([f"generated-{level.wanted}-{level.seed}" for level in made], [level.level for level in made])
 
 

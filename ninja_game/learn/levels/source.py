@@ -35,8 +35,8 @@ class LevelSource:
     """
 
     levels: Sequence[Level]
+    #: If there are too many levels to hold (`bench.py`): one with as many objects as any of them
     largest: Level | None = None
-    """If there are too many levels to hold (`bench.py`): one with as many objects as any of them."""
 
     def __init__(self, names: Sequence[str], levels: Sequence[Level]) -> None:
         if not levels or len(names) != len(levels):
@@ -68,7 +68,7 @@ class LevelSource:
         numbers = [self.names.index(name) if isinstance(name, str) and name in self.names else name for name in chosen]
         for level in numbers:
             if not isinstance(level, int | np.integer) or not 0 <= level < len(self.levels):
-                expected = f"0 to {len(self.levels) - 1} or a name: {nearest(str(level), self.names)}"
+                expected = f"0 to {len(self.levels) - 1} or a name: {word_like(str(level), self.names)}"
                 raise ArgumentError(f"there is no level {level!r:.60}; expected {expected}")
         if len(numbers) not in (1, count):
             raise ArgumentError(f"{len(numbers)} levels for {count} worlds; expected one, or one for each")
@@ -80,7 +80,7 @@ class LevelSource:
         return sha256("".join(map(level_digest, self.levels)).encode()).hexdigest()
 
 
-def nearest(word: str, words: Sequence[str]) -> str:
+def word_like(word: str, words: Sequence[str]) -> str:
     """For error messages: the known words most like an unknown one, else the first."""
     return ", ".join(get_close_matches(word, words, 3, 0.5) or words[:3])
 

@@ -11,7 +11,7 @@ from gymnasium.spaces import Box
 
 from ninja_game.backend.worlds import InitialObject
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Array, Part, PartContext, clamp, put
+from ninja_game.learn.observations.part import Array, Part, PartContext, clamp, put_value
 from ninja_game.learn.observations.surroundings import SAMPLES, solidity
 from ninja_game.learn.observations.vectors import MAX_SPEED
 from ninja_game.sim import kinds
@@ -143,8 +143,8 @@ class NearObjects(Part):
 
     def _range(self) -> Any:
         """Lowest and highest value and divisor of each column."""
-        ways, speeds = [WORLD_WIDTH, WORLD_HEIGHT], [MAX_SPEED] * 2
-        highest = np.array([1.0] * DX + ways + speeds + [1.0] * 3)
+        distances, speeds = [WORLD_WIDTH, WORLD_HEIGHT], [MAX_SPEED] * 2
+        highest = np.array([1.0] * DX + distances + speeds + [1.0] * 3)
         lowest = np.where(np.arange(len(OBJECT_COLUMNS)) < DX, 0.0, -highest)
         divisors = np.array([1.0] * DX + [WORLD_WIDTH] * 2 + speeds + [1.0] * 3)
         divisors = divisors if self.normalised else np.ones(len(OBJECT_COLUMNS))
@@ -202,10 +202,10 @@ def observe_objects(
             vx, vy = velocity_of(o)
             face_x, face_y = face_of(o)
             out[index, at + objects[object_].number] = 1.0
-            put(out, index, at, DX, ranges, x - n.x)
-            put(out, index, at, DX + 1, ranges, y - n.y)
-            put(out, index, at, DX + 2, ranges, vx)
-            put(out, index, at, DX + 3, ranges, vy)
+            put_value(out, index, at, DX, ranges, x - n.x)
+            put_value(out, index, at, DX + 1, ranges, y - n.y)
+            put_value(out, index, at, DX + 2, ranges, vx)
+            put_value(out, index, at, DX + 3, ranges, vy)
             out[index, at + DX + 4] = clamp(face_x, -1.0, 1.0)
             out[index, at + DX + 5] = clamp(face_y, -1.0, 1.0)
             out[index, at + DX + 6] = activity_of(o)

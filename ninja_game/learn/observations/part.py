@@ -69,7 +69,7 @@ class PartContext:
         return np.array(list(rows), _dtype(row)) if self.compiled else list(rows)
 
     def ranges(self, lowest: Array, highest: Array, divisors: Array) -> Any:
-        """The records of ``Range`` for ``put``; the limits are those of the divided values."""
+        """The records of ``Range`` for ``put_value``; the limits are those of the divided values."""
         limits = zip(1.0 / divisors, lowest, highest, strict=True)
         return self.records([Range(*map(float, numbers)) for numbers in limits], Range)
 
@@ -107,12 +107,8 @@ class Part(ABC):
     are clamped, and NaN is 0.
     """
 
-    name: ClassVar[str]
-    """Its key in a Dict of several parts."""
-
-    needs_goal: ClassVar[bool] = False
-    """Whether the part reads ``PartContext.goal``."""
-
+    name: ClassVar[str]  #: its key in a Dict of several parts
+    needs_goal: ClassVar[bool] = False  #: whether it reads ``PartContext.goal``
     normalised: bool = field(default=True, kw_only=True)
 
     @property
@@ -156,7 +152,7 @@ class Range(NamedTuple):
 
 
 @fast
-def put(out: Any, index: int, offset: int, j: int, ranges: Any, value: float) -> None:
+def put_value(out: Any, index: int, offset: int, j: int, ranges: Any, value: float) -> None:
     """Write value j, multiplied by its factor and limited to its range."""
     out[index, offset + j] = clamp(value * ranges[j].factor, ranges[j].lowest, ranges[j].highest)
 

@@ -58,7 +58,7 @@ class PixelView(NamedTuple):
     frame: Frame
     across: int
     down: int
-    follows: int  # whether the picture moves with the ninja
+    follows: int  #: whether the picture moves with the ninja
     ninja_shade: float
 
 
@@ -134,7 +134,7 @@ def paint(
 
 
 @fast
-def door_middle(o: Object) -> tuple[float, float]:
+def door_line_middle(o: Object) -> tuple[float, float]:
     """The middle of a door's line, px."""
     cell = o.edge_1 // 4
     side = o.edge_1 % 4
@@ -146,7 +146,7 @@ def draw_object(o: Object, picture: Any, frame: Frame, size: float, box: bool, s
     """Paint an object that exists: the part that can be touched, a closed door's line, a beam, a crosshair."""
     if o.kind == kinds.DOOR:
         if o.edge_1 and activity_of(o) == 1.0:
-            x, y = door_middle(o)
+            x, y = door_line_middle(o)
             upright = UNIT_X[o.edge_1 % 4] != 0.0
             half_x = DOOR_HALF if upright else HALF
             half_y = HALF if upright else DOOR_HALF
@@ -220,7 +220,7 @@ class Pixels(Part):
         factor = 1.0 / 255.0 if self.normalised else 1.0
 
         def picture(number: int) -> NDArray[np.float64]:
-            tiles = cached_by_tiles(tile_picture, context, number, across, down, pixel_x, pixel_y)
+            tiles = cached_by_tiles(solid_points, context, number, across, down, pixel_x, pixel_y)
             return np.rint(np.pad(tiles, margins, constant_values=_SAMPLES**2) * (SOLID_SHADE / _SAMPLES**2)) * factor
 
         def drawn(o: InitialObject) -> DrawnObject:
@@ -234,7 +234,7 @@ class Pixels(Part):
             grid = np.full((2 * GRID_ROWS, 2 * GRID_COLUMNS), -1, np.int16)
             for place, o in enumerate(context.objects(number, *SHADES)):
                 reach = sizes[o.kind][0] + max(pixel_x, pixel_y) + 2.0 * ROUNDING
-                left, right, top, bottom = cells_of((o.x - reach, o.x + reach, o.y - reach, o.y + reach))
+                left, right, top, bottom = cell_bounds((o.x - reach, o.x + reach, o.y - reach, o.y + reach))
                 if o.kind in _STILL:
                     grid[top : bottom + 1, left : right + 1] = place
             return grid
@@ -265,7 +265,7 @@ class Image(Pixels):
         return Box(flat.low[..., np.newaxis], flat.high[..., np.newaxis], dtype=flat.dtype.type)
 
 
-def tile_picture(
+def solid_points(
     context: PartContext, number: int, across: int, down: int, pixel_x: float, pixel_y: float
 ) -> NDArray[np.uint8]:
     """Count the solid points of each pixel (down, across); outside the world all is solid."""
@@ -309,9 +309,9 @@ def observe_pixels(
             top = (row - height) * pixel_y
             frame = Frame(width, left, top, pixel_x, pixel_y, 0, whole.last, 0, whole.high, whole.rounded)
             for line in range(height):
-                at = line * width
+                line_start = line * width
                 source = corner + line * view.across
-                copy_values(picture[at : at + width], tiles[source : source + width], width)
+                copy_values(picture[line_start : line_start + width], tiles[source : source + width], width)
             draw_objects(w, picture, frame, things, start, end, EVERYWHERE, True)
         else:
             corner = level * view.down * view.across
@@ -336,9 +336,9 @@ def observe_pixels(
                     first_column, last_column, first_row, last_row = pixels_of(area, frame)
                     wide = last_column + 1 - first_column
                     for line in range(first_row, last_row + 1):
-                        at = line * width + first_column
-                        source = corner + at
-                        copy_values(picture[at : at + wide], tiles[source : source + wide], wide)
+                        line_start = line * width + first_column
+                        source = corner + line_start
+                        copy_values(picture[line_start : line_start + wide], tiles[source : source + wide], wide)
                     part = Frame(
                         width, 0.0, 0.0, pixel_x, pixel_y, first_column, last_column, first_row, last_row, whole.rounded
                     )
@@ -368,7 +368,7 @@ def draw_objects(
 @fast
 def area_of(o: Object, size: float, gap: float) -> tuple[float, float, float, float]:
     """Left, right, top and bottom of a moving object's drawing, px, with a margin ``gap``."""
-    x, y = door_middle(o) if o.kind == kinds.DOOR else contact_place_of(o)
+    x, y = door_line_middle(o) if o.kind == kinds.DOOR else contact_place_of(o)
     dx = 0.0
     dy = 0.0
     if o.kind == kinds.TURRET and o.updating:
@@ -387,7 +387,7 @@ def area_of(o: Object, size: float, gap: float) -> tuple[float, float, float, fl
 @fast
 def is_covered(place: int, level: int, later: Any, area: Any) -> bool:
     """Whether an object of the layer that is drawn later may lie in this object's area."""
-    left, right, top, bottom = cells_of(area)
+    left, right, top, bottom = cell_bounds(area)
     for row in range(top, bottom + 1):
         for column in range(left, right + 1):
             if later[(level * 2 * GRID_ROWS + row) * 2 * GRID_COLUMNS + column] > place:
@@ -396,7 +396,7 @@ def is_covered(place: int, level: int, later: Any, area: Any) -> bool:
 
 
 @fast
-def cells_of(area: Any) -> tuple[int, int, int, int]:
+def cell_bounds(area: Any) -> tuple[int, int, int, int]:
     """First and last column and row of the cells that an area, px, touches."""
     left, right, top, bottom = area
     return (

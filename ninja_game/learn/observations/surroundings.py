@@ -223,8 +223,8 @@ class Rays(Part):
     def tables(self, context: PartContext) -> tuple[Any, ...]:
         """The directions, to 12 digits, so that all machines agree; px between lines; reach; factor; edge states."""
         angles = [2.0 * pi * k / self.count for k in range(self.count)]
-        ways = [[round(f(angle), 12) for angle in angles] for f in (cos, sin)]
-        paces = [[CELL / abs(way) if way else 0.0 for way in every] for every in ways]
+        units = [[round(f(angle), 12) for angle in angles] for f in (cos, sin)]
+        paces = [[CELL / abs(unit) if unit else 0.0 for unit in axis] for axis in units]
 
         def edges(number: int) -> NDArray[np.uint8]:
             states = np.zeros(EDGE_STATES, np.uint8)
@@ -232,7 +232,7 @@ class Rays(Part):
             return states
 
         factor = 1.0 / self.reach if self.normalised else 1.0
-        directions = [context.table(every, np.float64) for every in (*ways, *paces)]
+        directions = [context.table(axis, np.float64) for axis in (*units, *paces)]
         return observe_rays, *directions, float(self.reach), factor, context.values(edges, np.uint8)
 
 

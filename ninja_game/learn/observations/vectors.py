@@ -10,7 +10,7 @@ from gymnasium.spaces import Box
 
 from ninja_game.backend.worlds import InitialObject
 from ninja_game.learn.goal_distance import point_within
-from ninja_game.learn.observations.part import Part, PartContext, clamp, put
+from ninja_game.learn.observations.part import Part, PartContext, clamp, put_value
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
@@ -135,11 +135,11 @@ def observe_state(
         if chosen >= 0:
             out[index, offset + FIRST_EXIT] = 1.0
             out[index, offset + FIRST_EXIT + 1] = 1.0 if is_open else 0.0
-            put(out, index, offset, FIRST_EXIT + 2, ranges, exits[chosen].x - n.x)
-            put(out, index, offset, FIRST_EXIT + 3, ranges, exits[chosen].y - n.y)
+            put_value(out, index, offset, FIRST_EXIT + 2, ranges, exits[chosen].x - n.x)
+            put_value(out, index, offset, FIRST_EXIT + 3, ranges, exits[chosen].y - n.y)
             if not is_open:
-                put(out, index, offset, FIRST_EXIT + 4, ranges, exits[chosen].switch_x - n.x)
-                put(out, index, offset, FIRST_EXIT + 5, ranges, exits[chosen].switch_y - n.y)
+                put_value(out, index, offset, FIRST_EXIT + 4, ranges, exits[chosen].switch_x - n.x)
+                put_value(out, index, offset, FIRST_EXIT + 5, ranges, exits[chosen].switch_y - n.y)
         start = gold_bounds[2 * level]
         end = gold_bounds[2 * level + 1]
         guess = nearest[index]
@@ -150,8 +150,8 @@ def observe_state(
         chosen = nearest[index]
         if chosen >= 0:
             out[index, offset + FIRST_GOLD] = 1.0
-            put(out, index, offset, FIRST_GOLD + 1, ranges, gold[chosen].x - n.x)
-            put(out, index, offset, FIRST_GOLD + 2, ranges, gold[chosen].y - n.y)
+            put_value(out, index, offset, FIRST_GOLD + 1, ranges, gold[chosen].x - n.x)
+            put_value(out, index, offset, FIRST_GOLD + 2, ranges, gold[chosen].y - n.y)
 
 
 @fast
@@ -159,19 +159,19 @@ def observe_ninja(w: World, out: Any, index: int, offset: int, ranges: Any) -> N
     """Write the first 13 values and the state."""
     n = w.ninja
     cell = cell_at(n.x, n.y)
-    put(out, index, offset, 0, ranges, n.x)
-    put(out, index, offset, 1, ranges, n.y)
-    put(out, index, offset, 2, ranges, n.x - (CENTRE_X[cell] - HALF))
-    put(out, index, offset, 3, ranges, n.y - (CENTRE_Y[cell] - HALF))
-    put(out, index, offset, 4, ranges, n.x - n.prev_x)
-    put(out, index, offset, 5, ranges, n.y - n.prev_y)
+    put_value(out, index, offset, 0, ranges, n.x)
+    put_value(out, index, offset, 1, ranges, n.y)
+    put_value(out, index, offset, 2, ranges, n.x - (CENTRE_X[cell] - HALF))
+    put_value(out, index, offset, 3, ranges, n.y - (CENTRE_Y[cell] - HALF))
+    put_value(out, index, offset, 4, ranges, n.x - n.prev_x)
+    put_value(out, index, offset, 5, ranges, n.y - n.prev_y)
     out[index, offset + 6] = float(n.in_air)
     out[index, offset + 7] = float(n.near_wall)
-    put(out, index, offset, 8, ranges, n.wall_x if n.near_wall else 0.0)
-    put(out, index, offset, 9, ranges, 0.0 if n.in_air else n.floor_x)
-    put(out, index, offset, 10, ranges, 0.0 if n.in_air else n.floor_y)
+    put_value(out, index, offset, 8, ranges, n.wall_x if n.near_wall else 0.0)
+    put_value(out, index, offset, 9, ranges, 0.0 if n.in_air else n.floor_x)
+    put_value(out, index, offset, 10, ranges, 0.0 if n.in_air else n.floor_y)
     out[index, offset + 11] = float(n.jump_held)
-    put(out, index, offset, 12, ranges, float(n.jump_timer) if n.state == JUMPING else 0.0)
+    put_value(out, index, offset, 12, ranges, float(n.jump_timer) if n.state == JUMPING else 0.0)
     for state in range(8):
         out[index, offset + FIRST_STATE + state] = 1.0 if n.state == state else 0.0
 
@@ -284,8 +284,8 @@ class Guide(Part):
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
         """The offsets of the points, px; the fields and the row of each world; factor and limit of the last value."""
-        ways = [(radius * x, radius * y, 1.0 / radius) for radius in _RADII for x, y in EIGHT_WAYS]
-        columns = [context.table(column, np.float64) for column in zip(*ways, strict=True)]
+        points = [(radius * x, radius * y, 1.0 / radius) for radius in _RADII for x, y in EIGHT_WAYS]
+        columns = [context.table(column, np.float64) for column in zip(*points, strict=True)]
         factor, highest = 1.0 / FAR_TICKS if self.normalised else 1.0, float(self.box.high[-1])
         return observe_guide, *columns, context.goal.fields, context.goal.rows, factor, highest
 

@@ -10,10 +10,10 @@ from pathlib import Path
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.certify import lead_in, place_before, with_ninja_at
 from ninja_game.editor.draft import Draft, change_text
-from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered, save as save_draft
+from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source, save as save_draft
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
-from ninja_game.editor.stamp import Stamp, put, stamp_of
+from ninja_game.editor.stamp import Stamp, level_stamp, with_stamp
 from ninja_game.editor.tools import TAKES, TOOLS
 from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import counted, file_stem
@@ -187,14 +187,14 @@ class EditorCommands(DocumentCommands):
         app.push(Menu(app, path.stem, [*rows, CANCEL]))
 
     def _take_stamp(self, path: Path) -> None:
-        self.session.tools.clipboard = stamp_of(open_source(path).draft)
+        self.session.tools.clipboard = level_stamp(open_source(path).draft)
         self.session.tools.paste()
 
     def _keep_stamp(self, stamp: Stamp) -> None:
         def keep(name: str) -> None:
             path = free_path(self._stamps, file_stem(name.strip(), "stamp"), SUFFIX)
             path.parent.mkdir(parents=True, exist_ok=True)
-            save_draft(Source(Draft(Level())), put(Draft(Level(), name), stamp), path)
+            save_draft(Source(Draft(Level())), with_stamp(Draft(Level(), name), stamp), path)
             self.app.notify(f"Kept as a stamp: {path.stem}")
 
         prompt, load = "Name of the stamp", self._load
@@ -284,20 +284,20 @@ class EditorCommands(DocumentCommands):
 
         The way there is that of the known run, or of the last test; without such a run it begins beside the place.
         """
-        session, lines = self.session, parse_messages(says)
-        level, line = session.draft.level, lines[number] if lines else None
-        if line is None or line.when in {"start", "death"}:
-            self.test(None, says, (b"", line.number if line else 0))
+        session, messages = self.session, parse_messages(says)
+        level, message = session.draft.level, messages[number] if messages else None
+        if message is None or message.when in {"start", "death"}:
+            self.test(None, says, (b"", message.number if message else 0))
             return
-        waits = bytes(line.number * TICKS_PER_SECOND + 1)
-        runs = [session.way, *(run.inputs for run in session.tries[-1:] if run.level == level), waits]
+        waits = bytes(message.number * TICKS_PER_SECOND + 1)
+        runs = [session.certifying_inputs, *(run.inputs for run in session.tries[-1:] if run.level == level), waits]
         with suppress(LevelError):  # without a ninja, which the test reports
-            moments = ((run, heard(lines, level, run)[number]) for run in filter(None, runs))
+            moments = ((run, heard(messages, level, run)[number]) for run in filter(None, runs))
             lead = next((lead_in(level, run, moment.due) for run, moment in moments if moment), None)
             if lead is not None:
                 self.test(None, says, (lead, 0))
                 return
-        self.test(place and place_before(session.draft, place, line.size), says)
+        self.test(place and place_before(session.draft, place, message.size), says)
 
     def certify(self) -> None:
         certifier = self.session.certifier
@@ -345,14 +345,14 @@ class EditorCommands(DocumentCommands):
         def ask() -> None:
             self.view.taker, self.view.hint = test_at, "Click where the ninja begins; Esc gives up"
 
-        at = (
+        choose_place = (
             "Test with the ninja at a click",
             ask,
             f"Key at the pointer: {key_text(EDITOR_COMMANDS.by_name['test_here'])}",
         )
         commands = map(EDITOR_COMMANDS.by_name.__getitem__, IN_MORE)
         rows = [(command.label, partial(self.run, command.name), f"Key: {key_text(command)}") for command in commands]
-        self.app.push(Menu(self.app, "More", [at, *rows, CANCEL]))
+        self.app.push(Menu(self.app, "More", [choose_place, *rows, CANCEL]))
 
     def file_menu(self) -> None:
         """The menu behind the button; a drawing is cancelled first."""
@@ -457,9 +457,9 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        entry, way, test = self._entry(), partial(getattr, self.session, "way"), self.test_message
+        entry, inputs, test = self._entry(), partial(getattr, self.session, "certifying_inputs"), self.test_message
         mood = entry.mood if entry else Mood()
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, mood, way, at))
+        self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, mood, inputs, at))
 
     def _entry(self) -> Entry | None:
         """The level's file as a level to play: in its pack, or alone; None without a file."""
@@ -495,7 +495,7 @@ class EditorCommands(DocumentCommands):
 
     def offer_recovered(self) -> None:
         """Ask what to do with a level that was open when the program crashed."""
-        draft = next(recovered(self.app.player.folder), None)
+        draft = next(lost_drafts(self.app.player.folder), None)
         if draft is not None:
             name = draft.draft.name or (draft.source.path.name if draft.source.path else "a new level")
             about = "As it was at most two seconds before the end"
@@ -525,8 +525,8 @@ class TryContext(Playthrough):
 
     def beginning(self) -> tuple[Level, bytes]:
         """The start of the level under edit, wherever the test begins: its texts lie where they will lie in play."""
-        level = self._session.draft.level
-        return (level if any(spec.kind == NINJA for spec in level.objects) else self.level), self._session.way
+        level, inputs = self._session.draft.level, self._session.certifying_inputs
+        return (level if any(spec.kind == NINJA for spec in level.objects) else self.level), inputs
 
     def ghosts(self) -> list[PacedRun]:
         """None: a level under edit has no best run."""

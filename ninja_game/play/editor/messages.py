@@ -145,18 +145,18 @@ def _fits(source: str) -> bool:
 
 
 def messages_of(says: str) -> list[Message]:
-    return [Message(line.when, _detail(line), line.text, str(line.seconds or "")) for line in parse_messages(says)]
+    return [Message(m.when, _detail(m), m.text, str(m.seconds or "")) for m in parse_messages(says)]
 
 
-def _detail(line: LevelMessage) -> str:
-    if line.cell == ANY:
-        return str(line.number or "")
-    return "{},{}".format(*line.cell) + (" {}x{}".format(*line.size) if line.size != SIZE else "")
+def _detail(message: LevelMessage) -> str:
+    if message.cell == ANY:
+        return str(message.number or "")
+    return "{},{}".format(*message.cell) + (" {}x{}".format(*message.size) if message.size != SIZE else "")
 
 
-def _edges_at(line: LevelMessage, x: float, y: float) -> tuple[bool, bool]:
+def _edges_at(message: LevelMessage, x: float, y: float) -> tuple[bool, bool]:
     """Whether a point, px, is on an upright and on a level edge of a message's frame."""
-    (px, py), (w, h) = line.place or (0.0, 0.0), line.reach
+    (px, py), (w, h) = message.place or (0.0, 0.0), message.reach
     across, down = abs(x - px), abs(y - py)
     return abs(across - w) <= GRIP and down <= h + GRIP, abs(down - h) <= GRIP and across <= w + GRIP
 
@@ -180,8 +180,8 @@ class MessagesScreen(MenuScreen):
     """``here``: the default cell of a new message near a place. ``put``: gets the new value of the header.
 
     ``test``: plays the level with such a value from just before a message, by its number and its place, if known.
-    ``at``: the cell of the message that gets the focus. ``mood``: in which the level is played. ``way``: gives the
-    inputs of its author's run, if any.
+    ``at``: the cell of the message that gets the focus. ``mood``: in which the level is played.
+    ``certifying_inputs``: gives those of its author's run, if any.
     """
 
     title = "Messages to the player"
@@ -195,7 +195,7 @@ class MessagesScreen(MenuScreen):
         put: Callable[[str], object],
         test: Callable[[int, Point | None, str], object],
         mood: Mood,
-        way: Callable[[], bytes],
+        certifying_inputs: Callable[[], bytes],
         at: Cell | None = None,
     ) -> None:
         super().__init__(app)
@@ -205,7 +205,7 @@ class MessagesScreen(MenuScreen):
         self._stages: dict[tuple[object, ...], _Stage] = {}
         self._things: dict[tuple[bool, bytes], Things] = {}
         self._ground = Ground(draft.level)
-        self._look, self._way = mood, way
+        self._look, self._certifying_inputs = mood, certifying_inputs
         self._before = self.source
         self._wanted = "{},{}".format(*at) if at else ""
         self._here, self._put, self._test = here, put, test
@@ -307,23 +307,23 @@ class MessagesScreen(MenuScreen):
         column, row = cell_of(x, y)
         eyes = ((k, self._eye(message)) for k, message in enumerate(self.messages))
         there = {k: dist(eye, (x, y)) for k, eye in eyes if eye}
-        line, selected = self._line(self.selected), self.selected
+        parsed, selected = self._parsed(self.selected), self.selected
         things = {cell_of(*at): dist(at, (x, y)) for at in self._things_of(selected)} if pressed else {}
         named = "{},{}".format(*min(things, key=things.__getitem__, default=ANY))
         if pressed:
-            self._sizes = _edges_at(line, x, y) if line and min(there.values()) > GRIP else (False, False)
+            self._sizes = _edges_at(parsed, x, y) if parsed and min(there.values()) > GRIP else (False, False)
         if selected and min(things.values(), default=WIDTH) < 1.5 * CELL and selected.detail != named:
             selected.detail = named
             self.enter()
         elif pressed and not any(self._sizes) and min(there.values(), default=WIDTH) < 1.5 * CELL:
             self._select(min(there, key=there.__getitem__))
-        elif line and selected and any(self._sizes):
-            wide = min(COLUMNS, 2 * abs(column - line.cell[0]) + 1) if self._sizes[0] else line.size[0]
-            high = min(ROWS, 2 * abs(row - line.cell[1]) + 1) if self._sizes[1] else line.size[1]
-            selected.detail = _detail(line._replace(size=(wide, high)))
+        elif parsed and selected and any(self._sizes):
+            wide = min(COLUMNS, 2 * abs(column - parsed.cell[0]) + 1) if self._sizes[0] else parsed.size[0]
+            high = min(ROWS, 2 * abs(row - parsed.cell[1]) + 1) if self._sizes[1] else parsed.size[1]
+            selected.detail = _detail(parsed._replace(size=(wide, high)))
             self.enter()
         elif selected and selected.when == "at" and is_inside((column, row)):
-            size = line.size if line else SIZE
+            size = parsed.size if parsed else SIZE
             selected.detail = _detail(LevelMessage("at", "", cell=(column, row), size=size))
             self.enter()
         elif pressed and self.selected:
@@ -456,11 +456,11 @@ class MessagesScreen(MenuScreen):
 
     def _heard(self, message: Message) -> Heard | None:
         """When a message comes in the known run; None: never, or without such a run."""
-        sound, inputs = [other for other in self.messages if not other.problem[1]], self._way()
+        sound, inputs = [other for other in self.messages if not other.problem[1]], self._certifying_inputs()
         if not inputs or message not in sound or message.when in {"start", "death"}:
             return None
-        lines = [line for other in sound for line in parse_messages(other.source)]
-        return heard(lines, self._draft.level, inputs)[sound.index(message)]
+        parsed = [message for other in sound for message in parse_messages(other.source)]
+        return heard(parsed, self._draft.level, inputs)[sound.index(message)]
 
     def _wait_of(self, message: Message) -> str:
         """How late a message comes in the known run because others are read first; '' if it is in time."""
@@ -480,19 +480,19 @@ class MessagesScreen(MenuScreen):
             stages = {old: stage for old, stage in self._stages.items() if old[:2] == key[:2]}
             self._stages = stages | {key: _Stage(draft.level, palette, *size, opened=opened)}
         stage, placed, texts = self._stages[key], None, [other.text for other in self.messages]
-        picture, cast = stage.picture.copy(), (bool(arrow_targets(texts)), self._way())
+        picture, cast = stage.picture.copy(), (bool(arrow_targets(texts)), self._certifying_inputs())
         if stage.world and cast not in self._things:
             self._things[cast] = things_at_start(draft.level, stage.world, texts, cast[1])
         if message:
             controls, when = self.app.controls, message.when
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
-            line, moment, things = self._line(message), self._heard(message), self._things.get(cast, ())
-            spot = moment.spot if moment else None if line else self._eye(message)
-            layout = draft.level.tiles, things, line and line.place, spot
+            parsed, moment, things = self._parsed(message), self._heard(message), self._things.get(cast, ())
+            spot = moment.spot if moment else None if parsed else self._eye(message)
+            layout = draft.level.tiles, things, parsed and parsed.place, spot
             placed = placed_message(text, *layout, of_start=when == "start") if text else None
         for other in self.messages:
-            if (line := self._line(other)) and (eye := line.place):
-                (w, h), chosen = line.reach, other is message
+            if (parsed := self._parsed(other)) and (eye := parsed.place):
+                (w, h), chosen = parsed.reach, other is message
                 frame = eye[0] - w, eye[1] - h, 2 * w, 2 * h
                 colour = palette.accent if chosen else mixed(palette.background, palette.accent, 0.4)
                 stage.hud.theme.canvas.frame_rect(picture, colour, *frame, 1 + chosen)
@@ -513,7 +513,7 @@ class MessagesScreen(MenuScreen):
         """What a message can be about, px: the gold, or the switches of its moment."""
         return things_of(self._draft, message.when) if message and message.when in _DETAILS else []
 
-    def _line(self, message: Message | None) -> LevelMessage | None:
+    def _parsed(self, message: Message | None) -> LevelMessage | None:
         """A message near a place as the level will have it; None for others and without a valid place."""
         if message and message.when == "at" and message.problem[0] != DETAIL:
             return parse_messages(f"{message.moment}: a text")[0]
@@ -521,7 +521,7 @@ class MessagesScreen(MenuScreen):
 
     def _eye(self, message: Message) -> Point | None:
         """Where the ninja is when a message appears, px; None at the start, or where that is unknown."""
-        if line := self._line(message):
-            return line.place
+        if parsed := self._parsed(message):
+            return parsed.place
         timeless = message.when == "start" or message.problem[0] == DETAIL
         return None if timeless else said_at(self._draft, parse_messages(f"{message.moment}: a text")[0])

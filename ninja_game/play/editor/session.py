@@ -39,7 +39,7 @@ from ninja_game.editor.files import (
 )
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
-from ninja_game.files.reading import NO_FILE, stamp_of
+from ninja_game.files.reading import NO_FILE, file_stamp
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.messages import parse_messages
@@ -86,8 +86,8 @@ Examined = tuple[Level, list[Finding]]
 
 
 def _examine(question: Question) -> Examined:
-    level, searched, says, way = question
-    odd = [*level_findings(level, says), *_late_messages(level, says, way)]
+    level, searched, says, inputs = question
+    odd = [*level_findings(level, says), *_late_messages(level, says, inputs)]
     # An unreachable exit needs no finding of the solver too.
     out_of_reach = {number for finding in odd if finding.code in UNREACHABLE_CODES for number in finding.records}
     # One finding is enough for an enclosed exit: its switch gets one once the exit can be reached.
@@ -96,14 +96,15 @@ def _examine(question: Question) -> Examined:
     return level, [*(finding for finding in searched if not out_of_reach.intersection(finding.records)), *odd]
 
 
-def _late_messages(level: Level, says: str, way: bytes) -> Iterator[Finding]:
+def _late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
     """The messages that wait for others in the known run. One that follows another of its own moment is meant to."""
-    lines, begun = parse_messages(says), set[tuple[object, ...]]()
-    for line, moment in zip(lines, heard(lines, level, way) if way else [], strict=False):
-        of, timed = (line.when, line.number, line.cell), line.when not in {"start", "death"}
-        if moment and timed and of not in begun and (why := late_text(moment)):
-            yield level_finding("late-message", cells=(cell_of(*(line.place or moment.spot)),), text=line.text, why=why)
-        begun.add(of)
+    messages, past = parse_messages(says), set[tuple[object, ...]]()
+    for message, coming in zip(messages, heard(messages, level, inputs) if inputs else [], strict=False):
+        moment = message.when, message.number, message.cell
+        if coming and message.when not in {"start", "death"} and moment not in past and (why := late_text(coming)):
+            cell = cell_of(*(message.place or coming.spot))
+            yield level_finding("late-message", cells=(cell,), text=message.text, why=why)
+        past.add(moment)
 
 
 class EditorSession:
@@ -185,7 +186,7 @@ class EditorSession:
         self.app.change_settings(slopes=slopes)
 
     @property
-    def way(self) -> bytes:
+    def certifying_inputs(self) -> bytes:
         """The inputs of the run that certifies the level in its present state; none without such a run."""
         run = self.certifier.search.run
         return run.inputs if run and not self.certifier.is_stale(self.draft.level) else b""
@@ -265,13 +266,13 @@ class EditorSession:
         if self._checks.problem:
             self.app.notify(f"The level could not be examined: {self._checks.problem}")
             self._checks.problem = ""
-        level, says, way = self.draft.level, self.draft.says, self.way
+        level, says, inputs = self.draft.level, self.draft.says, self.certifying_inputs
         obstacles = () if self.certifier.is_stale(level) else self.certifier.search.obstacles
         before = self._asked
-        news = before is None or level is not before[0] or obstacles is not before[1] or (says, way) != before[2:]
+        news = before is None or level is not before[0] or obstacles is not before[1] or (says, inputs) != before[2:]
         due = news and monotonic() - self._asked_at >= CHECK_SPACING
         if due and not self.tools.dragging:
-            self._asked, self._asked_at = (level, obstacles, says, way), monotonic()
+            self._asked, self._asked_at = (level, obstacles, says, inputs), monotonic()
             self._checks.ask(self._asked)
         if not self.tools.history.in_stroke and self.draft.objects is not self._objects:
             self._tell_of_exits()
@@ -320,7 +321,7 @@ class EditorSession:
         if path is None or now - self._looked_at < LOOK_SPACING or self.tools.history.in_stroke:
             return None
         self._looked_at = now
-        stamp, before = stamp_of(path), self._file_stamp
+        stamp, before = file_stamp(path), self._file_stamp
         self._file_stamp = stamp
         if stamp in (before, NO_FILE):
             return None
@@ -349,7 +350,7 @@ class EditorSession:
         """Write the known runs beside the level's file if that holds their level: packs then need no other."""
         search, path = self.certifier.search, self.source.path
         known = search.run, search.full, path
-        if path and self.way and known != self._certified and self.is_saved:
+        if path and self.certifying_inputs and known != self._certified and self.is_saved:
             self._certified = known
             self._keep(path, search)
 

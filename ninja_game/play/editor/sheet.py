@@ -129,7 +129,7 @@ class LevelSheet:
 
     def paint(self) -> list[pygame.Rect]:
         """Draw all changes; the px of the sheet that changed."""
-        dirty, self._dirty = joined(area.clip(self._seen) for area in self._dirty), []
+        dirty, self._dirty = united(area.clip(self._seen) for area in self._dirty), []
         for area in dirty:
             self._repaint_area(area)
         return [area.move(self.canvas.origin) for area in dirty]
@@ -161,7 +161,7 @@ class LevelSheet:
         surface.set_clip(None)
 
 
-def joined(rects: Iterable[pygame.Rect]) -> list[pygame.Rect]:
+def united(rects: Iterable[pygame.Rect]) -> list[pygame.Rect]:
     """Fewer rectangles that cover the same px: overlapping ones are merged, and so are more than _MANY."""
     waiting = [rect.copy() for rect in rects if rect]
     if len(waiting) > _MANY:

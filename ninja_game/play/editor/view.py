@@ -11,7 +11,7 @@ from ninja_game.editor.certify import SQUARE, PathPoints, Reach, TestMap
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, carried, points
-from ninja_game.editor.stamp import Stamp, area_between, nearest
+from ninja_game.editor.stamp import Stamp, area_between, nearest_part
 from ninja_game.editor.tools import PICK_REACH, EditorTools
 from ninja_game.formats.messages import messages_at
 from ninja_game.play.app import App
@@ -23,9 +23,9 @@ from ninja_game.play.editor.sheet import (
     Grid,
     LevelSheet,
     finding_points,
-    joined,
     level_marks,
     said_places,
+    united,
 )
 from ninja_game.play.workspace import Pane
 from ninja_game.sim.grid import Cell, Point, is_inside
@@ -71,7 +71,7 @@ class Overlay:
     def restore(self, surface: pygame.Surface, rects: list[pygame.Rect]) -> list[pygame.Rect]:
         """Copy the changed px of the sheet, and those under the last overlay, to the window; the px of the window."""
         x, y = self.area.topleft
-        changed = joined(rect.clip(self.area) for rect in [area.move(x, y) for area in rects] + self.target.covered)
+        changed = united(rect.clip(self.area) for rect in [area.move(x, y) for area in rects] + self.target.covered)
         for rect in changed:
             surface.blit(self.sheet.surface, rect, rect.move(-x, -y))
         return changed
@@ -170,7 +170,7 @@ class Overlay:
             return
         spec = tools.placed(*tools.pointer)
         x, y = points(spec).get(BODY_PART, tools.pointer)
-        there = nearest(tools.draft, x, y, NEAR_SWITCH_PX)
+        there = nearest_part(tools.draft, x, y, NEAR_SWITCH_PX)
         if there is None or there[1] != SWITCH_PART:
             images = [spec] if spec.kind in (NINJA, EXIT) else [carried(spec, motion) for motion in motions]
             for sprites in self.sheet.pictures.sprites_of(images).values():

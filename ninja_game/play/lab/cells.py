@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import dist, floor
 
 from ninja_game.backend.plain import restore_plain, save_plain
-from ninja_game.play.lab.figure import CORNER, Control, Figure, Sheet, View, room_world, values_of, watch
+from ninja_game.play.lab.figure import CORNER, Control, Figure, Sheet, View, room_world, traced, values_of
 from ninja_game.sim.collision.rays import cast_ray, ray_circle, ray_tiles, sees
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
 from ninja_game.sim.events import EVENT_NAMES
@@ -111,7 +111,7 @@ class NineCells(Figure):
         before = save_plain(w)
         w.ninja.x, w.ninja.y = self.x, self.y
         w.ninja.cell = cell_at(self.x, self.y)
-        _, calls = watch(touch_objects, w)
+        _, calls = traced(touch_objects, w)
         events = [EVENT_NAMES[event.kind] for event in w.events[: w.event_count]]
         restore_plain(w, before)
         return [int(call.arguments["o"]) for call in calls if call.name == "touch"], events
@@ -196,7 +196,7 @@ class RayCast(Figure):
     def asked(self) -> tuple[list[int], bool, Point]:
         """The cells whose shapes were tested, whether the ray was stopped, and where, px."""
         ray = self.from_x, self.from_y, self.x, self.y
-        (stopped, x, y), calls = watch(ray_tiles, self.tiles, self.world, *ray)
+        (stopped, x, y), calls = traced(ray_tiles, self.tiles, self.world, *ray)
         cells = [cell_at(call.arguments["cx"], call.arguments["cy"]) for call in calls if call.name == "ray_tile"]
         tiles = self.tiles.tiles
         return [cell for cell in cells if tiles[cell]], bool(stopped), (x, y)

@@ -82,7 +82,7 @@ class EdgeStates(Figure):
     def numbers(self) -> list[tuple[str, str]]:
         column, row, tile = tiles.COLUMN[self.cell], tiles.ROW[self.cell], self.tiles.tiles[self.cell]
         neighbour = self.cell + tiles.NEIGHBOUR_OFFSET[self.side]
-        own = tiles.FACE[4 * self.tiles.tiles[self.cell] + self.side]
+        face = tiles.FACE[4 * self.tiles.tiles[self.cell] + self.side]
         other = tiles.FACE[4 * self.tiles.tiles[neighbour] + (self.side ^ 2)]
         states = [
             self.world.edges[4 * cell + side]
@@ -92,7 +92,7 @@ class EdgeStates(Figure):
         ]
         return [
             ("cell", f"column {column}, row {row}: {tile_name(tile)}"),
-            ("1. its own face there", FACES[own]),
+            ("1. its own face there", FACES[face]),
             ("2. the neighbour's face", FACES[other] if tiles.EXISTS[neighbour] else "there is no neighbour"),
             ("3. the state", EDGE_WORDS[self.world.edges[4 * self.cell + self.side]]),
             ("in the level", ", ".join(f"{states.count(state)} {name}" for state, name in enumerate(EDGE_WORDS))),

@@ -46,7 +46,7 @@ class Call(NamedTuple):
     result: list[Any]
 
 
-def watch(function: Callable[..., Any], *args: Any) -> tuple[Any, list[Call]]:
+def traced(function: Callable[..., Any], *args: Any) -> tuple[Any, list[Call]]:
     """The result of ``function(*args)``, and all calls of the world's rules in it, in order, itself first."""
     calls: list[Call] = []
     running: list[Call] = []
@@ -207,7 +207,7 @@ class Stage:
         self._look: tuple[object, ...] = ()
 
     def step(self, keys: int = 0) -> None:
-        _, self.calls = watch(self.simulation.step_keys, keys)
+        _, self.calls = traced(self.simulation.step_keys, keys)
         if self._view is not None:
             self._view.on_tick()
 

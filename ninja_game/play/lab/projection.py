@@ -12,7 +12,7 @@ from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.reader import room_level
 from ninja_game.play.lab.cells import BODY_CHOICES
-from ninja_game.play.lab.figure import ELSEWHERE, Call, Control, Figure, FigureSetting, Sheet, View, room_world, watch
+from ninja_game.play.lab.figure import ELSEWHERE, Call, Control, Figure, FigureSetting, Sheet, View, room_world, traced
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
@@ -59,7 +59,7 @@ def pushed(tiles: TileMap, w: World, x: float, y: float, *, box: bool = False) -
     n.x = n.prev_x = x
     n.y = n.prev_y = y
     n.box = int(box)
-    _, calls = watch(collide_box if box else collide_circle, tiles, w)
+    _, calls = traced(collide_box if box else collide_circle, tiles, w)
     restore_plain(w, before)
     points = [(x, y)]
     for call in calls:

@@ -95,13 +95,13 @@ class LevelPlay:
         messages = context.messages()
         level, inputs = context.beginning() if messages else (context.level, b"")
         world = self.attempt.simulation.world if level == context.level else Simulation(level).world
-        #: What a message should not cover
-        self.things = things_at_start(level, world, [message.text for message in messages], inputs)
+        texts = [message.text for message in messages]
+        self.things = things_at_start(level, world, texts, inputs)  #: what a message should not cover
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
-        self.messages = MessageQueue(messages, self.attempt.simulation.tiles, helps=context.shows_hints)
+        self.messages = MessageQueue(messages, self.attempt.simulation.tiles, helps=context.shows_messages)
         for _ in range(context.deaths):
             self.messages.on_death()
         self.shown_lifetime = float(self.attempt.lifetime)

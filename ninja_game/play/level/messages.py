@@ -17,9 +17,9 @@ from ninja_game.sim.schema.world_fields import Event, TileMap, World
 from ninja_game.sim.states import SLIDING
 from ninja_game.simulation import Simulation
 
-SHOWN_TICKS = 240  # for which a text is shown after its event
-START_TICKS = 480  # the same in play for a single text of the start or the switch
-_FADE_TICKS = 20  # in which a text near a place fades at its end
+SHOWN_TICKS = 240  # for which a message is shown after its event
+START_TICKS = 480  # the same in play for a single message of the start or the switch
+_FADE_TICKS = 20  # in which a message near a place fades at its end
 _FAR = 60.0  # px outside its frame at which it ends
 
 _STILL = 0.05  # slower than this the ninja is still, px/tick
@@ -60,14 +60,16 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 
 
 class MessageQueue:
-    """The texts of one level. Each event's text is shown once; those of the start at each start until the exit is open.
+    """The messages of a level in play, shown one at a time: the present one, and those that wait for it.
 
-    Texts of one moment follow each other. A new one interrupts those of the start, which go on afterwards; any other
-    stays for its ``read_ticks``, and what happens meanwhile waits in order. A place and a time are waited for by their
-    own condition: one that the ninja has left by then comes at its next visit. ``tiles``: they hide a place from
-    the ninja; None: only full ones and doors do. ``text``: the present text or "", ``place``: its place, px; it ends
-    when the ninja is far from there. ``helps``: the game gives advice too: to try again, to climb. ``named``: the
-    things with a name and an arrow (``arrow_targets``).
+    - ``tiles`` hide a place from the ninja; None: only full ones and doors do.
+    - ``helps``: the game gives advice too: to try again, to climb.
+    - ``text`` is the present one or "", ``place`` its place, px: it ends when the ninja is far from there.
+    - ``named``: the things with a name and an arrow (``arrow_targets``).
+
+    A message of the start comes at each start until the exit is open, any other once. A new one interrupts those of the
+    start, which go on afterwards; any other stays for its ``read_ticks``, and what happens meanwhile waits in order. A
+    place or a time that has passed by then is waited for again.
     """
 
     def __init__(self, messages: Sequence[LevelMessage], tiles: TileMap | None = None, *, helps: bool = False) -> None:
@@ -224,9 +226,9 @@ class Heard(NamedTuple):
 def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[Heard | None]:
     """When each message comes in a run; None: its moment never does."""
     # Only the lengths of the texts matter, in steps of 20 letters: what is typed seldom runs the level again.
-    texts = [str(number).ljust(-(-len(line.text) // 20) * 20) for number, line in enumerate(messages)]
-    lines = tuple(line._replace(text=text) for line, text in zip(messages, texts, strict=True))
-    together, alone = _heard(lines, level, inputs)
+    texts = [str(number).ljust(-(-len(message.text) // 20) * 20) for number, message in enumerate(messages)]
+    numbered = tuple(message._replace(text=text) for message, text in zip(messages, texts, strict=True))
+    together, alone = _heard(numbered, level, inputs)
     return [
         Heard(alone[text][0], *together.get(text, (None, alone[text][1]))) if text in alone else None for text in texts
     ]
@@ -248,7 +250,7 @@ _Comings = dict[str, tuple[int, Point]]
 def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[_Comings, _Comings]:
     """When texts first come in a run: beside each other, and each as if it were the only one."""
     run, together, alone = Simulation(level), _Comings(), _Comings()
-    queues = [(MessageQueue([line], run.tiles), alone) for line in messages]
+    queues = [(MessageQueue([message], run.tiles), alone) for message in messages]
     queues.append((MessageQueue(messages, run.tiles), together))
     for tick, keys in enumerate(inputs):
         run.step_keys(keys)
@@ -268,10 +270,7 @@ def shown_ticks(when: str, together: int, text: str) -> int:
 
 
 def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
-    return [
-        (line.text, line.seconds * TICKS_PER_SECOND or shown_ticks(line.when, len(messages), line.text), line)
-        for line in messages
-    ]
+    return [(m.text, m.seconds * TICKS_PER_SECOND or shown_ticks(m.when, len(messages), m.text), m) for m in messages]
 
 
 def _is_of(message: LevelMessage, event: Event) -> bool:

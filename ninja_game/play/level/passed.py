@@ -14,7 +14,7 @@ from ninja_game.play.app import App
 from ninja_game.play.level.hud_view import SHINE_TICKS
 from ninja_game.play.level.level_play import STAMP_TICKS
 from ninja_game.play.menu_screen import MenuScreen
-from ninja_game.play.panels.replays import watch
+from ninja_game.play.panels.replays import watch_replays
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.player.playthrough import EpisodePlaythrough
@@ -118,7 +118,7 @@ class EpisodePassed(ThumbnailScreen):
 
     def watch(self) -> None:
         if self._best is not None:
-            watch(self.app, [self.player.records.replay(number) for number in self._best.replays])
+            watch_replays(self.app, [self.player.records.replay(number) for number in self._best.replays])
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)

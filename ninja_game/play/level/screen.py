@@ -19,7 +19,7 @@ from ninja_game.play.level.level_play import DEATH_PAUSE, LATE_JUMP, STUCK_AFTER
 from ninja_game.play.level.passed import EpisodePassed
 from ninja_game.play.menu_screen import Menu, MenuRow, Panel, nothing
 from ninja_game.play.panels.help import HelpScreen
-from ninja_game.play.panels.replays import watch
+from ninja_game.play.panels.replays import watch_replays
 from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
@@ -191,7 +191,7 @@ class LevelScreen(Screen):
         """Watch a run; then the level waits at its start and shows its messages again."""
         self.retry()
         self.play.messages.say_again()
-        watch(self.app, [run])
+        watch_replays(self.app, [run])
         self.app.notify(f"{self.app.controls.name('back')}: back to your own try")
 
     def _play_at(self, speed: int) -> None:
@@ -202,7 +202,7 @@ class LevelScreen(Screen):
     def quit(self) -> None:
         self.context.gave_up(self.attempt)
         self.context.data.store.flush()
-        self._leave_to(self.context.way_out)
+        self._leave_to(self.context.next_screen)
 
     def _leave_to(self, where: Navigation) -> None:
         app = self.app

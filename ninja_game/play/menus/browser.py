@@ -23,7 +23,7 @@ from ninja_game.play.level.screen import play_level
 from ninja_game.play.menu_screen import Action, ask_received
 from ninja_game.play.menus.episodes import draw_look
 from ninja_game.play.menus.problems import Problem, of_files, problems_button
-from ninja_game.play.panels.replays import watch
+from ninja_game.play.panels.replays import watch_replays
 from ninja_game.play.panels.settings import PRACTICE_HINT
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.player.progress import Mark, opens_author
@@ -221,12 +221,12 @@ class Browser(ThumbnailScreen):
 
     def _watch_author(self) -> None:
         if self.selected is not None:
-            watch(self.app, [self.player.catalogue.author_run(self.selected)])
+            watch_replays(self.app, [self.player.catalogue.author_run(self.selected)])
 
     def _watch(self) -> None:
         best = self.bests.get(self.selected.digest) if self.selected else None
         if best is not None:
-            watch(self.app, [self.player.records.replay(best.id)])
+            watch_replays(self.app, [self.player.records.replay(best.id)])
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)

@@ -68,7 +68,7 @@ class DailyScreen(ThumbnailScreen):
         self._maker: _Maker | None = None
         self._shown = ""
         self._rng = Random(self.day.toordinal())  # noqa: S311 - a picture
-        self._dug, self._way, self._dig_ms = [(16, 12)], (1, 0), 0
+        self._dug, self._heading, self._dig_ms = [(16, 12)], (1, 0), 0
         self.play = Button((_SIDE, 390, _SIDE_WIDTH, 36), "Play", self._play)
         self.practice = Button((_SIDE, 436, _SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True))
         self.practice.hint = PRACTICE_HINT
@@ -136,8 +136,8 @@ class DailyScreen(ThumbnailScreen):
     def _dig(self, real_ms: int) -> None:
         self._dig_ms += real_ms
         for _ in range(self._dig_ms // DIG_MS):
-            self._way = self._rng.choice([self._way] * 3 + [(1, 0), (-1, 0), (0, 1), (0, -1)])
-            (x, y), (dx, dy) = self._dug[-1], self._way
+            self._heading = self._rng.choice([self._heading] * 3 + [(1, 0), (-1, 0), (0, 1), (0, -1)])
+            (x, y), (dx, dy) = self._dug[-1], self._heading
             self._dug.append((min(max(x + dx, 1), COLUMNS), min(max(y + dy, 1), ROWS)))
             self.redraw = True
         self._dig_ms %= DIG_MS

@@ -17,7 +17,7 @@ from ninja_game.play.menu_screen import CANCEL, FormPanel, Menu, MenuRow, Questi
 from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
 from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_shelves import PackCell, called
-from ninja_game.play.panels.replays import watch
+from ninja_game.play.panels.replays import watch_replays
 
 DELETED = "deleted"
 """The folder of deleted packs among the player's files."""
@@ -111,7 +111,7 @@ def level_menu(desk: PackDesk, cell: PackCell) -> None:
         rows = [
             ("Edit", partial(desk.change_pack, edit, "Edit") if file.parent == desk.path else edit, ""),
             ("Play", play, ""),
-            ("Watch the run", partial(watch, desk.app, [run]) if run else None, "" if run else "None is known yet"),
+            ("Watch the run", partial(watch_replays, desk.app, [run]) if run else None, "" if run else "None is known"),
         ]
         if file.parent == desk.path:
             rows.append(
@@ -143,7 +143,7 @@ def removal_of(desk: PackDesk, cell: PackCell) -> Callable[[], object] | None:
     return lambda: (desk.run_step if desk.tray_key == "yours" else desk.change_pack)(delete, f"Delete {title}")
 
 
-def new_level(desk: PackDesk, number: int) -> None:
+def ask_for_new_level(desk: PackDesk, number: int) -> None:
     """Ask for the name of a new level of an episode; it is made, and opened in the editor."""
     path = desk.path
 
@@ -175,7 +175,7 @@ def episode_menu(desk: PackDesk, episode: EpisodeIndex) -> None:
     rename, remove = partial(packs.rename_episode, path, number), partial(packs.remove_episode, path, number)
     begin = partial(packs.new_episode, path, column=desk.column + 1)
     rows: list[MenuRow] = [
-        ("New level...", lambda: new_level(desk, number), MADE),
+        ("New level...", lambda: ask_for_new_level(desk, number), MADE),
         ("Rename...", lambda: desk.ask_text_for(f"Rename {episode.name}", episode.name, rename), ""),
         ("Move...", lambda: desk.start_moving(PackCell(episode, head=True)), ""),
         ("Sort by difficulty", sort, "Easiest first, those not measured last"),

@@ -43,7 +43,7 @@ def problems(desk: PackDesk) -> list[Problem] | None:
         return [Problem(status.failure)] if status.failure else None
     rows = [_problem(desk, pack, finding) for finding in status.present.findings]
     to_do, verdict = status.to_do(), "" if status.present.problems else "Nothing is wrong"
-    step, go, hint = "Make ready", partial(make_ready, desk), _STOPS if to_do else "It writes the zip and the link."
+    step, go, hint = "Make ready", partial(prepare_shown, desk), _STOPS if to_do else "It writes the zip and the link."
     if desk.zipped and desk.packer.fresh and not to_do:
         step, go, hint = "Copy the link", partial(copy_the_link, desk), f"Or send the zip: {short_path(desk.zipped)}"
     if text := ". ".join(filter(None, (verdict, to_do))):
@@ -103,7 +103,7 @@ def copy_the_link(desk: PackDesk) -> None:
     levels = [] if desk.pack.received else desk.pack.levels
     without = [level for level in levels if desk.status.state(level) in (*NOT_CERTIFIED, NOT_FOUND)]
     rows: list[MenuRow] = [
-        ("Make ready first", partial(make_ready, desk), "Certifies them, and gives the link"),
+        ("Make ready first", partial(prepare_shown, desk), "Certifies them, and gives the link"),
         ("Copy all the same", copy, "Whoever gets it is not told whether they can be passed"),
         CANCEL,
     ]
@@ -114,7 +114,7 @@ def copy_the_link(desk: PackDesk) -> None:
         copy()
 
 
-def make_ready(desk: PackDesk) -> None:
+def prepare_shown(desk: PackDesk) -> None:
     """Make the shown pack ready; of one's own, first ask once for what players see."""
     pack = desk.pack_now()
     if not (desk.pack and pack):
@@ -126,7 +126,7 @@ def make_ready(desk: PackDesk) -> None:
         pack_form(desk, pack, 3 if index.is_signed else 1, "Make ready", start)
 
 
-def new_pack(desk: PackDesk) -> None:
+def ask_for_new_pack(desk: PackDesk) -> None:
     def make(name: str, author: str = desk.player.settings.name) -> None:
         desk.app.know_author("", author)
         desk.tray_key = "yours" if desk.player.catalogue.own() else "none"
@@ -147,10 +147,10 @@ def paste(desk: PackDesk) -> None:
             raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
         return Pack(Path(f"#{text.partition('#')[2]}"))
 
-    take_in(desk, read)
+    install_received(desk, read)
 
 
-def take_in(desk: PackDesk, read: Callable[[], Pack]) -> None:
+def install_received(desk: PackDesk, read: Callable[[], Pack]) -> None:
     """Install a received pack among the player's, instead of an older version if the player agrees."""
     try:
         pack = read()

@@ -11,7 +11,7 @@ from time import monotonic
 
 from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.pack_steps import Steps
-from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, make_ready, problems_of
+from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, prepare_pack, problems_of
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
@@ -102,7 +102,7 @@ class Packer(Aside):
             if (found := Checked.of(Pack(path), self.obstacles)).problems:
                 return ReadyPack(found.pack, found.findings, b"", "", [])
         jobs = max(1, cores() - 1)
-        return make_ready(path, seconds=self._seconds, jobs=jobs, say=self._say, obstacles=self.obstacles)
+        return prepare_pack(path, seconds=self._seconds, jobs=jobs, say=self._say, obstacles=self.obstacles)
 
     def update(self) -> None:
         if not self.busy:

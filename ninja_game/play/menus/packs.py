@@ -70,7 +70,7 @@ class PackScreen(PackDesk):
 
         undo = button(206, 44, "Undo", PackDesk.undo, f"Ctrl+Z: {steps[-1].name}" if steps else "")
         undo.enabled = bool(steps)
-        new = button(256, 76, "New pack...", pack_sharing.new_pack)
+        new = button(256, 76, "New pack...", pack_sharing.ask_for_new_pack)
         hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
         paste = button(338, 68, "Paste link", pack_sharing.paste, hint)
         if not pack:
@@ -83,7 +83,7 @@ class PackScreen(PackDesk):
         opener = self.play_button = button(486, 60, "Play" if received else "Preview", pack_menus.view, hint)
         opener.enabled = bool(self.pack and self.pack.episodes)
         wrong = button(552, 66, "Problems", pack_sharing.show_problems)
-        begin = ("Stop", self.packer.end) if busy else ("Make ready", partial(pack_sharing.make_ready, self))
+        begin = ("Stop", self.packer.end) if busy else ("Make ready", partial(pack_sharing.prepare_shown, self))
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
         make = Button((632, 60, 124, 28), *begin, hint=hint)
         link = Button((662, 525, 94, 24), "Copy the link", partial(pack_sharing.copy_the_link, self), size=10)
@@ -94,7 +94,7 @@ class PackScreen(PackDesk):
         first = [self.shelves, choice, undo, new, paste, about, opener, wrong, make, tray_choice, self.tray, *share]
         episode = self.shelves.cells[0].episode
         if episode and self._begins:
-            make_one = partial(pack_menus.new_level, self, episode.number)
+            make_one = partial(pack_menus.ask_for_new_level, self, episode.number)
             first.append(Button((196, self._below, 240, 44), "New level...", make_one, hint=pack_menus.MADE, size=14))
         return first
 
@@ -116,7 +116,7 @@ class PackScreen(PackDesk):
         if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
             pack_sharing.paste(self)
         elif event.raw.type == pygame.DROPFILE:
-            pack_sharing.take_in(self, lambda: Pack(Path(event.raw.file)))
+            pack_sharing.install_received(self, lambda: Pack(Path(event.raw.file)))
         elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+z":
             self.undo()
         elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+a":
@@ -143,7 +143,7 @@ class PackScreen(PackDesk):
         elif cell.head:
             pack_menus.episode_menu(self, cell.episode)
         else:
-            pack_menus.new_level(self, cell.episode.number)
+            pack_menus.ask_for_new_level(self, cell.episode.number)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)

@@ -167,7 +167,7 @@ class ReplaysScreen(MenuScreen):
         if isinstance(source, Recording):
             watch_recording(self.app, source)
         else:
-            watch(self.app, [self.player.records.replay(source.id)])
+            watch_replays(self.app, [self.player.records.replay(source.id)])
 
     def handle(self, event: InputEvent) -> None:
         if "export" in event.pressed and self.rows:
@@ -271,7 +271,7 @@ def result_of(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> st
     return f"{result}, {seconds_text(final_tick + (outcome == 'running'))} s"
 
 
-def watch(app: App, replays: Iterable[Replay | None]) -> bool:
+def watch_replays(app: App, replays: Iterable[Replay | None]) -> bool:
     """Watch replays of the records one after another, without deleted ones; whether there were any."""
     runs = [Recording(replay.level, replay) for replay in replays if replay is not None and replay.level is not None]
     if runs:
@@ -349,7 +349,7 @@ class RecordsScreen(MenuScreen):
         self.list.hint = "Enter to watch, E to save as a text file" if row.replays else missing
 
     def _watch(self, index: int) -> None:
-        watch(self.app, [self.player.records.replay(number) for number in self.rows[index].replays])
+        watch_replays(self.app, [self.player.records.replay(number) for number in self.rows[index].replays])
 
     def handle(self, event: InputEvent) -> None:
         row = self.rows[self.list.index] if self.rows else None

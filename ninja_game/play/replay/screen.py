@@ -47,7 +47,7 @@ class ReplayScreen(Screen):
     ``end`` is the last tick of the recording; seeking far ahead takes several turns.
     """
 
-    foot_high = 26.0  # its bar
+    foot_high = 26.0  #: of its bar
 
     def __init__(
         self, app: App, runs: Sequence[Recording], colours: Sequence[int] = (), *, editable: bool = True
@@ -341,12 +341,12 @@ class ReplayBar:
         palette, canvas = theme.palette, theme.canvas
         trough = mixed(palette.tile, palette.outline, 0.35)
         rect = canvas.fill_rect(surface, trough, _LEFT, _Y - 2, _WIDTH, 4, 2)
-        at = _LEFT + _WIDTH * min(1.0, tick / max(1, length))
-        canvas.fill_rect(surface, palette.on_tile, _LEFT, _Y - 2, at - _LEFT, 4, 2)
+        filled_to = _LEFT + _WIDTH * min(1.0, tick / max(1, length))
+        canvas.fill_rect(surface, palette.on_tile, _LEFT, _Y - 2, filled_to - _LEFT, 4, 2)
         mark = _LEFT + _WIDTH * end / max(1, length)
         colour = {"exit": palette.bar_full, "dead": palette.bar_empty}.get(outcome, palette.accent)
         canvas.fill_rect(surface, colour, mark - 1, _Y - 5, 2, 10)
-        knob = canvas.circle(surface, palette.on_tile, (at, _Y), 5)
+        knob = canvas.circle(surface, palette.on_tile, (filled_to, _Y), 5)
         return rect.union(knob).inflate(canvas.px(10), canvas.px(10))
 
     @staticmethod

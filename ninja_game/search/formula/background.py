@@ -118,11 +118,11 @@ class SpanSearch:
     def _without_idle_keys(self, results: tuple[SpanResult, ...], seconds: float) -> tuple[SpanResult, ...]:
         """Remove keys that do nothing from results, from as many as there is time for; the others stay as they are."""
         late, known = monotonic() + seconds, self._tidy
-        self._tidy = {way.inputs: known[way.inputs] for way in results if way.inputs in known}
-        for way in results:
-            if way.inputs not in self._tidy and monotonic() < late:
-                self._tidy[way.inputs] = tidied(self.task, way)
-        return tuple(self._tidy.get(way.inputs, way) for way in results)
+        self._tidy = {result.inputs: known[result.inputs] for result in results if result.inputs in known}
+        for result in results:
+            if result.inputs not in self._tidy and monotonic() < late:
+                self._tidy[result.inputs] = tidied(self.task, result)
+        return tuple(self._tidy.get(result.inputs, result) for result in results)
 
 
 TIDYING_SECONDS = 0.1
@@ -192,9 +192,9 @@ class RunSearch(SpanSearch):
     def _led_to_exit(self, task: Task, ticks: int) -> Task:
         """The task with a run to the exit that begins like a run that ends before it, b"" if none is found."""
         first = task.first[:ticks]
-        way = to_exit(task.level, first, WAY_SECONDS, body=task.body, threads=task.jobs, goes_on=self._goes_on)
-        gold = run_level(task.level, way, body=task.body).gold if way else 0
-        return replace(task, first=way or b"", gold=min(gold, task.gold))
+        run = to_exit(task.level, first, WAY_SECONDS, body=task.body, threads=task.jobs, goes_on=self._goes_on)
+        gold = run_level(task.level, run, body=task.body).gold if run else 0
+        return replace(task, first=run or b"", gold=min(gold, task.gold))
 
     def _goes_on(self, ticks: int) -> bool:
         self._note_ticks(ticks, own_route=True)
@@ -234,14 +234,14 @@ class RunSearch(SpanSearch):
                 self.own = result
             self._unbeaten[own_route] = _unbeaten([*self._unbeaten[own_route], result])
             own = self._unbeaten[True]
-            others = (way for way in _unbeaten([*own, *self._unbeaten[False]]) if not way.own_route)
+            others = (other for other in _unbeaten([*own, *self._unbeaten[False]]) if not other.own_route)
             self.results = tuple(sorted([*own, *others]))
 
 
 def _unbeaten(results: list[SpanResult]) -> tuple[SpanResult, ...]:
     """Keep the results that no other one beats in ticks and gold, the fastest first."""
     best: list[SpanResult] = []
-    for way in sorted(results):
-        if not best or way.gold > best[-1].gold:
-            best.append(way)
+    for result in sorted(results):
+        if not best or result.gold > best[-1].gold:
+            best.append(result)
     return tuple(best)

@@ -87,7 +87,7 @@ def parse_truth(text: str, names: Mapping[str, int], facts: Sequence[str]) -> Fo
     return _parse(text, names, facts, truth=True)
 
 
-def parse_number(text: str, names: Mapping[str, int], facts: Sequence[str]) -> Formula:
+def parse_measure(text: str, names: Mapping[str, int], facts: Sequence[str]) -> Formula:
     """Parse a formula that is a number, such as a measure. Raises FormulaError."""
     return _parse(text, names, facts, truth=False)
 

@@ -20,7 +20,7 @@ from ninja_game.search.formula.task import (
     SpanTask,
     SpanWorlds,
     Trials,
-    distinct_ways,
+    distinct_routes,
     target_of,
 )
 from ninja_game.search.local_search import mutate
@@ -71,7 +71,7 @@ class Results:
     def __init__(self, worlds: SpanWorlds, report: ReportResults, report_miss: ReportMiss) -> None:
         self.worlds = worlds
         self.best: tuple[SpanResult, ...] = ()
-        self.ways: tuple[SpanResult, ...] = ()
+        self.routes: tuple[SpanResult, ...] = ()
         self.going = True
         self._report, self._report_miss = report, report_miss
 
@@ -89,7 +89,8 @@ class Results:
             if any(np.array_equal(result.keys[: result.ticks], old.keys[: old.ticks]) for old in self.best):
                 continue
             self.best = tuple(sorted([*self.best, result])[:KEPT])
-            self.ways = tuple(distinct_ways([*self.ways, result], measured=self.worlds.measure is not None)[:KEPT])
+            measured = self.worlds.measure is not None
+            self.routes = tuple(distinct_routes([*self.routes, result], measured=measured)[:KEPT])
         self.report()
         return trials
 
@@ -106,7 +107,7 @@ class Results:
     def report(self) -> None:
         if self.worlds.miss is not None and not self.best:
             self._report_miss(self.worlds.miss)
-        self.going = self._report(self.worlds.ticks_run, self.ways)
+        self.going = self._report(self.worlds.ticks_run, self.routes)
 
 
 def search_span(
@@ -155,7 +156,7 @@ def search_span(
         if method != "beam" and results.going:
             change(task, mutated, results, rng, ROUNDS if results.best or not legs else ROUNDS_BESIDE_LEGS)
         turn += 1
-    return results.ways
+    return results.routes
 
 
 CUTS = 20, 60, 180, 540  # numbers of last ticks of a run that are left out, one after the other
@@ -202,10 +203,10 @@ def count_ways(task: SpanTask, every: int) -> int:
 
 def exhaust(task: SpanTask, every: int, results: Results) -> None:
     """Try all keys that change every ``every`` ticks."""
-    ways, choices = count_ways(task, every), -(-task.length // every)
+    ends, choices = count_ways(task, every), -(-task.length // every)
     weights = len(_ACTIONS) ** np.arange(choices)[:, np.newaxis]
-    for first in range(0, ways, WORLDS):
-        numbers = np.arange(first, first + WORLDS) % ways
+    for first in range(0, ends, WORLDS):
+        numbers = np.arange(first, first + WORLDS) % ends
         digits = numbers // weights % len(_ACTIONS)
         results.try_all(np.repeat(_ACTIONS[digits], every, axis=0)[: task.length])
         if not results.going:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ninja_game.batch.batch import Batch, Keys
 from ninja_game.errors import ArgumentError
 from ninja_game.search.certificate import without_idle_keys
-from ninja_game.search.formula.language import UNTRUE, Formula, FormulaError, Values, parse_number, parse_truth
+from ninja_game.search.formula.language import UNTRUE, Formula, FormulaError, Values, parse_measure, parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES, UNREACHABLE, difference_from, distance_views, view_of
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Body, Level
@@ -79,7 +79,7 @@ class SpanTask:
         try:
             goal = parse_truth(self.goal or f"tick >= {self.last - 1}", SPAN_NAMES, FACTS)
             what = "measure"
-            return goal, parse_number(self.measure, SPAN_NAMES, FACTS) if self.measure else None
+            return goal, parse_measure(self.measure, SPAN_NAMES, FACTS) if self.measure else None
         except FormulaError as error:
             error.file = what
             raise
@@ -120,26 +120,26 @@ def tidied(task: SpanTask, result: SpanResult) -> SpanResult:
     return replace(result, keys=keys, inputs=inputs)
 
 
-SAME_WAY_PX, SAME_WAY_TICKS = 24.0, 6
-"""Two runs go the same way if neither is farther than this from the other, px, within this many ticks."""
+SAME_ROUTE_PX, SAME_ROUTE_TICKS = 24.0, 6
+"""Two runs take the same route if neither is farther than this from the other, px, within this many ticks."""
 
 
-def distinct_ways(results: Iterable[SpanResult], *, measured: bool) -> list[SpanResult]:
-    """Keep the best result of each way, best first; with a measure, none that another beats in score and in tick."""
-    ways: list[SpanResult] = []
+def distinct_routes(results: Iterable[SpanResult], *, measured: bool) -> list[SpanResult]:
+    """Keep the best result of each route, best first; with a measure, none that another beats in score and in tick."""
+    routes: list[SpanResult] = []
     for result in sorted(results):
-        beaten = measured and any(way.score < result.score and way.ticks < result.ticks for way in ways)
-        if not beaten and not any(_is_same_way(way, result) for way in ways):
-            ways.append(result)
-    return ways
+        beaten = measured and any(route.score < result.score and route.ticks < result.ticks for route in routes)
+        if not beaten and not any(_is_same_route(route, result) for route in routes):
+            routes.append(result)
+    return routes
 
 
-def _is_same_way(one: SpanResult, other: SpanResult) -> bool:
-    if (one.own_route, one.gold) != (other.own_route, other.gold) or abs(one.ticks - other.ticks) > SAME_WAY_TICKS:
+def _is_same_route(one: SpanResult, other: SpanResult) -> bool:
+    if (one.own_route, one.gold) != (other.own_route, other.gold) or abs(one.ticks - other.ticks) > SAME_ROUTE_TICKS:
         return False
-    ticks = np.arange(len(one.path))[:, np.newaxis] + np.arange(-SAME_WAY_TICKS, SAME_WAY_TICKS + 1)
+    ticks = np.arange(len(one.path))[:, np.newaxis] + np.arange(-SAME_ROUTE_TICKS, SAME_ROUTE_TICKS + 1)
     there = other.path[np.clip(ticks, 0, len(other.path) - 1)] if len(other.path) else np.inf
-    return bool((np.abs(there - one.path[:, np.newaxis]).max(2).min(1) <= SAME_WAY_PX).all()) if len(one.path) else True
+    return not len(one.path) or bool((np.abs(there - one.path[:, None]).max(2).min(1) <= SAME_ROUTE_PX).all())
 
 
 def target_of(task: SpanTask) -> int | None:

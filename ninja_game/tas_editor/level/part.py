@@ -272,22 +272,22 @@ class LevelPointer:
         """A mouse event at logical px of the window."""
         rect = self._editor.theme.canvas.rect(*self._part.area)
         left, top = self._editor.theme.canvas.point(x, y)
-        at = left - rect.left, top - rect.top
+        point = left - rect.left, top - rect.top
         if event.type == pygame.MOUSEMOTION and not any(event.buttons):
             self.release()
         if event.type == pygame.MOUSEWHEEL:
-            self._wheel(event.y, rect.size, at)
+            self._wheel(event.y, rect.size, point)
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button in (pygame.BUTTON_MIDDLE, pygame.BUTTON_RIGHT):
-            self._camera.grab(at)
+            self._camera.grab(point)
             self._button = event.button
         elif event.type == pygame.MOUSEMOTION and self._camera.held:
-            self._camera.drag(rect.size, at)
+            self._camera.drag(rect.size, point)
         elif event.type == pygame.MOUSEBUTTONUP and not self._camera.held:
             self.release()
         elif event.type == pygame.MOUSEBUTTONUP and event.button == self._button:
             self._click()
         elif not self._part.take_over.on:
-            self._point(event, at)
+            self._point(event, point)
 
     def _wheel(self, notches: float, size: Px, at: Px) -> None:
         part = self._part

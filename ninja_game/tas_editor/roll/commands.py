@@ -14,9 +14,9 @@ from ninja_game.play.menu_screen import ask_text
 from ninja_game.play.workspace import Commands
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import inputs_of_text
-from ninja_game.tas.tracks import InputTrack, first_difference, marker_name
+from ninja_game.tas.tracks import InputTrack, first_different_index, marker_name
 from ninja_game.tas_editor.editor import Span, TasEditor
-from ninja_game.tas_editor.roll.facts import changes, compared
+from ninja_game.tas_editor.roll.facts import compared_run, differing_ticks
 
 _BEHIND = "Nothing here: the run ends earlier"  # where nothing can be copied or taken out
 
@@ -85,11 +85,11 @@ class RollCommands:
             self._editor.app.notify(f"No named tick {'behind' if direction > 0 else 'before'} this one: M names it")
 
     def _to_difference(self, direction: int) -> None:
-        editor, other = self._editor, compared(self._editor)
+        editor, other = self._editor, compared_run(self._editor)
         if other is None:
             editor.app.notify("Other runs are not shown: G shows them")
             return
-        ticks = changes(editor.track.inputs, other.track.inputs)
+        ticks = differing_ticks(editor.track.inputs, other.track.inputs)
         ticks = ticks[ticks <= editor.last_tick]
         ahead = ticks[(ticks - editor.cursor) * direction > 0]
         if len(ahead):
@@ -156,7 +156,7 @@ class RollCommands:
             editor.places[before] = place
         else:
             cursor, anchor = first, None
-        last = len(editor.track) - first_difference(before.inputs[first:][::-1], editor.track.inputs[first:][::-1])
+        last = len(editor.track) - first_different_index(before.inputs[first:][::-1], editor.track.inputs[first:][::-1])
         near = first - self._page() < cursor < max(first, last) + self._page()
         editor.go(first if not near or anchor is None else anchor)
         editor.go(cursor if near else first, select=near and anchor is not None)

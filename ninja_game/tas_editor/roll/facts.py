@@ -14,7 +14,7 @@ from ninja_game.formats.replay.notations import KEY_NAMES
 from ninja_game.sim.inputs import KEYS_DOWN, fit_inputs
 from ninja_game.sim.states import STATE_NAMES
 from ninja_game.tas.timeline import exit_distance
-from ninja_game.tas.tracks import InputTrack, first_difference
+from ninja_game.tas.tracks import InputTrack, first_different_index
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.values_tab import colour_of
 from ninja_game.ui.theme import Palette
@@ -36,7 +36,7 @@ class Compared(NamedTuple):
         return palette.exit if self.number == _PREVIEW else colour_of(self.number, palette)
 
 
-def compared(editor: TasEditor) -> Compared | None:
+def compared_run(editor: TasEditor) -> Compared | None:
     """The previewed result or branch, else the chosen other run, else the run before the last edit.
 
     None if other runs are not shown.
@@ -59,7 +59,7 @@ def different_keys(ours: bytes, theirs: bytes) -> NDArray[np.uint8]:
 
 
 @lru_cache(maxsize=4)
-def changes(ours: bytes, theirs: bytes) -> NDArray[np.intp]:
+def differing_ticks(ours: bytes, theirs: bytes) -> NDArray[np.intp]:
     """The ticks with different keys, except those equal to the tick before."""
     both = np.stack(_keys(ours, theirs))
     moved = np.ones(both.shape[1], bool)
@@ -125,7 +125,7 @@ def row_facts(editor: TasEditor, first: int, last: int) -> list[RowFacts]:
     changed = changed_ticks(track, editor.session.saved)
     names = {tick: name for tick, name in track.markers if first <= tick < last}
     count, inputs = len(track), track.inputs
-    other = compared(editor)
+    other = compared_run(editor)
     differs = different_keys(inputs, other.track.inputs)[first:last].tolist() if other else []
     differs += [0] * (last - first - len(differs))
     return [
@@ -189,8 +189,8 @@ def changed_ticks(track: InputTrack, saved: InputTrack) -> bytes:
         before, first, now, last = (starts[k // 2][bound] for k, bound in enumerate(bounds))
         if what != "equal":
             old, new = theirs[before:first], ours[now:last]
-            begin = first_difference(old, new)
-            end = first_difference(old[begin:][::-1], new[begin:][::-1])
+            begin = first_different_index(old, new)
+            end = first_different_index(old[begin:][::-1], new[begin:][::-1])
             changed[now + begin : last - end] = bytes([1]) * (last - end - now - begin)
     return bytes(changed)
 

@@ -11,7 +11,7 @@ from ninja_game.play.workspace import Commands
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.tas_editor.roll.commands import RollCommands
-from ninja_game.tas_editor.roll.facts import compared, different_rows, key_difference_text, row_facts, row_text
+from ninja_game.tas_editor.roll.facts import compared_run, different_rows, key_difference_text, row_facts, row_text
 from ninja_game.tas_editor.roll.rows import ROLL_COLUMNS, Column, RollLayout, RowSheet, layout_of
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Theme, mixed
@@ -82,12 +82,12 @@ class Roll(TasPart):
         editor = self.editor
         timeline = editor.session.timeline
         return (
-            editor.track, editor.session.saved, compared(editor), editor.cursor, editor.selection,
+            editor.track, editor.session.saved, compared_run(editor), editor.cursor, editor.selection,
             timeline.simulated_until, self.top, self.hidden, editor.leads,
         )  # fmt: skip
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        layout, other, palette = self.layout, compared(self.editor), theme.palette
+        layout, other, palette = self.layout, compared_run(self.editor), theme.palette
         mark = other.colour(palette) if other else palette.ghost
         sheet = self._sheet
         if sheet is None or sheet.theme is not theme or sheet.layout != layout or sheet.mark != mark:
@@ -243,7 +243,7 @@ class RollMouse:
             self._editor.hint = f"tick {self._roll.bar.tick_at(y, layout)}"
         elif layout.body.collidepoint(x, y) and layout.row_at(y) + self._roll.top <= self._editor.last_tick:
             tick = self._tick_at(y)
-            other = compared(self._editor) if column.key else None
+            other = compared_run(self._editor) if column.key else None
             rest = column.name in ("state", "jump_timer", "contacts", "gold", "exit")
             row = row_facts(self._editor, tick, tick + 1)[0]
             self._editor.hint = key_difference_text(row, other.name) if other else row_text(row, numbers=not rest)
@@ -292,7 +292,7 @@ class ScrollBar:
         begin, behind = editor.selection
         if behind - begin > 1:
             surface.fill(palette.bar_full, (bar.left, at(begin), bar.width // 2, max(1, at(behind) - at(begin))))
-        other = compared(editor)
+        other = compared_run(editor)
         if other is not None:
             wide, colour = bar.width // 4, other.colour(palette)
             for y in different_rows(editor.track.inputs, other.track.inputs, ticks, bar.height):

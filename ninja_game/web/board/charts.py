@@ -27,7 +27,7 @@ _MAX_COLUMNS = 400  # of a row
 LABELS_APART = 26  # least px between two numbers of splits
 
 
-def steps(
+def step_chart(
     points: Sequence[tuple[float, float]],
     names: Sequence[str],
     text: Callable[[float], str],
@@ -105,8 +105,8 @@ def paths(picture: str, runs: Sequence[tuple[str, str]], places: Sequence[tuple[
     """
     image = tag("image", href=picture, width=PICTURE_WIDTH, height=PICTURE_HEIGHT)
     lines = [
-        tag("path", tag("title", name), d=way, class_="way", stroke=css_colour(run_colour(number)))
-        for number, (name, way) in enumerate(runs)
+        tag("path", tag("title", name), d=moves, class_="way", stroke=css_colour(run_colour(number)))
+        for number, (name, moves) in enumerate(runs)
     ]
     label = f"The level with the paths of {', '.join(name for name, _ in runs)}"
     box = f"0 0 {PICTURE_WIDTH} {PICTURE_HEIGHT}"

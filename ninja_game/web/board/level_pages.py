@@ -25,7 +25,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, aligned, run_splits, split_table, sum_of_best
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.web.board.charts import PLACE, lead_chart, paths, signed, speed_and_keys, steps, swatch
+from ninja_game.web.board.charts import PLACE, lead_chart, paths, signed, speed_and_keys, step_chart, swatch
 from ninja_game.web.board.parts import LESSER, NEAR, RUN_HEADS, UNKNOWN_ORIGIN, Parts, player_page
 from ninja_game.web.pages.frame import Content, Markup, joined, on_this_page, section, table, tag
 from ninja_game.web.pages.gallery import BOARD, UP, level_page, page_name, path_data, picture, picture_name, run_page
@@ -247,7 +247,7 @@ class LevelPages:
         since = next(at for at, number in enumerate(numbers) if not category.far(number, numbers[-1]))
         points = list(zip(moments, heights, strict=True))[since:]
         days = runs[since].day, runs[-1].day
-        chart = steps(points, named[since:], category.difference, days, label) if len(points) > 1 else None
+        chart = step_chart(points, named[since:], category.difference, days, label) if len(points) > 1 else None
         heads = ("Date", "Player", category.unit, "Better by", "Watch")
         title = f"How the record {moved}: {self.ranking.leaderboard_name(leaderboard)}"
         ranked = table("Newest first", heads, rows[: -FIRST - 1 : -1], LESSER)
@@ -261,8 +261,8 @@ class LevelPages:
             return paths(UP + picture_name(runs[0].level), [(names[0], path_data(ghosts[0].positions))]), None
         by_time = sorted(zip(names, runs, range(len(runs)), strict=True), key=lambda named: named[1].tick)
         rows = _split_rows([self._ghost(run) for _, run, _ in by_time])
-        ways = [(name, path_data(ghost.positions)) for ghost, name in zip(ghosts, names, strict=True)]
-        drawn = paths(UP + picture_name(runs[0].level), ways, [(row.split.x, row.split.y) for row in rows])
+        named_paths = [(name, path_data(ghost.positions)) for ghost, name in zip(ghosts, names, strict=True)]
+        drawn = paths(UP + picture_name(runs[0].level), named_paths, [(row.split.x, row.split.y) for row in rows])
         text = f"Watch the first {len(runs)} together"
         together = tag("p", f"{category.name}: ", self.parts.watch_link(runs, UP, text))
         numbers = range(len(runs))

@@ -34,7 +34,7 @@ from ninja_game.web.board.parts import (
     Parts,
     card,
     cards,
-    level_link,
+    linked_level,
     made_text,
     player_page,
 )
@@ -159,14 +159,14 @@ class BoardPages:
 
     @property
     def _name(self) -> str:
-        """Returns the name of the pack, else that of the only level: the name of its file says nothing to readers."""
+        """The name of the pack, else that of the only level: the name of its file says nothing to readers."""
         titles = [entry.title for entry in self.entries.values()]
         return self.ranking.shown.name if self.ranking.shown.pack else titles[0] if len(titles) == 1 else "own levels"
 
     def _runs_and_how_to_send(self) -> list[Piece]:
         parts = self.parts
         rows = [
-            (level_link(run.entry), parts.watch_link([run], ""), parts.player_link(run.player), *times, run.moment)
+            (linked_level(run.entry), parts.watch_link([run], ""), parts.player_link(run.player), *times, run.moment)
             for run in self.ranking.judged.runs[: -NEWEST_RUNS - 1 : -1]
             for times in [(parts.run_link(run, "", seconds_text(run.tick)), made_text(run))]
         ]
@@ -197,7 +197,7 @@ class BoardPages:
             for record in records:
                 links = self.parts.watch_link([record.run], ""), self.parts.player_link(record.run.player)
                 lines = stack(*self._lines(record))
-                rows.append((level_link(record.run.entry), *links, lines, moment))
+                rows.append((linked_level(record.run.entry), *links, lines, moment))
             return rows
         levels, players = ({getattr(record.run, name) for record in records} for name in ("level", "player"))
         where = tag("a", counted(len(levels), "level"), href="levels.html")
@@ -343,7 +343,7 @@ class BoardPages:
                 if part[1] == self.main and row.place and row.behind and not row.far:
                     result = parts.run_link(run, UP, self.main.text(row.values[0])), self.main.difference(row.behind)
                     both = parts.player_link(first.player, UP), parts.watch_link([run, first], UP, "Watch both")
-                    gains.append((row.behind, (level_link(run.entry, UP), *result, row.place, *both)))
+                    gains.append((row.behind, (linked_level(run.entry, UP), *result, row.place, *both)))
         return [cells for _, cells in sorted(gains, key=itemgetter(0), reverse=True)]
 
     def _records(self) -> tuple[dict[str, list[tuple[Content, ...]]], dict[str, list[tuple[Content, ...]]]]:
@@ -356,7 +356,7 @@ class BoardPages:
             for player, number in last.items():
                 best, by = runs[number], runs[number + 1] if number + 1 < len(runs) else None
                 about = (
-                    level_link(self.entries[level], UP),
+                    linked_level(self.entries[level], UP),
                     self.ranking.leaderboard_name(part),
                     results[number],
                     best.day,
@@ -377,7 +377,7 @@ class BoardPages:
             result = time, self.parts.watch_link([run], UP), medal_mark(run.medal), seconds_text(run.score), gold
             leads = made_text(run), run.day, self.parts.run_link(run, UP)
             places = stack(*row[3]) if row[3] else ""
-            return (row[1], level_link(run.entry, UP), *result, places, *leads)
+            return (row[1], linked_level(run.entry, UP), *result, places, *leads)
 
         rows = [
             [self.parts.stems[run.key], run.entry.number, run.medal, self._places(run), run.day]
@@ -433,7 +433,7 @@ class BoardPages:
                 caption = f"Episode {number:02d}, {self.ranking.leaderboard_name(part)}: {what}"
                 tables += [table(caption, EPISODE_HEADS, rows)] if rows else []
             nobody = tag("p", "No player yet.")
-            listed = tag("ul", *(tag("li", level_link(level)) for level in episode.levels), class_="facts")
+            listed = tag("ul", *(tag("li", linked_level(level)) for level in episode.levels), class_="facts")
             sections.append(section(f"Episode {number:02d}: {episode.name}", listed, *tables or [nobody]))
         return sections
 
@@ -462,7 +462,7 @@ class BoardPages:
                 parts.watch_link([run], ""),
                 stack(
                     _file(*run.key),
-                    joined(parts.player_link(run.player), ", ", level_link(run.entry)),
+                    joined(parts.player_link(run.player), ", ", linked_level(run.entry)),
                     joined(parts.run_link(run, "", seconds_text(run.tick)), f" with {run.gold} gold"),
                     run.day,
                 ),

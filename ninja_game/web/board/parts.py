@@ -127,7 +127,7 @@ class Parts:
         return category.difference(row.behind) + word if row.behind else category.decided(row.values, first.values)
 
     def place(self, category: Category, row: Ranked, first: Ranked) -> str:
-        """Returns the place of a run, and by how much it is behind the first; "" for one that waits."""
+        """The place of a run, and by how much it is behind the first; "" for one that waits."""
         behind = self.behind(category, row, first, " behind")
         return f"{row.place}, {behind}" if behind else str(row.place or "")
 
@@ -165,7 +165,7 @@ def player_page(player: str) -> str:
     return f"players/{sha256(player.encode('utf-8', 'replace')).hexdigest()[:16]}"
 
 
-def level_link(entry: Entry, up: str = "") -> Markup:
+def linked_level(entry: Entry, up: str = "") -> Markup:
     return tag("a", shown_text(entry.title, _MAX_NAME), href=up + page_name(entry.digest))
 
 
@@ -175,7 +175,7 @@ def card(entry: Entry, *facts: Content) -> Markup:
     image = tag("img", src=picture_name(entry.digest), alt="", **size, loading="lazy")
     number = tag("span", f"Level {entry.number}", class_="number") if entry.number else None
     lines = (tag("p", fact, class_="facts") for fact in facts if fact)
-    return tag("li", image, tag("h3", number, level_link(entry)), *lines, class_="card")
+    return tag("li", image, tag("h3", number, linked_level(entry)), *lines, class_="card")
 
 
 def cards(caption: str, contents: Iterable[Content]) -> Markup:

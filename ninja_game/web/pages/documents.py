@@ -188,9 +188,9 @@ class Documents:
         if "://" in link or not target:
             return link
         path = normpath(f"{Path(name).parent.as_posix()}/{target}")
-        way = relpath(page_of(path), Path(page_of(name)).parent.as_posix())
+        page = relpath(page_of(path), Path(page_of(name)).parent.as_posix())
         if path in self.markdown:
-            return way + (anchor and f"#{anchor}")
+            return page + (anchor and f"#{anchor}")
         whole = PACKAGE.parent / path if path.startswith(PACKAGE.name) else data_folder("docs").parent / path
         if whole.suffix in (".png", ".gif", ".svg"):
             return self._copy_picture(whole, path, name)
@@ -199,7 +199,7 @@ class Documents:
         self._sources.add(path)
         if anchor:
             anchor = f"L-{_definitions(whole.read_text('utf-8'))[anchor].lineno}"
-        return way + (anchor and f"#{anchor}")
+        return page + (anchor and f"#{anchor}")
 
     def _copy_picture(self, whole: Path, path: str, name: str) -> str:
         """The address of a picture, which is copied into the site."""

@@ -14,7 +14,7 @@ from pygame import Color
 
 from ninja_game.board.memo import Memo, program, values_digest
 from ninja_game.errors import FileError
-from ninja_game.files.reading import stamp_of
+from ninja_game.files.reading import file_stamp
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.tree import Tree, leads_below
 from ninja_game.ui.canvas import png_of
@@ -141,9 +141,9 @@ class Pages:
         digest = f"{program()} {data}" if isinstance(data, str) else values_digest([program(), data])
         place = self._place(name, replay=replay)
         file = f"{self._site.root}/{place}"
-        if self._memo.recall(place) != [digest, *stamp_of(file)]:
+        if self._memo.recall(place) != [digest, *file_stamp(file)]:
             self._site.write(place, content())
-            self._memo.note(place, [digest, *stamp_of(file)])
+            self._memo.note(place, [digest, *file_stamp(file)])
 
     def _place(self, name: str, *, replay: bool) -> str:
         if replay:

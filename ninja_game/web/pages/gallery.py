@@ -253,7 +253,7 @@ def _list(shown: PublishedLevels) -> list[Content]:
     lead = f"{shown.name}{f' by {shown.author}' if shown.author else ''}: {counted(count, 'level')}."
     cards = tag("ul", *(_card(entry, place) for place, entry in enumerate(shown.entries.values())), class_="cards")
     comment = tag("p", shown.comment) if shown.comment else None
-    return [tag("p", lead, class_="lead"), comment, search(_episodes(shown)), cards]
+    return [tag("p", lead, class_="lead"), comment, search_field(_episodes(shown)), cards]
 
 
 def _episodes(shown: PublishedLevels) -> Mapping[str, str]:
@@ -261,7 +261,7 @@ def _episodes(shown: PublishedLevels) -> Mapping[str, str]:
     return {f"{number:02d}": f"{number}: {episode.name}" for number, episode in sorted(shown.levels.episodes.items())}
 
 
-def search(episodes: Mapping[str, str]) -> Markup:
+def search_field(episodes: Mapping[str, str]) -> Markup:
     """The search above a list; hidden without a script."""
     options = [tag("option", name, value=value) for value, name in SORT_ORDERS]
     chosen = [tag("option", name, value=value) for value, name in episodes.items()]

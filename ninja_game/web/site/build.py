@@ -53,7 +53,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") 
     before = _own_files(out)
     python = archive.pyodide_files(pyodide, cache)
     about = json.loads(python["pyodide-lock.json"])["info"]
-    library, game = archive.compiled(
+    library, game = archive.bytecode_files(
         archive.library_files(python["python_stdlib.zip"]), dict(archive.game_files()), python
     )
     python["python_stdlib.zip"] = archive.library_zip(library)

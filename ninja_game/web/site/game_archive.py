@@ -186,7 +186,7 @@ _WAIT = 600  # seconds for node
 Files = dict[str, bytes]  # content by name
 
 
-def compiled(library: Files, game: Files, pyodide: Mapping[str, bytes]) -> tuple[Files, Files]:
+def bytecode_files(library: Files, game: Files, pyodide: Mapping[str, bytes]) -> tuple[Files, Files]:
     """The standard library's and the game's files with bytecode instead of Python text.
 
     ``pyodide``: the files of its package. Without Node.js the files are unchanged, and the first visit takes longer.

@@ -8,7 +8,7 @@ import pytest
 from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.files import Source
 from ninja_game.editor.specs import BODY_PART, points
-from ninja_game.editor.stamp import Selection, Stamp, put
+from ninja_game.editor.stamp import Selection, Stamp, with_stamp
 from ninja_game.files.bundled import bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.play.editor import palette_view
@@ -50,7 +50,7 @@ def test_what_is_asked_for_in_one_place_looks_as_it_does_in_its_own(monkeypatch:
 
 
 def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Maker) -> None:
-    room.editor.session.begin(Source(put(ROOM, Stamp({}, CROWD))))
+    room.editor.session.begin(Source(with_stamp(ROOM, Stamp({}, CROWD))))
     room.frames(3)
     tools = room.editor.session.tools
     tools.tool, tools.snap = "select", "px"

@@ -19,7 +19,7 @@ from ninja_game.editor.certify import LANDED_TICK, SQUARE, STARTS, Certification
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
-from ninja_game.editor.stamp import Selection, Stamp, chosen_in, copied, put
+from ninja_game.editor.stamp import Selection, Stamp, chosen_in, copied, with_stamp
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
@@ -343,7 +343,7 @@ def test_a_frame_of_a_full_level_is_quick(tmp_path: Path) -> None:
             placed(OBJECT_TYPES[2 + k * 7 % 15].spec, 30 + 37 * k % 730, 30 + 53 * k % 540, "quarter")
             for k in range(500)
         )
-        draft = put(ROOM, Stamp({}, objects))
+        draft = with_stamp(ROOM, Stamp({}, objects))
         assert len(draft.objects) >= 495
         maker.editor.session.begin(Source(draft))
         maker.frames(5)
@@ -456,7 +456,7 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
 
 def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
     far = ObjectSpec(NINJA, (9000.0, 300.0))
-    room.editor.session.tools.load(History(put(ROOM, Stamp({}, (far,)))))
+    room.editor.session.tools.load(History(with_stamp(ROOM, Stamp({}, (far,)))))
     room.press("f5")
     room.frames(4)
     room.press("escape")
@@ -899,7 +899,7 @@ def test_select_says_that_it_takes_only_tiles_and_takes_all_in_the_next_level(ro
 def test_all_rows_about_several_drones_have_room_in_their_panel(room: Maker) -> None:
     tools, drone = room.editor.session.tools, object_of_type("zap drone")
     tools.history.change(
-        put(room.draft, Stamp({}, tuple(placed(drone, 100.0 + 48 * k, 100.0, "cell") for k in range(3))))
+        with_stamp(room.draft, Stamp({}, tuple(placed(drone, 100.0 + 48 * k, 100.0, "cell") for k in range(3))))
     )
     tools.choose_all()
     room.frames()
@@ -928,7 +928,7 @@ def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) 
     room.press("shift+z")
     room.mouse(*room.at(300, 540), click=False)
     room.wait(lambda: session.drone_round, "the round of the drone in hand")
-    run = Simulation(put(room.draft, Stamp({}, (placed(drone, *session.tools.pointer, "cell"),))).level)
+    run = Simulation(with_stamp(room.draft, Stamp({}, (placed(drone, *session.tools.pointer, "cell"),))).level)
     thing = next(each for each in run.world.objects if each.kind == DRONE)
     for place in session.drone_round[:300]:
         run.step_keys(0)
@@ -940,7 +940,7 @@ def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) 
     assert not session.drone_round
     room.drag((300, 540))
     assert not session.drone_round
-    session.tools.history.change(put(ROOM, Stamp({}, (placed(drone, 300, 540, "cell"),))))
+    session.tools.history.change(with_stamp(ROOM, Stamp({}, (placed(drone, 300, 540, "cell"),))))
     session.tools.choose(frozenset({(len(room.draft.objects) - 1, BODY_PART)}))
     room.wait(lambda: session.drone_round, "the round of the drone that is selected")
 
@@ -1213,7 +1213,7 @@ def test_a_frame_over_its_cell_takes_a_launch_pad(room: Maker) -> None:
 def test_what_is_known_of_one_level_is_not_said_of_the_next(room: Maker) -> None:
     session = room.editor.session
     room.wait(lambda: session.examined is room.draft.level, "findings")
-    session.begin(Source(put(Draft(Level()), Stamp({(3, 3): 1}))))
+    session.begin(Source(with_stamp(Draft(Level()), Stamp({(3, 3): 1}))))
     assert (session.examined, session._reaches.result, session.findings) == (None, None, [])
     room.press("f4")
     assert "No problems" not in room.app.notice

@@ -15,7 +15,7 @@ import pygame
 import pytest
 
 from ninja_game.cli.main import cli
-from ninja_game.editor.files import Autosave, Source, ascii_text, kept_history, new_source, open_source, recovered
+from ninja_game.editor.files import Autosave, Source, ascii_text, kept_history, lost_drafts, new_source, open_source
 from ninja_game.files.bundled import CHECKOUT, bundled_levels
 from ninja_game.files.user_folder import EDITING
 from ninja_game.formats.load import load_levels
@@ -276,7 +276,7 @@ def test_what_another_window_goes_on_with_is_not_recovered_twice(room: Maker, tm
     room.app.push(MainMenu(room.app))
     room.open("Editor")
     present = room.editor.session.draft
-    elsewhere = Autosave(tmp_path, next(recovered(tmp_path)).file)
+    elsewhere = Autosave(tmp_path, next(lost_drafts(tmp_path)).file)
     room.choose("Recover")
     assert "another window continues with this" in room.app.notice
     assert room.draft == present
@@ -329,7 +329,7 @@ def test_what_is_drawn_when_a_signal_ends_the_program_is_kept(
     with pytest.raises(Terminated):
         room.app.run()
     session.autosave.close(keep=True)
-    assert [found.draft for found in recovered(tmp_path)] == [session.draft]
+    assert [found.draft for found in lost_drafts(tmp_path)] == [session.draft]
 
 
 def test_levels_of_the_game_open_as_new_ones_and_own_ones_in_their_files(room: Maker, tmp_path: Path) -> None:

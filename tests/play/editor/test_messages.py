@@ -13,7 +13,7 @@ import pytest
 from ninja_game.editor import packs
 from ninja_game.editor.certify import place_before, search_of
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.stamp import Stamp, put
+from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_messages
 from ninja_game.levels.episodes import Mood
@@ -163,7 +163,7 @@ def test_all_moments_are_listed_and_one_is_taken(room: Maker) -> None:
 
 
 def test_those_of_one_moment_are_numbered_with_their_seconds(room: Maker) -> None:
-    draft = put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),)))
+    draft = with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),)))
     room.editor.session.tools.history.change(replace(draft, says="start: a | gold: b | start: c | switch: d"))
     opened(room)
     shown = drawn(room.app)
@@ -204,7 +204,7 @@ def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
 
 
 def test_all_places_are_seen_and_a_click_on_one_selects_its_message(room: Maker) -> None:
-    draft = put(room.draft, Stamp({}, (ObjectSpec(GOLD, (300.0, 300.0)),)))
+    draft = with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (300.0, 300.0)),)))
     says = "start: a | at 5,5: b | at 20,12: c | gold: d | switch: e"
     room.editor.session.tools.history.change(replace(draft, says=says))
     screen = opened(room)
@@ -292,13 +292,14 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     both = replace(room.draft, says=f"{room.draft.says} | start: Go")
     assert said_places(both) == [(24 * 20 + 12, 24 * 4 + 12), (76.0, 524.0)], "beside the ninja"
     of_things = replace(
-        put(both, Stamp({}, (ObjectSpec(GOLD, (60.0, 84.0)),))), says="gold: a | gold: b | switch: c | after 9 s: d"
+        with_stamp(both, Stamp({}, (ObjectSpec(GOLD, (60.0, 84.0)),))),
+        says="gold: a | gold: b | switch: c | after 9 s: d",
     )
     switch = next(spec.values[2:] for spec in both.objects if spec.kind == EXIT)
     assert said_places(of_things) == [(76.0, 66.0), (switch[0] + 16, switch[1] - 18)], "and beside gold and switch"
     room.frames()
     assert ("said", (492.0, 108.0)) in room.editor.view.sheet.marks
-    tools.history.change(put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
+    tools.history.change(with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
     tools.choose(frozenset({(len(room.draft.objects) - 1, 0)}))
     assert opened(room)._here == (2, 2)
 
@@ -371,7 +372,7 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
 def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room: Maker) -> None:
     mines = tuple(ObjectSpec(MINE, (24 * column + 12.0, 540.0)) for column in range(8, 12))
     block = Stamp(dict.fromkeys([(column, 19) for column in range(14, 26)], 1))
-    draft = put(put(room.draft, block), Stamp({}, mines))
+    draft = with_stamp(with_stamp(room.draft, block), Stamp({}, mines))
     # On a block: from the side of the start, though both sides are alike.
     assert place_before(draft, (19 * 24 + 12.0, 18 * 24 + 12.0)) == (16 * 24 + 12.0, 18 * 24 + 12.0)
     assert place_before(draft, (5 * 24 + 12.0, 540.0)) is None, "that near is the level's start"
@@ -381,7 +382,7 @@ def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room:
     wide, high = (18 * 24 + 12.0, 18 * 24 + 12.0), (19 * 24 + 12.0, 17 * 24 + 12.0)
     assert place_before(draft, wide, (7, 1)) == (14 * 24 + 12.0, 18 * 24 + 12.0), "outside its frame"
     assert place_before(draft, high, (1, 7)) == (18 * 24 + 12.0, 17 * 24 + 12.0), "beside its frame"
-    tight = put(draft, Stamp({}, (ObjectSpec(MINE, (5 * 24 + 12.0, 540.0)),)))
+    tight = with_stamp(draft, Stamp({}, (ObjectSpec(MINE, (5 * 24 + 12.0, 540.0)),)))
     assert place_before(tight, (8 * 24 + 12.0, 540.0)) == (6 * 24 + 12.0, 540.0), "nearer, without room"
 
 
@@ -405,7 +406,7 @@ def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Mak
     entry = session.entry
     assert entry
     _, way = Playthrough(room.app.player, entry).beginning()
-    assert way == session.way != b""
+    assert way == session.certifying_inputs != b""
 
 
 def test_for_a_level_without_a_file_no_packs_are_read(room: Maker) -> None:
@@ -532,9 +533,9 @@ RIGHT = with_press_bits(bytes([2]) * 125)
 def doors(room: Maker, monkeypatch: pytest.MonkeyPatch) -> Maker:
     """In the level DOORS with a floor; RIGHT is known to pass it."""
     floor = Stamp(dict.fromkeys([(column, 23) for column in range(1, 32)], 1))
-    draft = put(Draft(DOORS, "Doors", "me"), floor)
+    draft = with_stamp(Draft(DOORS, "Doors", "me"), floor)
     room.editor.session.tools.history.change(draft)
-    monkeypatch.setattr(type(room.editor.session), "way", property(lambda _: RIGHT))
+    monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: RIGHT))
     return room
 
 
@@ -580,7 +581,7 @@ def test_a_test_of_what_is_said_after_deaths_or_seconds_begins_there(doors: Make
 
 
 def test_without_a_known_run_a_test_goes_on_from_the_last_one(doors: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(type(doors.editor.session), "way", property(lambda _: b""))
+    monkeypatch.setattr(type(doors.editor.session), "certifying_inputs", property(lambda _: b""))
     opened(doors, "trap: Now")
     doors.choose("Test")
     assert doors.shown(TryScreen).attempt.simulation.ninja.x == 24 * 10 + 12.0, "beside the switch"
@@ -784,7 +785,7 @@ def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
 
 
 def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(type(room.editor.session), "way", property(lambda _: bytes(400)))
+    monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: bytes(400)))
     screen = opened(room, "after 1 s: Go | after 2 s: On | after 9 s: No")
     assert [line.partition(" at ")[0] for line in drawn(room.app).splitlines() if " late in" in line] == [
         "text '2 s late in the known run: others are read first'"
@@ -792,7 +793,7 @@ def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, mo
     screen.messages[0].text = "long " * 24
     assert "7 s late in" in drawn(room.app)
     screen.messages[2].when, screen.messages[2].detail = "after", "3"
-    monkeypatch.setattr(type(room.editor.session), "way", property(lambda _: bytes(300)))
+    monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: bytes(300)))
     assert "Not shown in the known run: others are read then" in drawn(room.app)
 
 

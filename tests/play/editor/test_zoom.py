@@ -8,7 +8,7 @@ import pytest
 from ninja_game.editor.files import Source
 from ninja_game.editor.motion import SYMMETRIES
 from ninja_game.editor.specs import BODY_PART, points
-from ninja_game.editor.stamp import Stamp, put
+from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.play.editor.sheet import GRIDS
 from ninja_game.play.editor.view import SYMMETRY_AXES
 from ninja_game.sim.grid import Cell, Point, middle_of
@@ -211,7 +211,7 @@ def test_all_that_lies_over_the_level_is_repaired_wherever_it_was_moved_to(
 ) -> None:
     gold = tuple(ObjectSpec(GOLD, (30.0 + 37 * k % 730, 30.0 + 53 * k % 540)) for k in range(60))
     door = ObjectSpec(9, (400.0, 400.0, 0.0, 0.0, 20.0, 15.0, 1.0, 0.0, 0.0))
-    drawn = put(ROOM, Stamp({(column, 12): 1 + column for column in range(1, 30)}, (*gold, door)))
+    drawn = with_stamp(ROOM, Stamp({(column, 12): 1 + column for column in range(1, 30)}, (*gold, door)))
     room.editor.session.begin(Source(drawn))
     room.frames(2)
     near = Looker(room)

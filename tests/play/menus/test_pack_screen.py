@@ -409,7 +409,7 @@ def test_the_page_of_a_pack_without_problems_offers_what_comes_next(
     for file in pack.levels:
         packs.accept(path, file, "no-gold-run", "none is meant")
     ready = ReadyPack(pack, [], Pack(path).files.zipped(), pack.files.link(), [])
-    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", lambda *_, **__: ready)
+    monkeypatch.setattr("ninja_game.play.menus.packer.prepare_pack", lambda *_, **__: ready)
     screen = opened(driver)
     driver.choose("Problems")
     page = problem_page(driver)
@@ -524,7 +524,7 @@ def test_a_pack_is_made_ready_in_the_background(
         assert go_on.wait(LONGEST)
         return replace(ready)
 
-    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
+    monkeypatch.setattr("ninja_game.play.menus.packer.prepare_pack", made)
     screen = opened(driver)
     driver.choose("Make ready")
     driver.wait(lambda: re.fullmatch(r"Making the solver ready: \d+ s", screen.packer.text))
@@ -596,7 +596,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
         assert go_on.wait(LONGEST)
         return ReadyPack(pack, [], pack.files.zipped(), pack.files.link(), [])
 
-    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
+    monkeypatch.setattr("ninja_game.play.menus.packer.prepare_pack", made)
     first = opened(driver)
     driver.choose("Make ready")
     driver.choose("More...")
@@ -650,7 +650,7 @@ def test_what_is_wrong_is_asked_about_before_the_work_and_once(
         begun.append(problems)
         return ReadyPack(pack, [each for each in problems if each.code == "no-ninja" or each in later], b"zip", "", [])
 
-    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
+    monkeypatch.setattr("ninja_game.play.menus.packer.prepare_pack", made)
     screen = opened(driver)
 
     def asked(text: str) -> None:
@@ -683,11 +683,11 @@ def test_what_was_made_ready_asks_only_at_its_own_desk(
     driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     ready = ReadyPack(Pack(path), [pack_finding("no-author", "pack.toml")], b"", "", [])
-    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", lambda *_, **__: ready)
+    monkeypatch.setattr("ninja_game.play.menus.packer.prepare_pack", lambda *_, **__: ready)
     other = packs.new_pack(path.parent, "Other", "me")
     screen = opened(driver)
     screen.read_packs(path)
-    pack_sharing.make_ready(screen)
+    pack_sharing.prepare_shown(screen)
     screen.read_packs(other)
     driver.wait(lambda: not screen.packer.busy)
     driver.frames(3)
@@ -730,7 +730,7 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
         assert go_on.wait(LONGEST)
         return ReadyPack(pack, [], pack.files.zipped(), pack.files.link(), [])
 
-    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
+    monkeypatch.setattr("ninja_game.play.menus.packer.prepare_pack", made)
     screen = opened(driver)
     path_of_level = str(path / "00-0-first-steps.txt")
     driver.wait(lambda: screen.status.present, "the problems are known")
@@ -778,7 +778,7 @@ def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: py
         while True:
             say("Certifying", 0.5)
 
-    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", endless)
+    monkeypatch.setattr("ninja_game.play.menus.packer.prepare_pack", endless)
     (path / "certificates" / "00-0-first-steps.exit.replay.txt").unlink()
     screen = opened(driver)
     assert "text 'no run yet' at" in drawn(driver.app)

@@ -17,7 +17,7 @@ from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.inputs import KEY_LEFT
-from ninja_game.tas.journal import JOURNAL_FOLDER, recovered
+from ninja_game.tas.journal import JOURNAL_FOLDER, lost_runs
 from ninja_game.tas_editor.commands import TAS_COMMANDS, RunCommands
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen
 from ninja_game.tas_editor.opening import open_tas_editor
@@ -171,7 +171,7 @@ def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: TasDriver
     at.session.keep_branch("one")
     wanted = at.editor.track
     at.app.stack.clear()
-    (found,) = recovered(at.app.player.folder)
+    (found,) = lost_runs(at.app.player.folder)
     assert found.tracks[-1] == wanted
     again = TasDriver(tmp_path / "player", tmp_path / "run.replay.txt")
     assert again.top().title == "Not saved last time: run.replay.txt"  # type: ignore[attr-defined]
@@ -191,12 +191,12 @@ def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: TasDriver
     last = TasDriver(tmp_path / "player", tmp_path / "run.replay.txt")
     last.choose("Discard...")
     last.choose("Keep for later")
-    assert len(list(recovered(tmp_path / "player"))) == 1
+    assert len(list(lost_runs(tmp_path / "player"))) == 1
     last.choose_in_menu("Not saved last time...")
     last.choose("run.replay.txt")
     last.choose("Discard...")
     last.choose("Discard")
-    assert list(recovered(tmp_path / "player")) == []
+    assert list(lost_runs(tmp_path / "player")) == []
     last.close()
 
 

@@ -12,7 +12,7 @@ from ninja_game.play.menu_screen import Menu
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen
-from ninja_game.tas_editor.roll.facts import compared, different_rows, row_facts
+from ninja_game.tas_editor.roll.facts import compared_run, different_rows, row_facts
 from tests.support.samples import running, write_records
 from tests.support.tas_driver import TasDriver
 
@@ -48,7 +48,7 @@ def test_a_mark_stands_at_the_right_of_the_cell_in_the_colour_of_the_ghost(at: T
     beside(at, THEIRS)
     at.editor.go(40)
     at.frames()
-    other = compared(at.editor)
+    other = compared_run(at.editor)
     assert other is not None
     place = next(each for each in at.screen.roll.layout.places if each.column.name == "left")
     right = place.left + place.width - 1

@@ -24,7 +24,7 @@ from ninja_game.sim.inputs import Input
 from ninja_game.sim.kinds import EXIT
 from ninja_game.tas.goals import IMPROVE, PRESETS
 from ninja_game.tas_editor import span_pieces, span_results
-from ninja_game.tas_editor.roll.facts import BEFORE, compared, different_keys
+from ninja_game.tas_editor.roll.facts import BEFORE, compared_run, different_keys
 from ninja_game.tas_editor.span_results import COMPILING_SEARCHES, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults
 from ninja_game.tas_editor.tabs import search_tab as module
 from ninja_game.tas_editor.tabs.search_tab import SearchTab
@@ -321,7 +321,7 @@ def test_the_change_is_marked_while_the_mouse_rests_on_the_result_that_was_taken
     row(at, tab, 0)
     at.frames(2)
     assert tab.list.over == 0
-    other = compared(at.editor)
+    other = compared_run(at.editor)
     assert other is not None
     assert (at.editor.preview, other.number) == (None, BEFORE)
     assert different_keys(at.editor.track.inputs, other.track.inputs)[100:130].any()
