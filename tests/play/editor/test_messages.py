@@ -11,7 +11,7 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
-from ninja_game.editor.certify import place_before, search_of
+from ninja_game.editor.certify import lead_in, place_before, search_of
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.formats.ascii.reader import parse_ascii_level
@@ -32,6 +32,7 @@ from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import EXIT, GOLD, MINE
 from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.text_entry import TextArea, TextEntry
@@ -353,8 +354,27 @@ def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room:
     wide, high = (18 * 24 + 12.0, 18 * 24 + 12.0), (19 * 24 + 12.0, 17 * 24 + 12.0)
     assert place_before(draft, wide, (7, 1)) == (14 * 24 + 12.0, 18 * 24 + 12.0), "outside its frame"
     assert place_before(draft, high, (1, 7)) == (18 * 24 + 12.0, 17 * 24 + 12.0), "beside its frame"
+    shaft = put(Draft(DOORS), Stamp(dict.fromkeys([(column, row) for column in (6, 8) for row in range(12, 24)], 1)))
+    floor = put(shaft, Stamp({(7, 16): 1}))
+    assert place_before(floor, (7 * 24 + 12.0, 14 * 24 + 12.0)) == (7 * 24 + 12.0, 15 * 24 + 12.0), "between walls"
     tight = put(draft, Stamp({}, (ObjectSpec(MINE, (5 * 24 + 12.0, 540.0)),)))
     assert place_before(tight, (8 * 24 + 12.0, 540.0)) == (6 * 24 + 12.0, 540.0), "nearer, without room"
+
+
+def test_a_test_in_a_known_run_begins_a_second_before_in_the_air_if_it_last_stood_long_before() -> None:
+    level = parse_ascii_level(
+        "\n".join(["ninja-game level 1", "|@" + "." * 30 + "|", *["|" + "." * 31 + "|"] * 22])
+    ).level
+    run, slides = Simulation(level), bytes([1]) * 600
+    run.step_keys(1)
+    while run.ninja.in_air:
+        run.step_keys(1)
+    landed = run.tick
+    assert landed > 4 * TICKS_PER_SECOND, "down the wall"
+    assert len(lead_in(level, slides, landed)) == landed - TICKS_PER_SECOND
+    assert not lead_in(level, slides, 3 * TICKS_PER_SECOND), "the start is near"
+    jumps = bytes([1]) * landed + with_press_bits(bytes([4]) * 20) + bytes(90)
+    assert len(lead_in(level, jumps, landed + TICKS_PER_SECOND + 15)) == landed + 1, "where it stood"
 
 
 def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Maker) -> None:
