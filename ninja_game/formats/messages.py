@@ -15,11 +15,12 @@ MAX_MESSAGES, MAX_LETTERS = 8, 120
 SIZE = 5, 5  # columns and rows of the frame around the cell of a text with a place, unless it has a size of its own
 ANY: Cell = 0, 0  # the cell of a text that is about none
 BAR = "|"  # separates two texts
+_BREAK = r"\n"  # begins a new line of a text, in a file
 
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 """Actions whose key a text may name: {jump} becomes the player's key or button."""
 
-TARGETS = ("switch", "exit")  # objects that a text may name in the same way: an arrow points to each of them
+TARGETS = ("switch", "exit")  # objects that a text may name in the same way: arrows lead to them while it is shown
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _COUNTED = re.compile(r"death ([1-9][0-9]?)|after ([1-9][0-9]?) s")
@@ -79,14 +80,22 @@ def unknown_words(text: str) -> list[str]:
 
 
 def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
-    """The targets of arrows in a level with these texts: both TARGETS if any text names one, else none.
-
-    Both, since a newcomer who reads only about the exit would look for its switch.
+    """Those of TARGETS that these texts name.
 
     >>> arrow_targets(["Go", "Now the {exit} is open"]), arrow_targets(["Go"])
-    (('switch', 'exit'), ())
+    (['exit'], [])
     """
-    return TARGETS if any(name in TARGETS for text in texts for name in _KEY.findall(text)) else ()
+    named = {name for text in texts for name in _KEY.findall(text)}
+    return [target for target in TARGETS if target in named]
+
+
+def in_a_header(text: str) -> str:
+    r"""How a file writes a text: in one line.
+
+    >>> in_a_header("Run,\nthen jump")
+    'Run,\\nthen jump'
+    """
+    return _BREAK.join(line.strip() for line in text.strip().split("\n"))
 
 
 def messages_at(says: str, cell: tuple[int, int]) -> list[LevelMessage]:

@@ -81,8 +81,7 @@ _DETAILS = {
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
-    f"{' or '.join(f'{{{thing}}}' for thing in TARGETS)} in any message: from the start on arrows point at both,",
-    "at an exit alone once it is open.",
+    f"{' and '.join(f'{{{thing}}}' for thing in TARGETS)} have an arrow while their message is shown.",
 )
 
 DETAIL, TIME, _TEXT = 1, -2, -1
@@ -500,7 +499,7 @@ class MessagesScreen(MenuScreen):
             named = at == (message and self._eye(message))
             stage.hud.theme.canvas.circle(picture, palette.accent, at, 13, 3 if named else 1)
         foot = draft.name, f"gold 0 / {draft.level.gold}"
-        labels = named_in(stage.world, arrow_targets(texts)) if stage.world else ()
+        labels = named_in(stage.world, arrow_targets([message.text])) if stage.world and message else ()
         stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, message=placed, named=labels))
         surface.blit(picture, place)
         for number, other in enumerate(self.messages, 1):

@@ -62,17 +62,15 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 class MessageQueue:
     """The texts of one level. Each event's text is shown once; those of the start at each start until the exit is open.
 
-    Texts of one moment follow each other. A new one interrupts those of the start, which go on afterwards; any other
-    stays for its ``read_ticks``, and what happens meanwhile waits in order. A place and a time are waited for by their
+    Texts of one moment follow each other. A new one ends those of the start; any other stays for its ``read_ticks``,
+    and what happens meanwhile waits in order, before what waits for a place. A place and a time are waited for by their
     own condition: one that the ninja has left by then comes at its next visit. ``tiles``: they hide a place from
     the ninja; None: only full ones and doors do. ``text``: the present text or "", ``place``: its place, px; it ends
-    when the ninja is far from there. ``helps``: the game gives advice too: to try again, to climb. ``named``: the
-    things with a name and an arrow (``arrow_targets``).
+    when the ninja is far from there. ``helps``: the game gives advice too: to try again, to climb.
     """
 
     def __init__(self, messages: Sequence[LevelMessage], tiles: TileMap | None = None, *, helps: bool = False) -> None:
         self._messages, self._map = messages, tiles or TileMap()
-        self.named = arrow_targets(message.text for message in messages)
         self.helps = helps
         self._again = helps
         self._shown: set[LevelMessage] = set()
@@ -97,21 +95,19 @@ class MessageQueue:
         self._unread = read_ticks(self.text)
 
     def _say_soon(self, *texts: _Text) -> None:
-        """Show these texts next: at once if the present one has been read or belongs to the start.
-
-        Once the exit is open, none of the start without a time of its own.
-        """
-        over = {message.text for message in self._shown if message.when == "start" and not message.seconds}
-        over.update(text for text, *_ in texts)
-        lines = [(self.text, self._left, self.message), *self._next]
-        goes_on = [line for line in lines if self._belongs_to_start(line[0]) and line[0] not in over]
+        """Show these texts next: at once if the present one has been read or belongs to the start. Drop the start's."""
         waiting = [line for line in self._next if not self._belongs_to_start(line[0])]
         if self.is_unread:
             self._left = min(self._left, self._unread)
             hurried = [(text, min(ticks, read_ticks(text)), about) for text, ticks, about in waiting]
-            self._next = [*hurried, *texts, *goes_on]
+            self._next = sorted([*hurried, *texts], key=lambda line: line[2] is not None and line[2].when == "at")
         else:
-            self._say(*texts, *waiting, *goes_on)
+            self._say(*texts, *waiting)
+
+    @property
+    def named(self) -> Sequence[str]:
+        """The things that the present text names, each with an arrow (``arrow_targets``)."""
+        return arrow_targets([self.text])
 
     @property
     def place(self) -> Point | None:
@@ -158,7 +154,7 @@ class MessageQueue:
         if any(event.kind == EXIT_OPENED for event in events):
             # The player has understood the goal: do not repeat the text of the start.
             self._shown.update(message for message in self._messages if message.when == "start")
-        free = not self.is_unread
+        free = not (self.is_unread or happened - self._shown)
         new = [
             message
             for message in self._messages

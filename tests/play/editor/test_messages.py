@@ -777,6 +777,12 @@ def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Mak
     assert "text 'switch'" in shown
     assert "text 'exit'" in shown
     assert len(painted) == 1
+    screen.messages.append(Message("start", "", "Now the {exit}"))
+    screen._select(1)
+    shown = drawn(room.app)
+    assert "text 'switch'" not in shown, "only what the selected one names"
+    assert "text 'exit'" in shown
+    screen._select(0)
     screen.messages[0].when = "switch"
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "the exit is open by then"

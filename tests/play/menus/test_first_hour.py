@@ -68,7 +68,7 @@ def test_first_level_says_its_goal_with_the_keys_of_whoever_plays(driver: MenuDr
     assert said(level) == ""
 
 
-def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) -> None:
+def test_what_a_text_names_is_pointed_at_while_it_is_shown_and_until_it_is_done(driver: MenuDriver) -> None:
     level = driver.open_level()
     objects = level.attempt.simulation.world.objects
     places = {name: (x, y) for name, x, y in hud_view(level.play).named}
@@ -81,8 +81,10 @@ def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) ->
     door = next(o for o in objects[1:] if o.kind == EXIT)
     door.is_open = True
     level.begin()
-    level.play.messages.text = ""
-    assert [name for name, _, _ in hud_view(level.play).named] == ["exit"], "until it is used, however long that takes"
+    assert [name for name, _, _ in hud_view(level.play).named] == ["exit"]
+    door.is_open = False
+    for level.play.messages.text, names in (("Gold", []), ("The {exit} is above", ["exit"])):
+        assert [name for name, _, _ in hud_view(level.play).named] == names, "a hidden switch stays hidden"
     ninja = level.attempt.simulation.world.ninja
     ninja.x, ninja.y = door.x, door.y - 30
     assert not hud_view(level.play).named, "never over the ninja"
@@ -178,7 +180,7 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
     assert messages.text == "wait"
 
 
-def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() -> None:
+def test_what_interrupts_a_text_of_the_start_ends_it_till_the_next_start() -> None:
     messages = MessageQueue(parse_messages("start: go | gold: gold"))
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
     seen = []
@@ -186,8 +188,9 @@ def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() 
         simulation.step_keys(2 if tick < 8 else 0)
         if messages.on_tick(simulation.world):
             seen.append((tick, messages.text))
-    assert [text for _, text in seen] == ["gold", "go", ""]
-    assert seen[-1][0] == START_TICKS + SHOWN_TICKS - 1, "in all as long as without the other text"
+    assert [text for _, text in seen] == ["gold", ""]
+    messages.at_start()
+    assert messages.text == "go"
     messages = MessageQueue(parse_messages("start: go | death 1: again"))
     messages.on_death()
     messages.at_start()
