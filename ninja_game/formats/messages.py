@@ -11,7 +11,7 @@ from ninja_game.sim.grid import Cell, cell_at, cell_index, is_inside, middle_of
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
-MAX_MESSAGES, MAX_LETTERS = 8, 120
+MAX_MESSAGES, MAX_LETTERS, MAX_MESSAGE_LINES = 8, 120, 3
 SIZE = 5, 5  # columns and rows of the frame around the cell of a text with a place, unless it has a size of its own
 ANY: Cell = 0, 0  # the cell of a text that is about none
 BAR = "|"  # separates two texts
@@ -36,6 +36,7 @@ _WHEN = (
 class LevelMessage(NamedTuple):
     """``when``: a name of _EVENTS, "death", "after" or "at". ``number``: after how many deaths, or seconds of a try.
 
+    ``text``: up to MAX_MESSAGE_LINES lines.
     ``cell``: column and row of "at", or of the one switch or gold. ``seconds``: how long it is shown; 0: the usual
     time. ``size``: of its frame, in cells.
     """
@@ -46,6 +47,10 @@ class LevelMessage(NamedTuple):
     cell: Cell = ANY
     seconds: int = 0
     size: tuple[int, int] = SIZE
+
+    @property
+    def one_line(self) -> str:
+        return self.text.replace("\n", " ")
 
     @property
     def place(self) -> tuple[float, float] | None:
@@ -117,11 +122,15 @@ def with_message_moved(says: str, number: int, cell: tuple[int, int]) -> str:
 
 def _read(part: str) -> LevelMessage:
     when, colon, text = (piece.strip() for piece in part.partition(":"))
+    lines = text.split(_BREAK)
+    text = "\n".join(stripped for line in lines if (stripped := line.strip()))
     found = repr(part.strip()[:40])
     if not colon or not text:
         raise LevelError("not a text in 'says'", found=found, expected="WHEN: text", hint=f"WHEN is {_WHEN}")
-    if len(text) > MAX_LETTERS or not text.isprintable():
+    if len(text) > MAX_LETTERS or not "".join(lines).isprintable():
         raise LevelError("a text in 'says'", found=found, expected=f"at most {MAX_LETTERS} printable letters")
+    if len(lines) > MAX_MESSAGE_LINES:
+        raise LevelError("too many lines in a text in 'says'", found=found, expected=f"at most {MAX_MESSAGE_LINES}")
     for name in unknown_words(text):
         raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + TARGETS))
     timed = _TIME.fullmatch(when)

@@ -252,7 +252,7 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
             yield level_finding("unseen-message", cells=cells, text=message.text, why=f"there is no {lacks}{where}")
         elif message.place and not ground.comes_near(*message.place, message.reach):
             why = "the ninja never comes near its place"
-            yield level_finding("unseen-message", cells=(message.cell,), text=message.text, why=why)
+            yield level_finding("unseen-message", cells=(message.cell,), text=message.one_line, why=why)
 
 
 def _odd_tiles(level: Level) -> Iterator[Finding]:

@@ -17,11 +17,13 @@ from ninja_game.formats.messages import (
     BAR,
     KEYS,
     MAX_LETTERS,
+    MAX_MESSAGE_LINES,
     MAX_MESSAGES,
     SIZE,
     TARGETS,
     LevelMessage,
     arrow_targets,
+    in_a_header,
     named_keys,
     parse_messages,
     unknown_words,
@@ -114,7 +116,7 @@ class Message:
 
     @property
     def source(self) -> str:
-        return f"{self.moment}{f' for {self.seconds} s' if self.seconds else ''}: {self.text.strip()}"
+        return f"{self.moment}{f' for {self.seconds} s' if self.seconds else ''}: {in_a_header(self.text)}"
 
     @property
     def problem(self) -> tuple[int, str]:
@@ -260,11 +262,14 @@ class MessagesScreen(MenuScreen):
 
     def _row(self, number: int) -> list[Widget]:
         message, y = self.messages[number], _TOP + _ROW * (number % SHOWN)
-        text = TextArea((36, y + 31, _WIDE, 60), "What is said", message.text, lambda _: None, longest=MAX_LETTERS)
+        area, new_line = (36, y + 31, _WIDE, 60), f"Shift+Enter begins a new line: {MAX_MESSAGE_LINES} at most"
+        text = TextArea(
+            area, "What is said", message.text, lambda _: None, longest=MAX_LETTERS, most_lines=MAX_MESSAGE_LINES
+        )
 
         def put(typed: str) -> None:
             message.text = typed
-            about_keys = "{jump} becomes the key or button of whoever plays" if "{" in typed else ""
+            about_keys = "{jump} becomes the key or button of whoever plays" if "{" in typed else new_line
             text.hint = message.problem[1] if message.unknown else about_keys
 
         put(message.text)

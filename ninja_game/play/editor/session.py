@@ -102,7 +102,9 @@ def _late_messages(level: Level, says: str, way: bytes) -> Iterator[Finding]:
     for line, moment in zip(lines, heard(lines, level, way) if way else [], strict=False):
         of, timed = (line.when, line.number, line.cell), line.when not in {"start", "death"}
         if moment and timed and of not in begun and (why := late_text(moment)):
-            yield level_finding("late-message", cells=(cell_of(*(line.place or moment.spot)),), text=line.text, why=why)
+            yield level_finding(
+                "late-message", cells=(cell_of(*(line.place or moment.spot)),), text=line.one_line, why=why
+            )
         begun.add(of)
 
 

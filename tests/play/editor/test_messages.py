@@ -503,7 +503,7 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
     screen = opened(room)
     room.frames()
     start = shown[-1]
-    assert not screen._row_widgets[0][-1].hint, "no braces in it"
+    assert screen._row_widgets[0][-1].hint == "Shift+Enter begins a new line: 3 at most", "no braces in it"
     field = screen._row_widgets[1][-1]
     room.mouse(*field.centre)
     assert isinstance(field, TextEntry)

@@ -720,7 +720,7 @@ def test_help_with_walls_is_gone_once_the_climb_is_done() -> None:
 def test_keys_of_the_help_bear_the_letters_that_its_words_name(driver: MenuDriver) -> None:
     level = driver.open_level()
     level.begin()
-    level.play.messages.text = CLIMB % ("{right}", "{left}")
+    level.play.messages.text, level.play.messages.message = CLIMB % ("{right}", "{left}"), None
     view = hud_view(level.play)
     assert view.letters[1] == driver.app.controls.name("jump") == "Z"
     log = DrawLog()
