@@ -23,18 +23,19 @@ KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 TARGETS = ("switch", "exit")  # objects that a text may name in the same way: arrows lead to them while it is shown
 
 _KEY = re.compile(r"\{([^{}]*)\}")
-_COUNTED = re.compile(r"death ([1-9][0-9]?)|after ([1-9][0-9]?) s")
+_COUNTED = re.compile(r"(?:death|gold) ([1-9][0-9]?)|after ([1-9][0-9]?) s")
 _PLACE = re.compile(r"(at|switch|gold|lock|trap) ([0-9]{1,2}),([0-9]{1,2})(?: ([1-9][0-9]?)x([1-9][0-9]?))?")
 _TIME = re.compile(r"(.*) for ([1-9][0-9]?) s")
-_EVENTS = ("start", "switch", "gold", "lock", "trap")
+ALL_GOLD = "all gold"
+_EVENTS = ("start", "switch", "gold", ALL_GOLD, "lock", "trap")
 _WHEN = (
-    f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'death 3', 'after 20 s', 'at 12,5' or 'at 12,5 3x3',"
+    f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'gold 3', 'death 3', 'after 20 s', 'at 12,5' or 'at 12,5 3x3',"
     " then perhaps 'for 9 s'"
 )
 
 
 class LevelMessage(NamedTuple):
-    """``when``: a name of _EVENTS, "death", "after" or "at". ``number``: after how many deaths, or seconds of a try.
+    """``when``: a name of _EVENTS, "death", "after" or "at". ``number``: of deaths, of pieces of gold, or of seconds.
 
     ``text``: up to MAX_MESSAGE_LINES lines.
     ``cell``: column and row of "at", or of the one switch or gold. ``seconds``: how long it is shown; 0: the usual

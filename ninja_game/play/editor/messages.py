@@ -13,6 +13,7 @@ import pygame
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
+    ALL_GOLD,
     ANY,
     BAR,
     KEYS,
@@ -63,6 +64,7 @@ _WHEN = {
     "start": ("At the start", "At each start, until the exit is open"),
     "switch": ("Exit opens", "Once, when the ninja opens the exit"),
     "gold": ("Gold is taken", "Once, when the ninja takes the first gold"),
+    ALL_GOLD: ("All gold taken", "Once, when the ninja has taken the last gold"),
     "death": ("After deaths", "At the start, after so many deaths"),
     "lock": ("A door unlocks", "Once, when a locked door opens"),
     "trap": ("A trap closes", "Once, when a trap door closes"),
@@ -74,7 +76,8 @@ _WHEN = {
 _ONE = "Which one: column and row of the gold or switch, or a click on it in the picture; empty: the first of any"
 
 _DETAILS = {
-    **dict.fromkeys(("switch", "gold", "lock", "trap"), ("any", _ONE)),
+    **dict.fromkeys(("switch", "lock", "trap"), ("any", _ONE)),
+    "gold": ("any", f"{_ONE}; 3: after so many"),
     "death": ("deaths", "How many deaths: a number from 1 to 99"),
     "after": ("seconds", "How many seconds: a number from 1 to 99"),
     "at": ("12,5", "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's: 12,5 or 12,5 3x3"),

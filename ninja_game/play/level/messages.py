@@ -7,10 +7,11 @@ from functools import lru_cache
 from math import hypot
 from typing import NamedTuple
 
-from ninja_game.formats.messages import LevelMessage, arrow_targets
+from ninja_game.formats.messages import ALL_GOLD, LevelMessage, arrow_targets
 from ninja_game.sim.collision.rays import sees, solid_at
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.grid import Point
+from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 from ninja_game.sim.schema.world_fields import Event, TileMap, World
@@ -150,7 +151,7 @@ class MessageQueue:
         if self._left <= 0:
             self._say(*self._next)
         events = world.events[: world.event_count]
-        happened = {message for e in events for message in self._messages if _is_of(message, e)}
+        happened = {message for e in events for message in self._messages if _is_of(message, e, world)}
         if any(event.kind == EXIT_OPENED for event in events):
             # The player has understood the goal: do not repeat the text of the start.
             self._shown.update(message for message in self._messages if message.when == "start")
@@ -270,8 +271,11 @@ def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
     ]
 
 
-def _is_of(message: LevelMessage, event: Event) -> bool:
-    return _WHEN.get(event.kind) == message.when and message.is_about(event.x, event.y)
+def _is_of(message: LevelMessage, event: Event, world: World) -> bool:
+    if event.kind == GOLD_TAKEN and message.when == ALL_GOLD:
+        return all(o.kind != GOLD or o.taken for o in world.objects[1:])
+    is_moment = _WHEN.get(event.kind) == message.when and message.is_about(event.x, event.y)
+    return is_moment and not (message.when == "gold" and world.gold < message.number)
 
 
 def _is_due(world: World, message: LevelMessage) -> bool:

@@ -811,6 +811,61 @@ def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(maker: Make
     assert maker.shown(TryScreen).mood == Mood(1, 0), "and so has a test"
 
 
+def test_shift_and_enter_begin_a_new_line_in_the_field_the_file_and_the_level(room: Maker) -> None:
+    screen = opened(room)
+    room.choose("Add")
+    for line in ("Run", "jump", "and see"):
+        room.type(line)
+        room.chord("return", pygame.KMOD_LSHIFT)
+    assert room.top() is screen
+    assert screen.messages[0].text == "Run\njump\nand see", "three lines are the most"
+    field = screen._row_widgets[0][_TEXT]
+    assert isinstance(field, TextArea)
+    shown = drawn(room.app)
+    for line in ("Run", "jump", "and see"):
+        assert shown.count(f"text '{line}'") == 2, "in its field and in the level"
+    room.press("up")
+    room.type("z")
+    room.mouse(field.area[0] + 200, field.area[1] + 8)
+    assert field.edited.cursor == 3, "a click behind a line leads to its end"
+    room.press("return")
+    assert room.draft.says == r"start: Run\njumpz\nand see"
+    assert [message.text for message in opened(room).messages] == ["Run\njumpz\nand see"]
+
+
+def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
+    screen = opened(room)
+    room.choose("Add")
+    room.type("Run")
+    room.chord("return", pygame.KMOD_LSHIFT)
+    drawn(room.app)
+    field = screen._row_widgets[0][_TEXT]
+    assert isinstance(field, TextArea)
+    assert [first for first, _ in field._rows] == [0, 4]
+    assert field._cursor_row == 1
+    room.press("up")
+    assert field.edited.cursor == 0
+    room.press("return")
+    assert room.draft.says == "start: Run"
+
+
+def test_gold_is_counted_and_all_of_it_has_a_moment_of_its_own(room: Maker) -> None:
+    room.editor.session.tools.history.change(put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
+    screen = opened(room)
+    room.choose("Add")
+    room.type("Well done")
+    room.choose("At the start...")
+    room.choose("All gold taken")
+    assert screen.source == "all gold: Well done"
+    assert "Never shown" not in drawn(room.app)
+    room.choose("All gold taken...")
+    room.choose("Gold is taken")
+    room.mouse(*screen._row_widgets[0][1].centre)
+    room.type("3")
+    assert screen.source == "gold 3: Well done"
+    assert "text 'Never shown: the level has 1 piece of gold'" in drawn(room.app)
+
+
 def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
     screen = opened(room)
     for when, never in (("lock", True), ("start", False), ("gold", True)):

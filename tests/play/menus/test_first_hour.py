@@ -256,16 +256,27 @@ def test_what_a_death_kept_from_being_said_is_said_when_it_happens_again() -> No
     assert told.text == "two"
 
 
-def test_text_of_the_start_with_a_time_of_its_own_keeps_it_after_the_exit_has_opened() -> None:
-    simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,700,564"))
-    simulation.world.events[0].kind = EXIT_OPENED
-    for own, shown in (("", ["open", ""]), (" for 20 s", ["open", "go", ""])):
-        messages = MessageQueue(parse_messages(f"start{own}: go | switch: open"))
-        told = []
-        for tick in range(START_TICKS + 20 * TICKS_PER_SECOND + 1):
-            simulation.world.event_count = int(tick == 0)
-            told += [messages.text] if messages.on_tick(simulation.world) else []
-        assert told == shown
+def test_what_happens_comes_before_what_waits_for_a_place() -> None:
+    told = MessageQueue(parse_messages("at 3,22: One | at 3,22: Two | gold: Gold | trap: Shut"))
+    world = Simulation(room_level(["#@..#"], ())).world
+    world.ninja.x, world.ninja.y = 84.0, 540.0
+    seen = []
+    for tick in range(5 * SHOWN_TICKS):
+        world.event_count, world.events[0].kind = int(tick in (0, 150)), TRAP_CLOSED if tick else GOLD_TAKEN
+        seen += [(tick, told.text)] if told.on_tick(world) else []
+    need = read_ticks("Gold")
+    assert [text for _, text in seen] == ["Gold", "One", "Shut", "Two", ""], "at once, and then once it was read"
+    assert [tick for tick, _ in seen[:3]] == [0, need, 2 * need]
+
+
+def test_all_gold_and_a_number_of_gold_have_their_moments() -> None:
+    level = parse_level_string("0" * 713 + "|5^100,566!0^200,566!0^300,566!0^400,566!11^700,64,700,264")
+    run, came = Simulation(level), dict[str, int]()
+    queues = [MessageQueue([message]) for message in parse_messages("all gold: All | gold 2: Two | gold: One")]
+    for _ in range(200):
+        run.step_keys(2)
+        came |= {queue.text: run.world.gold for queue in queues if queue.on_tick(run.world)}
+    assert came == {"One": 1, "Two": 2, "All": 3}
 
 
 def test_text_comes_after_its_seconds_once_and_stays_as_long_as_it_says() -> None:
