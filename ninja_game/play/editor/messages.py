@@ -184,7 +184,7 @@ class MessagesScreen(MenuScreen):
     """``here``: the default cell of a new message near a place. ``put``: gets the new value of the header.
 
     ``test``: plays the level with such a value from just before a message, by its number and its place, if known.
-    ``at``: the cell of the message that gets the focus. ``mood``: in which the level is played. ``way``: gives the
+    ``at``: the number of the message that gets the focus. ``mood``: in which the level is played. ``way``: gives the
     inputs of its author's run, if any.
     """
 
@@ -200,7 +200,7 @@ class MessagesScreen(MenuScreen):
         test: Callable[[int, Point | None, str], object],
         mood: Mood,
         way: Callable[[], bytes],
-        at: Cell | None = None,
+        at: int | None = None,
     ) -> None:
         super().__init__(app)
         self.messages = messages_of(draft.says)
@@ -211,7 +211,7 @@ class MessagesScreen(MenuScreen):
         self._ground = Ground(draft.level)
         self._look, self._way = mood, way
         self._before = self.source
-        self._wanted = "{},{}".format(*at) if at else ""
+        self._wanted = at
         self._here, self._put, self._test = here, put, test
         self._row_widgets: list[list[Widget]] = []
         self._refused = False
@@ -223,13 +223,9 @@ class MessagesScreen(MenuScreen):
 
     def enter(self) -> None:
         super().enter()
-        place = next(
-            (k for k, row in enumerate(self.messages) if self._wanted and row.detail.split()[:1] == [self._wanted]),
-            None,
-        )
-        if place is not None:
-            self._wanted = ""
-            self._select(place)
+        if (number := self._wanted) is not None:
+            self._wanted = None
+            self._select(number)
 
     def _select(self, number: int, field: int = _TEXT) -> None:
         """Show the row of a message, with the focus on a field of it."""

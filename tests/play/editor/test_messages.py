@@ -256,14 +256,16 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     room.mouse(*in_picture(0, 4))
     room.choose("OK")
     assert room.draft.says == "at 20,4: here"
-    assert said_places(room.draft) == [(24 * 20 + 12, 24 * 4 + 12)]
+    assert list(said_places(room.draft)) == [(24 * 20 + 12, 24 * 4 + 12)]
     both = replace(room.draft, says=f"{room.draft.says} | start: Go")
-    assert said_places(both) == [(24 * 20 + 12, 24 * 4 + 12), (76.0, 524.0)], "beside the ninja"
+    assert list(said_places(both)) == [(24 * 20 + 12, 24 * 4 + 12), (76.0, 524.0)], "beside the ninja"
     of_things = replace(
         put(both, Stamp({}, (ObjectSpec(GOLD, (60.0, 84.0)),))), says="gold: a | gold: b | switch: c | after 9 s: d"
     )
     switch = next(spec.values[2:] for spec in both.objects if spec.kind == EXIT)
-    assert said_places(of_things) == [(76.0, 66.0), (switch[0] + 16, switch[1] - 18)], "and beside gold and switch"
+    assert list(said_places(of_things)) == [(76.0, 66.0), (switch[0] + 16, switch[1] - 18)], (
+        "and beside gold and switch"
+    )
     room.frames()
     assert ("said", (492.0, 108.0)) in room.editor.view.sheet.marks
     tools.history.change(put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
@@ -469,6 +471,20 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
     assert room.draft == before
 
 
+def test_two_clicks_on_the_bubble_beside_the_ninja_open_its_message(room: Maker) -> None:
+    room.editor.session.tools.history.change(replace(room.draft, says="at 9,9: Here | switch: On | start: Go"))
+    room.frames()
+    (bubble,) = (at for at, number in said_places(room.draft).items() if number == 2)
+    before = room.draft
+    room.mouse(*room.at(*bubble), click=False)
+    assert "Double click opens the message: Go'" in drawn(room.app)
+    room.drag(bubble)
+    room.drag(bubble)
+    screen = room.shown(MessagesScreen)
+    assert screen.focus is screen._row_widgets[2][_TEXT]
+    assert room.draft == before
+
+
 def test_the_text_of_the_start_stays_in_its_place_while_it_is_shown() -> None:
     told = MessageQueue(parse_messages("start: Go"))
     assert told.is_start
@@ -617,7 +633,7 @@ def test_a_click_in_the_picture_names_the_one_door_that_is_meant(doors: Maker) -
     assert screen.source == "lock 11,22: One | gold 18,22: Two | start: Go"
     doors.choose("OK")
     assert doors.draft.says == screen.source
-    assert said_places(doors.draft) == [(11 * 24 + 28, 522.0), (18 * 24 + 28, 522.0), (100.0, 522.0)]
+    assert list(said_places(doors.draft)) == [(11 * 24 + 28, 522.0), (18 * 24 + 28, 522.0), (100.0, 522.0)]
     run = Simulation(doors.draft.level)
     queue, heard_at = MessageQueue(parse_messages("lock 11,22: One | gold 18,22: Two")), dict[str, int]()
     for tick, keys in enumerate(RIGHT):
