@@ -392,28 +392,42 @@ def with_ninja_at(draft: Draft, place: tuple[float, float]) -> Level:
 
 
 def lead_in(level: Level, inputs: bytes, tick: int) -> bytes:
-    """The part of a run with which a test of a tick begins: to where it last stood, at least a second before."""
-    run, stood = Simulation(level), 0
+    """The part of a run with which a test of a tick begins.
+
+    It ends a second before, or where the ninja last stood if that is at most two seconds earlier.
+    """
+    run, stood, alive = Simulation(level), 0, 0
     for number, keys in enumerate(inputs[: max(0, tick - TICKS)], 1):
         run.step_keys(keys)
-        stood = number if run.outcome == "running" and not run.ninja.in_air else stood
-    return inputs[:stood]
+        if run.outcome == "running":
+            stood, alive = stood if run.ninja.in_air else number, number
+    return inputs[: stood if alive - stood <= 2 * TICKS else alive]
 
 
 def place_before(draft: Draft, place: tuple[float, float], size: Cell = SIZE) -> tuple[float, float] | None:
     """Where a test of what is said near a place begins, px; None: at the level's start.
 
     It is a cell beside the frame, nearer without room for that, with a floor and on the side of the start rather than
-    without. A ninja that presses nothing lives there. ``size``: of the frame around the place, in cells.
+    without; between walls it is below or above. A ninja that presses nothing lives there. ``size``: of the frame around
+    the place, in cells.
     """
     column, row = cell_of(*place)
     start = next(iter(route_of(draft.level, bytes(1))), place)
     across, down = ((side / 2 + 1) * CELL for side in size)
     if abs(start[0] - place[0]) <= across and abs(start[1] - place[1]) <= down and start != place:
         return None
-    sides, far = (1, -1) if start > place else (-1, 1), range(size[0] // 2 + 1, 0, -1)
-    strips = [[(column + side * k, row) for k in range(1, last + 1)] for last in far for side in sides]
-    for strip in sorted(strips, key=lambda s: (-len(s), -sum(draft.tile((x, row + 1)) != EMPTY for x, _ in s))):
+    side = 1 if start > place else -1
+    strips = [
+        [(column + dx * k, row + dy * k) for k in range(1, last + 1)]
+        for dx, dy in ((side, 0), (-side, 0), (0, 1), (0, -1))
+        for last in range(size[dy != 0] // 2 + 1, 0, -1)
+    ]
+
+    def rank(strip: list[Cell]) -> tuple[bool, int, int]:
+        floor, upright = -sum(draft.tile((x, y + 1)) != EMPTY for x, y in strip), strip[0][0] == column
+        return (upright, floor, -len(strip)) if upright else (upright, -len(strip), floor)
+
+    for strip in sorted(strips, key=rank):
         if all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in strip):
             run = _played(with_ninja_at(draft, at := middle_of(strip[-1])), bytes(TICKS))
             if run and run.outcome != "dead":

@@ -11,30 +11,33 @@ from ninja_game.sim.grid import Cell, cell_at, cell_index, is_inside, middle_of
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
-MAX_MESSAGES, MAX_LETTERS = 8, 120
+MAX_MESSAGES, MAX_LETTERS, MAX_MESSAGE_LINES = 8, 120, 3
 SIZE = 5, 5  # columns and rows of the frame around the cell of a message with a place, unless it has a size of its own
 ANY: Cell = 0, 0  # the cell of a message that is about none
 BAR = "|"  # separates two messages
+_BREAK = r"\n"  # begins a new line of a text, in a file
 
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 """Actions whose key a message may name: {jump} becomes the player's key or button."""
 
-TARGETS = ("switch", "exit")  # objects that a message may name in the same way: an arrow points to each of them
+TARGETS = ("switch", "exit")  # objects that a message may name in the same way: arrows lead to them while it is shown
 
 _KEY = re.compile(r"\{([^{}]*)\}")
-_COUNTED = re.compile(r"death ([1-9][0-9]?)|after ([1-9][0-9]?) s")
+_COUNTED = re.compile(r"(?:death|gold) ([1-9][0-9]?)|after ([1-9][0-9]?) s")
 _PLACE = re.compile(r"(at|switch|gold|lock|trap) ([0-9]{1,2}),([0-9]{1,2})(?: ([1-9][0-9]?)x([1-9][0-9]?))?")
 _TIME = re.compile(r"(.*) for ([1-9][0-9]?) s")
-_EVENTS = ("start", "switch", "gold", "lock", "trap")
+ALL_GOLD = "all gold"
+_EVENTS = ("start", "switch", "gold", ALL_GOLD, "lock", "trap")
 _WHEN = (
-    f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'death 3', 'after 20 s', 'at 12,5' or 'at 12,5 3x3',"
+    f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'gold 3', 'death 3', 'after 20 s', 'at 12,5' or 'at 12,5 3x3',"
     " then perhaps 'for 9 s'"
 )
 
 
 class LevelMessage(NamedTuple):
-    """``when``: a name of _EVENTS, "death", "after" or "at". ``number``: after how many deaths, or seconds of a try.
+    """``when``: a name of _EVENTS, "death", "after" or "at". ``number``: of deaths, of pieces of gold, or of seconds.
 
+    ``text``: up to MAX_MESSAGE_LINES lines.
     ``cell``: column and row of "at", or of the one switch or gold. ``seconds``: how long it is shown; 0: the usual
     time. ``size``: of its frame, in cells.
     """
@@ -45,6 +48,10 @@ class LevelMessage(NamedTuple):
     cell: Cell = ANY
     seconds: int = 0
     size: tuple[int, int] = SIZE
+
+    @property
+    def one_line(self) -> str:
+        return self.text.replace("\n", " ")
 
     @property
     def place(self) -> tuple[float, float] | None:
@@ -79,14 +86,22 @@ def unknown_words(text: str) -> list[str]:
 
 
 def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
-    """The targets of arrows in a level with these texts: both TARGETS if any text names one, else none.
-
-    Both, since a newcomer who reads only about the exit would look for its switch.
+    """Those of TARGETS that these texts name.
 
     >>> arrow_targets(["Go", "Now the {exit} is open"]), arrow_targets(["Go"])
-    (('switch', 'exit'), ())
+    (['exit'], [])
     """
-    return TARGETS if any(name in TARGETS for text in texts for name in _KEY.findall(text)) else ()
+    named = {name for text in texts for name in _KEY.findall(text)}
+    return [target for target in TARGETS if target in named]
+
+
+def in_a_header(text: str) -> str:
+    r"""How a file writes a text: in one line.
+
+    >>> in_a_header("Run,\nthen jump")
+    'Run,\\nthen jump'
+    """
+    return _BREAK.join(line.strip() for line in text.strip().split("\n"))
 
 
 def messages_at(says: str, cell: tuple[int, int]) -> list[LevelMessage]:
@@ -108,11 +123,15 @@ def with_message_moved(says: str, number: int, cell: tuple[int, int]) -> str:
 
 def _read(part: str) -> LevelMessage:
     when, colon, text = (piece.strip() for piece in part.partition(":"))
+    lines = text.split(_BREAK)
+    text = "\n".join(stripped for line in lines if (stripped := line.strip()))
     found = repr(part.strip()[:40])
     if not colon or not text:
         raise LevelError("not a message in 'says'", found=found, expected="WHEN: text", hint=f"WHEN is {_WHEN}")
-    if len(text) > MAX_LETTERS or not text.isprintable():
+    if len(text) > MAX_LETTERS or not "".join(lines).isprintable():
         raise LevelError("a message in 'says'", found=found, expected=f"at most {MAX_LETTERS} printable letters")
+    if len(lines) > MAX_MESSAGE_LINES:
+        raise LevelError("too many lines in a text in 'says'", found=found, expected=f"at most {MAX_MESSAGE_LINES}")
     for name in unknown_words(text):
         raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + TARGETS))
     timed = _TIME.fullmatch(when)

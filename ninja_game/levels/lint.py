@@ -9,9 +9,10 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import cos, dist, isnan, pi, sin, sqrt
 
+from ninja_game.files.shown_text import counted
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.ascii.writer import best_form
-from ninja_game.formats.messages import ANY, parse_messages
+from ninja_game.formats.messages import ALL_GOLD, ANY, parse_messages
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.sim import kinds, rules
 from ninja_game.sim.arithmetic import is_set
@@ -239,9 +240,10 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
     """Find the messages whose moment never comes. Raises LevelError if they cannot be read."""
     things = [spec for spec in ground.objects if well_formed(spec)]
     doors = {kind: [(o.x, o.y) for o in ground.doors.values() if o.mechanism == kind] for kind in (LOCKED, TRAP)}
+    gold = [spec.values[:2] for spec in things if spec.kind == kinds.GOLD]
     named: dict[str, tuple[str, Sequence[Sequence[float]]]] = {
         "switch": ("exit", [spec.values[2:4] for spec in things if spec.kind == kinds.EXIT]),
-        "gold": ("gold", [spec.values[:2] for spec in things if spec.kind == kinds.GOLD]),
+        "gold": ("gold", gold), ALL_GOLD: ("gold", gold),
         "lock": ("locked door", doors[LOCKED]), "trap": ("trap door", doors[TRAP]),
     }  # fmt: skip
     for message in parse_messages(says):
@@ -249,10 +251,13 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
         if lacks and not any(message.is_about(*place) for place in places):
             cells = (message.cell,) if message.cell != ANY else ()
             where = " with its switch" * (lacks != "gold") + " at {},{}".format(*message.cell) if cells else ""
-            yield level_finding("unseen-message", cells=cells, text=message.text, why=f"there is no {lacks}{where}")
+            yield level_finding("unseen-message", cells=cells, text=message.one_line, why=f"there is no {lacks}{where}")
+        elif message.when == "gold" and message.number > len(gold):
+            why = f"the level has {counted(len(gold), 'piece')} of gold"
+            yield level_finding("unseen-message", text=message.one_line, why=why)
         elif message.place and not ground.comes_near(*message.place, message.reach):
             why = "the ninja never comes near its place"
-            yield level_finding("unseen-message", cells=(message.cell,), text=message.text, why=why)
+            yield level_finding("unseen-message", cells=(message.cell,), text=message.one_line, why=why)
 
 
 def _odd_tiles(level: Level) -> Iterator[Finding]:

@@ -25,7 +25,7 @@ class TextEntry(Widget):
 
     Also Backspace and Delete; Ctrl+A, C, X, V and Z; dragging and double clicks. ``prompt``: shown while it is empty.
     ``put`` is called at every change. ``longest``: most characters. ``proposed``: the text is selected at first, so
-    that typing replaces it.
+    that typing replaces it. ``most_lines``: of a TextArea.
     """
 
     def __init__(
@@ -38,11 +38,12 @@ class TextEntry(Widget):
         longest: int = MAX_ENTRY,
         hint: str = "",
         proposed: bool = False,
+        most_lines: int = 1,
     ) -> None:
         super().__init__(area, hint=hint)
         self.prompt = prompt
         self.put = put
-        self.edited = EditedText(text, longest)
+        self.edited = EditedText(text, longest, most_lines)
         if proposed:
             self.edited.select_all()
         self._first = 0
@@ -56,7 +57,7 @@ class TextEntry(Widget):
         return self.edited.text
 
     def show(self, text: str) -> None:
-        self.edited = EditedText(text, self.edited.longest)
+        self.edited = EditedText(text, self.edited.longest, self.edited.most_lines)
 
     def text_event(self, event: pygame.Event) -> bool:
         if event.type not in (pygame.TEXTINPUT, pygame.KEYDOWN):
@@ -150,7 +151,7 @@ class TextEntry(Widget):
             )
             if begin < end and focused:
                 fill(surface, palette.bar_full, begin - 1, top, end - begin + 2, high)
-            line, colour = (text[first:last], palette.text) if text else (self.prompt, palette.faint)
+            line, colour = (text[first:last].rstrip("\n"), palette.text) if text else (self.prompt, palette.faint)
             wide = None if text else w - 2 * PAD
             theme.text(surface, line, left, top + (high - TEXT) / 2, size=TEXT, colour=colour, width=wide)
             if focused and row == cursor:
@@ -179,7 +180,7 @@ class TextEntry(Widget):
         """The visible part; ``_stops`` gets the places between its characters."""
         self._stops = [left]
         for last in range(self._first + 1, len(self.text) + 1):
-            width = theme.width(self.text[self._first : last], TEXT)
+            width = theme.width(self.text[self._first : last].rstrip("\n"), TEXT)
             if width > room:
                 break
             self._stops.append(left + width)
@@ -187,7 +188,16 @@ class TextEntry(Widget):
 
 
 class TextArea(TextEntry):
-    """A text in as many lines as have room, wrapped at words; up and down move by lines, and at the ends the focus."""
+    """A text in as many lines as have room, wrapped at words; up and down move by lines, and at the ends the focus.
+
+    Shift and Enter begin a new line.
+    """
+
+    def _press(self, event: pygame.Event) -> bool:
+        if chord(event) not in {"shift+return", "shift+kp_enter"}:
+            return super()._press(event)
+        self.edited.put("\n")
+        return True
 
     def nudge(self, action: str) -> bool:
         row = self._cursor_row
@@ -200,18 +210,20 @@ class TextArea(TextEntry):
 
     def _last(self, first: int, stops: list[float]) -> int:
         """The last place of a line: the place behind its space begins the next line."""
-        return max(0, len(stops) - 1 - (first + len(stops) <= len(self.text)))
+        end = first + len(stops) - 1
+        return max(0, len(stops) - 1 - (end < len(self.text) or self.text[first:end].endswith("\n")))
 
     def _place_at(self, x: float) -> int:
         places = range(self._last(self._first, self._stops) + 1)
         return self._first + min(places, key=lambda k: abs(self._stops[k] - x))
 
     def _lay_out(self, theme: Theme, left: float, room: float) -> tuple[float, int]:
-        self._rows, self._first, measured = [], 0, -1
-        while measured < len(self.text):
+        self._rows, self._first = [], 0
+        while self._first < len(self.text) + (self.text[-1:] in ("", "\n")):
             shown = self._measure(theme, left, room)
-            measured = self._first + len(shown)
-            if measured < len(self.text) and " " in shown:
+            if "\n" in shown:
+                self._stops = self._stops[: shown.index("\n") + 2]
+            elif self._first + len(shown) < len(self.text) and " " in shown:
                 self._stops = self._stops[: shown.rindex(" ") + 2]
             self._rows.append((self._first, self._stops))
             self._first += max(1, len(self._stops) - 1)
@@ -220,14 +232,14 @@ class TextArea(TextEntry):
 
 
 class EditedText:
-    """A line of text under edit. ``cursor``: before which character it is; up to ``anchor`` it is selected.
+    """A text under edit. ``cursor``: before which character it is; up to ``anchor`` it is selected.
 
     ``longest``: most characters; ``was_full``: whether the last typed text did not fit.
     """
 
-    def __init__(self, text: str, longest: int) -> None:
+    def __init__(self, text: str, longest: int, most_lines: int = 1) -> None:
         self.text = text
-        self.longest = longest
+        self.longest, self.most_lines = longest, most_lines
         self.cursor = self.anchor = len(text)
         self.was_full = False
         self._past: list[tuple[str, int, int]] = []
@@ -270,10 +282,12 @@ class EditedText:
         self.anchor, self.cursor = first, last
 
     def put(self, typed: str) -> None:
-        """Replace the selection by a text, as much of it as fits; line ends become spaces."""
+        """Replace the selection by a text, as much of it as fits; line ends beyond the most lines become spaces."""
         first, last = self.span
-        line = re.sub(r"[\r\n\t]+", " ", typed.strip("\r\n"))
-        line = "".join(char for char in line if char.isprintable())
+        breaks = self.most_lines - 1 - (self.text[:first] + self.text[last:]).count("\n")
+        lines = re.split(r"[\r\n]+", typed if breaks > 0 else typed.strip("\r\n"))
+        line = " ".join(["\n".join(lines[: breaks + 1]), *lines[breaks + 1 :]]).replace("\t", " ")
+        line = "".join(char for char in line if char == "\n" or char.isprintable())
         room = max(0, self.longest - len(self.text) + last - first)
         self.was_full, line = len(line) > room, line[:room]
         if line != self.selected:

@@ -374,7 +374,9 @@ def _box(theme: Theme, message: PlacedMessage, keys: float) -> Box:
     for rows, width in (
         ((0, 1), (0, 0.6), (0, 0.4), (0, 0.3)) if anchor else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6))
     ):
-        lines = text.split("\n") if keys else wrapped(theme, text, width * _MESSAGE_WIDE, _MESSAGE_SIZE)
+        lines = text.split("\n")
+        if not keys:
+            lines = [part for line in lines for part in wrapped(theme, line, width * _MESSAGE_WIDE, _MESSAGE_SIZE)]
         lines = [theme.fit(line, _MESSAGE_WIDEST - keys, _MESSAGE_SIZE) for line in lines]
         w = min(max(theme.width(line, _MESSAGE_SIZE) for line in lines), _MESSAGE_WIDEST - keys) + 28 + keys
         left, y, covered, hidden = solid_place(

@@ -29,6 +29,10 @@ PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
         ("start for 0 s: jump", "unknown moment"),
         ("start: " + "x" * (MAX_LETTERS + 1), "at most 120 printable letters"),
         ("start: \x07", "printable"),
+        (r"start: a\nb\nc\nd", "too many lines in a text in 'says'; found 'start: a"),
+        (r"start: \n ", "expected WHEN: text"),
+        ("gold 0: a", "unknown moment"),
+        ("gold all: a", "expected start, switch, gold, all gold"),
         (" | ".join(["start: a"] * 9), "too many messages in 'says'; found 9; expected at most 8"),
     ],
 )
@@ -59,7 +63,10 @@ def test_a_moment_may_be_about_one_switch_or_gold_by_its_cell() -> None:
 
 
 def test_each_moment_is_read() -> None:
-    says = "start: a | switch: b | death 12: c | at 31,23 for 9 s: d | after 20 s for 99 s: e"
+    says = (
+        r"start: a | switch: b | death 12: c | at 31,23 for 9 s: d | after 20 s for 99 s: e | gold 3: f \n g"
+        " | all gold for 5 s: h"
+    )
     read = parse_ascii_level(f"ninja-game level 1\nsays: {says}\n{PICTURE}").says
     assert [(each.when, each.text, each.number, each.cell, each.seconds) for each in parse_messages(read)] == [
         ("start", "a", 0, (0, 0), 0),
@@ -67,4 +74,6 @@ def test_each_moment_is_read() -> None:
         ("death", "c", 12, (0, 0), 0),
         ("at", "d", 0, (31, 23), 9),
         ("after", "e", 20, (0, 0), 99),
+        ("gold", "f\ng", 3, (0, 0), 0),
+        ("all gold", "h", 0, (0, 0), 5),
     ]

@@ -443,10 +443,10 @@ class EditorCommands(DocumentCommands):
 
         self.app.push(FormPanel(self.app, "About the level", fields, "OK", on_accept))
 
-    def messages(self, at: Cell | None = None) -> None:
+    def messages(self, at: int | None = None) -> None:
         """Edit the level's messages, beginning with the one at the selection or the pointer.
 
-        ``at``: the cell of the message to begin with.
+        ``at``: the number of the message to begin with.
         """
         tools = self.session.tools
         tools.finish()

@@ -13,15 +13,18 @@ import pygame
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
+    ALL_GOLD,
     ANY,
     BAR,
     KEYS,
     MAX_LETTERS,
+    MAX_MESSAGE_LINES,
     MAX_MESSAGES,
     SIZE,
     TARGETS,
     LevelMessage,
     arrow_targets,
+    in_a_header,
     named_keys,
     parse_messages,
     unknown_words,
@@ -61,6 +64,7 @@ _WHEN = {
     "start": ("At the start", "At each start, until the exit is open"),
     "switch": ("Exit opens", "Once, when the ninja opens the exit"),
     "gold": ("Gold is taken", "Once, when the ninja takes the first gold"),
+    ALL_GOLD: ("All gold taken", "Once, when the ninja has taken the last gold"),
     "death": ("After deaths", "At the start, after so many deaths"),
     "lock": ("A door unlocks", "Once, when a locked door opens"),
     "trap": ("A trap closes", "Once, when a trap door closes"),
@@ -72,7 +76,8 @@ _WHEN = {
 _ONE = "Which one: column and row of the gold or switch, or a click on it in the picture; empty: the first of any"
 
 _DETAILS = {
-    **dict.fromkeys(("switch", "gold", "lock", "trap"), ("any", _ONE)),
+    **dict.fromkeys(("switch", "lock", "trap"), ("any", _ONE)),
+    "gold": ("any", f"{_ONE}; 3: after so many"),
     "death": ("deaths", "How many deaths: a number from 1 to 99"),
     "after": ("seconds", "How many seconds: a number from 1 to 99"),
     "at": ("12,5", "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's: 12,5 or 12,5 3x3"),
@@ -81,8 +86,7 @@ _DETAILS = {
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
-    f"{' or '.join(f'{{{thing}}}' for thing in TARGETS)} in any message: from the start on arrows point at both,",
-    "at an exit alone once it is open.",
+    f"{' and '.join(f'{{{thing}}}' for thing in TARGETS)} have an arrow while their message is shown.",
 )
 
 DETAIL, TIME, _TEXT = 1, -2, -1
@@ -115,7 +119,7 @@ class Message:
 
     @property
     def source(self) -> str:
-        return f"{self.moment}{f' for {self.seconds} s' if self.seconds else ''}: {self.text.strip()}"
+        return f"{self.moment}{f' for {self.seconds} s' if self.seconds else ''}: {in_a_header(self.text)}"
 
     @property
     def problem(self) -> tuple[int, str]:
@@ -180,7 +184,7 @@ class MessagesScreen(MenuScreen):
     """``here``: the default cell of a new message near a place. ``put``: gets the new value of the header.
 
     ``test``: plays the level with such a value from just before a message, by its number and its place, if known.
-    ``at``: the cell of the message that gets the focus. ``mood``: in which the level is played.
+    ``at``: the number of the message that gets the focus. ``mood``: in which the level is played.
     ``certifying_inputs``: gives those of its author's run, if any.
     """
 
@@ -196,7 +200,7 @@ class MessagesScreen(MenuScreen):
         test: Callable[[int, Point | None, str], object],
         mood: Mood,
         certifying_inputs: Callable[[], bytes],
-        at: Cell | None = None,
+        at: int | None = None,
     ) -> None:
         super().__init__(app)
         self.messages = messages_of(draft.says)
@@ -207,7 +211,7 @@ class MessagesScreen(MenuScreen):
         self._ground = Ground(draft.level)
         self._look, self._certifying_inputs = mood, certifying_inputs
         self._before = self.source
-        self._wanted = "{},{}".format(*at) if at else ""
+        self._wanted = at
         self._here, self._put, self._test = here, put, test
         self._row_widgets: list[list[Widget]] = []
         self._refused = False
@@ -219,13 +223,9 @@ class MessagesScreen(MenuScreen):
 
     def enter(self) -> None:
         super().enter()
-        place = next(
-            (k for k, row in enumerate(self.messages) if self._wanted and row.detail.split()[:1] == [self._wanted]),
-            None,
-        )
-        if place is not None:
-            self._wanted = ""
-            self._select(place)
+        if (number := self._wanted) is not None:
+            self._wanted = None
+            self._select(number)
 
     def _select(self, number: int, field: int = _TEXT) -> None:
         """Show the row of a message, with the focus on a field of it."""
@@ -261,11 +261,14 @@ class MessagesScreen(MenuScreen):
 
     def _row(self, number: int) -> list[Widget]:
         message, y = self.messages[number], _TOP + _ROW * (number % SHOWN)
-        text = TextArea((36, y + 31, _WIDE, 60), "What is said", message.text, lambda _: None, longest=MAX_LETTERS)
+        area, new_line = (36, y + 31, _WIDE, 60), f"Shift+Enter begins a new line: {MAX_MESSAGE_LINES} at most"
+        text = TextArea(
+            area, "What is said", message.text, lambda _: None, longest=MAX_LETTERS, most_lines=MAX_MESSAGE_LINES
+        )
 
         def put(typed: str) -> None:
             message.text = typed
-            about_keys = "{jump} becomes the key or button of whoever plays" if "{" in typed else ""
+            about_keys = "{jump} becomes the key or button of whoever plays" if "{" in typed else new_line
             text.hint = message.problem[1] if message.unknown else about_keys
 
         put(message.text)
@@ -500,7 +503,7 @@ class MessagesScreen(MenuScreen):
             named = at == (message and self._eye(message))
             stage.hud.theme.canvas.circle(picture, palette.accent, at, 13, 3 if named else 1)
         foot = draft.name, f"gold 0 / {draft.level.gold}"
-        labels = named_in(stage.world, arrow_targets(texts)) if stage.world else ()
+        labels = named_in(stage.world, arrow_targets([message.text])) if stage.world and message else ()
         stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, message=placed, named=labels))
         surface.blit(picture, place)
         for number, other in enumerate(self.messages, 1):

@@ -26,11 +26,12 @@ from ninja_game.files.shown_text import counted
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.ascii.places import place_text, read_place
 from ninja_game.formats.ascii.writer import best_form
-from ninja_game.formats.messages import messages_at
+from ninja_game.formats.messages import parse_messages
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.commands import EDITOR_COMMANDS
 from ninja_game.play.editor.palette_view import PaletteView, live_changes
 from ninja_game.play.editor.session import EditorSession
+from ninja_game.play.editor.sheet import message_near
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow, ask_text
 from ninja_game.play.workspace import Pane
@@ -474,9 +475,10 @@ class StatusLine(EditorPart):
             return f"Now the switch of the {what}: click where it is. Esc puts the {what} away"
         if tools.ghost:
             return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc gives up"
-        messages = messages_at(tools.draft.says, tools.cell) if self.view.hovering else ()
-        if messages:
-            return f"Double click opens the message, Select drags it: {messages[0].text}"
+        number = message_near(tools.draft, *tools.pointer) if self.view.hovering else None
+        if number is not None:
+            message = parse_messages(tools.draft.says)[number]
+            return f"Double click opens the message{', Select drags it' * bool(message.place)}: {message.one_line}"
         slopes = "Slopes by themselves. " if tools.sets_slopes else ""
         if tools.tool == "select" and tools.takes != TAKES[0]:
             slopes = f"Takes only {tools.takes}: Shift+V. "

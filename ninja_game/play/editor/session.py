@@ -103,7 +103,7 @@ def _late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
         moment = message.when, message.number, message.cell
         if coming and message.when not in {"start", "death"} and moment not in past and (why := late_text(coming)):
             cell = cell_of(*(message.place or coming.spot))
-            yield level_finding("late-message", cells=(cell,), text=message.text, why=why)
+            yield level_finding("late-message", cells=(cell,), text=message.one_line, why=why)
         past.add(moment)
 
 

@@ -279,12 +279,24 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
     return LevelMark(draw, (canvas.rect(x - 12, y - 11, 24, 24),))
 
 
-def said_places(draft: Draft) -> list[Point]:
-    """The centres of the cells with messages, and beside the ninja or the object of other moments, px."""
-    messages = parse_messages(draft.says)
-    things = (said_at(draft, message) for message in messages if not message.place)
-    beside = dict.fromkeys((at[0] + 16, at[1] - 18) for at in things if at)
-    return [message.place for message in messages if message.place] + list(beside)
+def said_places(draft: Draft) -> dict[Point, int]:
+    """The centres of the cells with messages, and beside the ninja or the object of other moments, px.
+
+    Each with the number of its first message.
+    """
+    places: dict[Point, int] = {}
+    for number, message in enumerate(parse_messages(draft.says)):
+        if at := message.place:
+            places.setdefault(at, number)
+        elif at := said_at(draft, message):
+            places.setdefault((at[0] + 16, at[1] - 18), number)
+    return places
+
+
+def message_near(draft: Draft, x: float, y: float) -> int | None:
+    """The number of the message with its bubble, or its cell, at a point, px."""
+    near = (number for (a, b), number in said_places(draft).items() if max(abs(x - a), abs(y - b)) <= CELL / 2)
+    return next(near, None)
 
 
 _SAID_AT = {
@@ -301,7 +313,9 @@ def things_of(draft: Draft, when: str) -> list[Point]:
 
 def said_at(draft: Draft, message: LevelMessage) -> Point | None:
     """Where the ninja is when a message comes, px: what it has just touched; None where that is unknown."""
-    return next((at for at in things_of(draft, message.when) if message.is_about(*at)), None)
+    return (
+        None if message.number else next((at for at in things_of(draft, message.when) if message.is_about(*at)), None)
+    )
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:

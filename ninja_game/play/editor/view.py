@@ -24,6 +24,7 @@ from ninja_game.play.editor.sheet import (
     LevelSheet,
     finding_points,
     level_marks,
+    message_near,
     said_places,
     united,
 )
@@ -215,7 +216,7 @@ class EditorView(Pane):
         self.listing = self.tests = False  #: the list of objects is shown, not the palette; the map of tests is shown
         #: Gets the cell of the next press in the level, which draws nothing then; None if that is cancelled
         self.taker: Callable[[Cell | None], None] | None = None
-        self.open_message: Callable[[Cell], object] = lambda _: None  #: gets the cell of a double-clicked message
+        self.open_message: Callable[[int], object] = lambda _: None  #: gets the number of a double-clicked message
         self._pressed: tuple[Cell, int, Draft] | None = None
         self.camera = Camera(2.0, 4.0)  #: the shown part of the level
         self._mouse = (0, 0)
@@ -299,13 +300,14 @@ class EditorView(Pane):
         before, now = None if erase or pick else self._pressed, pygame.time.get_ticks()
         self._pressed = cell, now, self.session.draft
         twice = before and before[0] == cell and now - before[1] < DOUBLE_MS
-        if before and twice and messages_at(before[2].says, cell):
+        number = message_near(before[2], *self.session.tools.pointer) if before and twice else None
+        if before and number is not None:
             # Undo what the first click of the two has drawn.
             self.session.tools.finish()
             if self.session.draft is not before[2]:
                 self.session.tools.undo()
             self._pressed = None
-            self.open_message(cell)
+            self.open_message(number)
             return
         self._held = True
         self.session.tools.press(erase=erase, pick=pick, add=add, copies=copies)
@@ -410,7 +412,7 @@ class EditorView(Pane):
             self.sheet.marks,
             lines=self.lines,
             signs=list(dict.fromkeys(signs)),
-            said=said_places(session.draft),
+            said=list(said_places(session.draft)),
             routes=routes if self.paths else (),
             tests=(self.tests and session.test_map) or TestMap({}, session.last_death if self.paths else ()),
             axes=SYMMETRY_AXES.get(session.tools.symmetry, ()),

@@ -43,7 +43,8 @@ def hud_view(play: LevelPlay) -> HudView:
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.messages.text
     # The text for a player who is stuck stays in place, too.
     layout = context.level.tiles, play.things, play.messages.place, play.message_spot
-    of_start = play.messages.is_start or "\n" in text
+    is_advice = "\n" in text and play.messages.message is None
+    of_start = play.messages.is_start or is_advice
     message = placed_message(named_keys(text, key), *layout, of_start=of_start) if text else None
     if play.phase is Phase.DEAD:
         cause, help_text = cause_of_death(play)
@@ -71,7 +72,7 @@ def hud_view(play: LevelPlay) -> HudView:
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
         message=message,
-        moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
+        moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if is_advice],
         letters=[key(name) for name in ("left", "jump", "right")],
         end=end,
         named=() if end else named_in(attempt.simulation.world, play.messages.named),

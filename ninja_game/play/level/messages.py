@@ -7,10 +7,11 @@ from functools import lru_cache
 from math import hypot
 from typing import NamedTuple
 
-from ninja_game.formats.messages import LevelMessage, arrow_targets
+from ninja_game.formats.messages import ALL_GOLD, LevelMessage, arrow_targets
 from ninja_game.sim.collision.rays import sees, solid_at
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.grid import Point
+from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 from ninja_game.sim.schema.world_fields import Event, TileMap, World
@@ -65,16 +66,14 @@ class MessageQueue:
     - ``tiles`` hide a place from the ninja; None: only full ones and doors do.
     - ``helps``: the game gives advice too: to try again, to climb.
     - ``text`` is the present one or "", ``place`` its place, px: it ends when the ninja is far from there.
-    - ``named``: the things with a name and an arrow (``arrow_targets``).
 
-    A message of the start comes at each start until the exit is open, any other once. A new one interrupts those of the
-    start, which go on afterwards; any other stays for its ``read_ticks``, and what happens meanwhile waits in order. A
-    place or a time that has passed by then is waited for again.
+    A message of the start comes at each start until the exit is open, any other once. A new one ends those of the
+    start; any other stays for its ``read_ticks``, and what happens meanwhile waits in order, before what waits for a
+    place. A place or a time that has passed by then is waited for again.
     """
 
     def __init__(self, messages: Sequence[LevelMessage], tiles: TileMap | None = None, *, helps: bool = False) -> None:
         self._messages, self._map = messages, tiles or TileMap()
-        self.named = arrow_targets(message.text for message in messages)
         self.helps = helps
         self._again = helps
         self._shown: set[LevelMessage] = set()
@@ -99,21 +98,19 @@ class MessageQueue:
         self._unread = read_ticks(self.text)
 
     def _say_soon(self, *texts: _Text) -> None:
-        """Show these texts next: at once if the present one has been read or belongs to the start.
-
-        Once the exit is open, none of the start without a time of its own.
-        """
-        over = {message.text for message in self._shown if message.when == "start" and not message.seconds}
-        over.update(text for text, *_ in texts)
-        lines = [(self.text, self._left, self.message), *self._next]
-        goes_on = [line for line in lines if self._belongs_to_start(line[0]) and line[0] not in over]
+        """Show these texts next: at once if the present one has been read or belongs to the start. Drop the start's."""
         waiting = [line for line in self._next if not self._belongs_to_start(line[0])]
         if self.is_unread:
             self._left = min(self._left, self._unread)
             hurried = [(text, min(ticks, read_ticks(text)), about) for text, ticks, about in waiting]
-            self._next = [*hurried, *texts, *goes_on]
+            self._next = sorted([*hurried, *texts], key=lambda line: line[2] is not None and line[2].when == "at")
         else:
-            self._say(*texts, *waiting, *goes_on)
+            self._say(*texts, *waiting)
+
+    @property
+    def named(self) -> Sequence[str]:
+        """The things that the present text names, each with an arrow (``arrow_targets``)."""
+        return arrow_targets([self.text])
 
     @property
     def place(self) -> Point | None:
@@ -156,11 +153,11 @@ class MessageQueue:
         if self._left <= 0:
             self._say(*self._next)
         events = world.events[: world.event_count]
-        happened = {message for e in events for message in self._messages if _is_of(message, e)}
+        happened = {message for e in events for message in self._messages if _is_of(message, e, world)}
         if any(event.kind == EXIT_OPENED for event in events):
             # The player has understood the goal: do not repeat the text of the start.
             self._shown.update(message for message in self._messages if message.when == "start")
-        free = not self.is_unread
+        free = not (self.is_unread or happened - self._shown)
         new = [
             message
             for message in self._messages
@@ -273,8 +270,11 @@ def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
     return [(m.text, m.seconds * TICKS_PER_SECOND or shown_ticks(m.when, len(messages), m.text), m) for m in messages]
 
 
-def _is_of(message: LevelMessage, event: Event) -> bool:
-    return _WHEN.get(event.kind) == message.when and message.is_about(event.x, event.y)
+def _is_of(message: LevelMessage, event: Event, world: World) -> bool:
+    if event.kind == GOLD_TAKEN and message.when == ALL_GOLD:
+        return all(o.kind != GOLD or o.taken for o in world.objects[1:])
+    is_moment = _WHEN.get(event.kind) == message.when and message.is_about(event.x, event.y)
+    return is_moment and not (message.when == "gold" and world.gold < message.number)
 
 
 def _is_due(world: World, message: LevelMessage) -> bool:

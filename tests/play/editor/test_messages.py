@@ -11,7 +11,7 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
-from ninja_game.editor.certify import place_before, search_of
+from ninja_game.editor.certify import lead_in, place_before, search_of
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.ascii.reader import parse_ascii_level
@@ -32,6 +32,7 @@ from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import EXIT, GOLD, MINE
 from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.text_entry import TextArea, TextEntry
@@ -288,15 +289,17 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     room.mouse(*in_picture(0, 4))
     room.choose("OK")
     assert room.draft.says == "at 20,4: here"
-    assert said_places(room.draft) == [(24 * 20 + 12, 24 * 4 + 12)]
+    assert list(said_places(room.draft)) == [(24 * 20 + 12, 24 * 4 + 12)]
     both = replace(room.draft, says=f"{room.draft.says} | start: Go")
-    assert said_places(both) == [(24 * 20 + 12, 24 * 4 + 12), (76.0, 524.0)], "beside the ninja"
+    assert list(said_places(both)) == [(24 * 20 + 12, 24 * 4 + 12), (76.0, 524.0)], "beside the ninja"
     of_things = replace(
         with_stamp(both, Stamp({}, (ObjectSpec(GOLD, (60.0, 84.0)),))),
         says="gold: a | gold: b | switch: c | after 9 s: d",
     )
     switch = next(spec.values[2:] for spec in both.objects if spec.kind == EXIT)
-    assert said_places(of_things) == [(76.0, 66.0), (switch[0] + 16, switch[1] - 18)], "and beside gold and switch"
+    assert list(said_places(of_things)) == [(76.0, 66.0), (switch[0] + 16, switch[1] - 18)], (
+        "and beside gold and switch"
+    )
     room.frames()
     assert ("said", (492.0, 108.0)) in room.editor.view.sheet.marks
     tools.history.change(with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
@@ -382,8 +385,29 @@ def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room:
     wide, high = (18 * 24 + 12.0, 18 * 24 + 12.0), (19 * 24 + 12.0, 17 * 24 + 12.0)
     assert place_before(draft, wide, (7, 1)) == (14 * 24 + 12.0, 18 * 24 + 12.0), "outside its frame"
     assert place_before(draft, high, (1, 7)) == (18 * 24 + 12.0, 17 * 24 + 12.0), "beside its frame"
+    shaft = with_stamp(
+        Draft(DOORS), Stamp(dict.fromkeys([(column, row) for column in (6, 8) for row in range(12, 24)], 1))
+    )
+    floor = with_stamp(shaft, Stamp({(7, 16): 1}))
+    assert place_before(floor, (7 * 24 + 12.0, 14 * 24 + 12.0)) == (7 * 24 + 12.0, 15 * 24 + 12.0), "between walls"
     tight = with_stamp(draft, Stamp({}, (ObjectSpec(MINE, (5 * 24 + 12.0, 540.0)),)))
     assert place_before(tight, (8 * 24 + 12.0, 540.0)) == (6 * 24 + 12.0, 540.0), "nearer, without room"
+
+
+def test_a_test_in_a_known_run_begins_a_second_before_in_the_air_if_it_last_stood_long_before() -> None:
+    level = parse_ascii_level(
+        "\n".join(["ninja-game level 1", "|@" + "." * 30 + "|", *["|" + "." * 31 + "|"] * 22])
+    ).level
+    run, slides = Simulation(level), bytes([1]) * 600
+    run.step_keys(1)
+    while run.ninja.in_air:
+        run.step_keys(1)
+    landed = run.tick
+    assert landed > 4 * TICKS_PER_SECOND, "down the wall"
+    assert len(lead_in(level, slides, landed)) == landed - TICKS_PER_SECOND
+    assert not lead_in(level, slides, 3 * TICKS_PER_SECOND), "the start is near"
+    jumps = bytes([1]) * landed + with_press_bits(bytes([4]) * 20) + bytes(90)
+    assert len(lead_in(level, jumps, landed + TICKS_PER_SECOND + 15)) == landed + 1, "where it stood"
 
 
 def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Maker) -> None:
@@ -474,6 +498,20 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
     assert room.draft == before
 
 
+def test_two_clicks_on_the_bubble_beside_the_ninja_open_its_message(room: Maker) -> None:
+    room.editor.session.tools.history.change(replace(room.draft, says="at 9,9: Here | switch: On | start: Go"))
+    room.frames()
+    (bubble,) = (at for at, number in said_places(room.draft).items() if number == 2)
+    before = room.draft
+    room.mouse(*room.at(*bubble), click=False)
+    assert "Double click opens the message: Go'" in drawn(room.app)
+    room.drag(bubble)
+    room.drag(bubble)
+    screen = room.shown(MessagesScreen)
+    assert screen.focus is screen._row_widgets[2][_TEXT]
+    assert room.draft == before
+
+
 def test_the_text_of_the_start_stays_in_its_place_while_it_is_shown() -> None:
     told = MessageQueue(parse_messages("start: Go"))
     assert told.is_start
@@ -498,11 +536,11 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(room: Make
     screen = opened(room, f"start: {LONG} | at 20,12: Here")
     room.frames()
     start = boxes[-1]
-    assert not screen._row_widgets[0][-1].hint, "no braces in it"
+    assert screen._row_widgets[0][-1].hint == "Shift+Enter begins a new line: 3 at most", "no braces in it"
     field = screen._row_widgets[1][-1]
     room.mouse(*field.centre)
     assert isinstance(field, TextEntry)
-    field.put("{jump}")
+    field.with_stamp("{jump}")
     assert "jump" in field.hint
     screen.messages[1].text = "Here"
     room.frames()
@@ -604,7 +642,7 @@ def test_a_click_in_the_picture_names_the_one_door_that_is_meant(doors: Maker) -
     assert screen.source == "lock 11,22: One | gold 18,22: Two | start: Go"
     doors.choose("OK")
     assert doors.draft.says == screen.source
-    assert said_places(doors.draft) == [(11 * 24 + 28, 522.0), (18 * 24 + 28, 522.0), (100.0, 522.0)]
+    assert list(said_places(doors.draft)) == [(11 * 24 + 28, 522.0), (18 * 24 + 28, 522.0), (100.0, 522.0)]
     run = Simulation(doors.draft.level)
     queue, heard_at = MessageQueue(parse_messages("lock 11,22: One | gold 18,22: Two")), dict[str, int]()
     for tick, keys in enumerate(RIGHT):
@@ -746,6 +784,12 @@ def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Mak
     assert "text 'switch'" in shown
     assert "text 'exit'" in shown
     assert len(painted) == 1
+    screen.messages.append(Message("start", "", "Now the {exit}"))
+    screen._select(1)
+    shown = drawn(room.app)
+    assert "text 'switch'" not in shown, "only what the selected one names"
+    assert "text 'exit'" in shown
+    screen._select(0)
     screen.messages[0].when = "switch"
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "the exit is open by then"
@@ -772,6 +816,61 @@ def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(maker: Make
     maker.editor.session.tools.history.change(replace(ROOM, says=maker.draft.says))
     maker.press("f5")
     assert maker.shown(TryScreen).mood == Mood(1, 0), "and so has a test"
+
+
+def test_shift_and_enter_begin_a_new_line_in_the_field_the_file_and_the_level(room: Maker) -> None:
+    screen = opened(room)
+    room.choose("Add")
+    for line in ("Run", "jump", "and see"):
+        room.type(line)
+        room.chord("return", pygame.KMOD_LSHIFT)
+    assert room.top() is screen
+    assert screen.messages[0].text == "Run\njump\nand see", "three lines are the most"
+    field = screen._row_widgets[0][_TEXT]
+    assert isinstance(field, TextArea)
+    shown = drawn(room.app)
+    for line in ("Run", "jump", "and see"):
+        assert shown.count(f"text '{line}'") == 2, "in its field and in the level"
+    room.press("up")
+    room.type("z")
+    room.mouse(field.area[0] + 200, field.area[1] + 8)
+    assert field.edited.cursor == 3, "a click behind a line leads to its end"
+    room.press("return")
+    assert room.draft.says == r"start: Run\njumpz\nand see"
+    assert [message.text for message in opened(room).messages] == ["Run\njumpz\nand see"]
+
+
+def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
+    screen = opened(room)
+    room.choose("Add")
+    room.type("Run")
+    room.chord("return", pygame.KMOD_LSHIFT)
+    drawn(room.app)
+    field = screen._row_widgets[0][_TEXT]
+    assert isinstance(field, TextArea)
+    assert [first for first, _ in field._rows] == [0, 4]
+    assert field._cursor_row == 1
+    room.press("up")
+    assert field.edited.cursor == 0
+    room.press("return")
+    assert room.draft.says == "start: Run"
+
+
+def test_gold_is_counted_and_all_of_it_has_a_moment_of_its_own(room: Maker) -> None:
+    room.editor.session.tools.history.change(with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
+    screen = opened(room)
+    room.choose("Add")
+    room.type("Well done")
+    room.choose("At the start...")
+    room.choose("All gold taken")
+    assert screen.source == "all gold: Well done"
+    assert "Never shown" not in drawn(room.app)
+    room.choose("All gold taken...")
+    room.choose("Gold is taken")
+    room.mouse(*screen._row_widgets[0][1].centre)
+    room.type("3")
+    assert screen.source == "gold 3: Well done"
+    assert "text 'Never shown: the level has 1 piece of gold'" in drawn(room.app)
 
 
 def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:

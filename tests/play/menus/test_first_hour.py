@@ -68,7 +68,7 @@ def test_first_level_says_its_goal_with_the_keys_of_whoever_plays(driver: MenuDr
     assert said(level) == ""
 
 
-def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) -> None:
+def test_what_a_text_names_is_pointed_at_while_it_is_shown_and_until_it_is_done(driver: MenuDriver) -> None:
     level = driver.open_level()
     objects = level.attempt.simulation.world.objects
     places = {name: (x, y) for name, x, y in hud_view(level.play).named}
@@ -81,8 +81,10 @@ def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) ->
     door = next(o for o in objects[1:] if o.kind == EXIT)
     door.is_open = True
     level.begin()
-    level.play.messages.text = ""
-    assert [name for name, _, _ in hud_view(level.play).named] == ["exit"], "until it is used, however long that takes"
+    assert [name for name, _, _ in hud_view(level.play).named] == ["exit"]
+    door.is_open = False
+    for level.play.messages.text, names in (("Gold", []), ("The {exit} is above", ["exit"])):
+        assert [name for name, _, _ in hud_view(level.play).named] == names, "a hidden switch stays hidden"
     ninja = level.attempt.simulation.world.ninja
     ninja.x, ninja.y = door.x, door.y - 30
     assert not hud_view(level.play).named, "never over the ninja"
@@ -178,7 +180,7 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
     assert messages.text == "wait"
 
 
-def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() -> None:
+def test_what_interrupts_a_text_of_the_start_ends_it_till_the_next_start() -> None:
     messages = MessageQueue(parse_messages("start: go | gold: gold"))
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
     seen = []
@@ -186,8 +188,9 @@ def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() 
         simulation.step_keys(2 if tick < 8 else 0)
         if messages.on_tick(simulation.world):
             seen.append((tick, messages.text))
-    assert [text for _, text in seen] == ["gold", "go", ""]
-    assert seen[-1][0] == START_TICKS + SHOWN_TICKS - 1, "in all as long as without the other text"
+    assert [text for _, text in seen] == ["gold", ""]
+    messages.at_start()
+    assert messages.text == "go"
     messages = MessageQueue(parse_messages("start: go | death 1: again"))
     messages.on_death()
     messages.at_start()
@@ -253,16 +256,27 @@ def test_what_a_death_kept_from_being_said_is_said_when_it_happens_again() -> No
     assert told.text == "two"
 
 
-def test_text_of_the_start_with_a_time_of_its_own_keeps_it_after_the_exit_has_opened() -> None:
-    simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,700,564"))
-    simulation.world.events[0].kind = EXIT_OPENED
-    for own, shown in (("", ["open", ""]), (" for 20 s", ["open", "go", ""])):
-        messages = MessageQueue(parse_messages(f"start{own}: go | switch: open"))
-        told = []
-        for tick in range(START_TICKS + 20 * TICKS_PER_SECOND + 1):
-            simulation.world.event_count = int(tick == 0)
-            told += [messages.text] if messages.on_tick(simulation.world) else []
-        assert told == shown
+def test_what_happens_comes_before_what_waits_for_a_place() -> None:
+    told = MessageQueue(parse_messages("at 3,22: One | at 3,22: Two | gold: Gold | trap: Shut"))
+    world = Simulation(room_level(["#@..#"], ())).world
+    world.ninja.x, world.ninja.y = 84.0, 540.0
+    seen = []
+    for tick in range(5 * SHOWN_TICKS):
+        world.event_count, world.events[0].kind = int(tick in (0, 150)), TRAP_CLOSED if tick else GOLD_TAKEN
+        seen += [(tick, told.text)] if told.on_tick(world) else []
+    need = read_ticks("Gold")
+    assert [text for _, text in seen] == ["Gold", "One", "Shut", "Two", ""], "at once, and then once it was read"
+    assert [tick for tick, _ in seen[:3]] == [0, need, 2 * need]
+
+
+def test_all_gold_and_a_number_of_gold_have_their_moments() -> None:
+    level = parse_level_string("0" * 713 + "|5^100,566!0^200,566!0^300,566!0^400,566!11^700,64,700,264")
+    run, came = Simulation(level), dict[str, int]()
+    queues = [MessageQueue([message]) for message in parse_messages("all gold: All | gold 2: Two | gold: One")]
+    for _ in range(200):
+        run.step_keys(2)
+        came |= {queue.text: run.world.gold for queue in queues if queue.on_tick(run.world)}
+    assert came == {"One": 1, "Two": 2, "All": 3}
 
 
 def test_text_comes_after_its_seconds_once_and_stays_as_long_as_it_says() -> None:
@@ -717,7 +731,7 @@ def test_help_with_walls_is_gone_once_the_climb_is_done() -> None:
 def test_keys_of_the_help_bear_the_letters_that_its_words_name(driver: MenuDriver) -> None:
     level = driver.open_level()
     level.begin()
-    level.play.messages.text = CLIMB % ("{right}", "{left}")
+    level.play.messages.text, level.play.messages.message = CLIMB % ("{right}", "{left}"), None
     view = hud_view(level.play)
     assert view.letters[1] == driver.app.controls.name("jump") == "Z"
     log = DrawLog()
