@@ -27,7 +27,7 @@ Rows = dict[tuple[str, Any], dict[str, Any]]
 
 PLAYED = "played"
 ASSISTED = "assisted"
-"""The two ladders; a run of unknown making is on the first one."""
+"""The two ladders; a run of unknown making is on the first one, unless the board's rules say otherwise."""
 
 REJECTED = "rejected"
 DISOWNED = "disowned"

@@ -128,14 +128,15 @@ class LevelPages:
             [parts.stems[run.key], run.added, run.remark, run.waits, run.medal, run.tick] for run in runs
         ]
         categories = [[category.name, category.rank, category.when] for category in self.ranking.categories]
-        about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
+        about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest]
+        ladders = self.ranking.ladders, self.ranking.unknown
 
         def content() -> str:
             top, drawn, more = self._runs(entry)
             return level_page(entry, {}, UP + parts.game, parts.deeper, more, site=parts.site, top=top, drawn=drawn)
 
         parts.pages.make(picture_name(digest), digest, lambda: picture(named.level))
-        parts.pages.make(page_name(digest), [about, rows, categories, parts.deeper, parts.site], content)
+        parts.pages.make(page_name(digest), [about, ladders, rows, categories, parts.deeper, parts.site], content)
         known = {parts.stems[run.key]: run for run in runs}
 
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
@@ -186,7 +187,7 @@ class LevelPages:
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
         top = tag("ul", *(leaders[part] for part in tables), class_="cards"), on_this_page(leads) if leads else None
         unknown = any(not row.run.made for same in merged.values() for ranks in same for row in ranks.rows)
-        shown.append(tag("p", UNKNOWN_ORIGIN) if unknown else None)
+        shown.append(tag("p", UNKNOWN_ORIGIN.format(self.ranking.unknown)) if unknown else None)
         return joined(*top), drawn, joined(*shown, note, link, first, folded, beside)
 
     def _left_out(self, what: str, rows: Sequence[Ranked]) -> Content:

@@ -73,7 +73,7 @@ FEED = "feed.xml"
 ONE_MOMENT = "Where several runs that came in together beat a level's record, the best of them is the record."
 HOW_TO_MOVE = (
     "What no keyboard can do was made by tools. The keeper ranks it so with: "
-    "ninja-game board FOLDER --json board.json --ladder FILE assisted"
+    "ninja-game board FOLDER --json board.json --ladder FILE assisted, or all unknown ones by its rules."
 )
 GAINS = "By how much could be won"
 BY_LEVELS = "By levels led in all categories together, then by levels passed"

@@ -46,8 +46,8 @@ HOW_TO_CONFIRM = (
     "The commands in a row confirm or reject its run; the keeper runs them where the folder and the ledger lie."
 )
 UNKNOWN_ORIGIN = (
-    "Made unknown: the run does not say how it was made, and nobody can check it. It is ranked among the played ones "
-    "until the keeper of the board moves it. "
+    "Made unknown: the run does not say how it was made, and nobody can check it. It is ranked among the {} ones until "
+    "the keeper of the board moves it. "
 )
 
 
