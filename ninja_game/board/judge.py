@@ -277,7 +277,7 @@ def _with_row(run: Run, ledger: Ledger, owner: Mapping[str, Any]) -> Run:
     own = ledger.runs.get(run.key, {})
     row = own if own.get("way") == run.way else owner
     if row.get("confirmed") is True:
-        return replace(run, near="", confirmed=True)
+        return run.now_confirmed
     if not run.near and not run.derived and (near := row.get("near")):
         return replace(run.marked(f"{near} (found earlier)"), near=near)
     return run
@@ -305,7 +305,7 @@ def _of_senders(runs: Sequence[Run], ledger: Ledger, confirm: Collection[str]) -
     for run in runs:
         home = homes.get(run.player, run.sender)
         if run.file in confirm and (run.near or home != run.sender):
-            yield replace(run, near="", confirmed=True)
+            yield run.now_confirmed
         elif home != run.sender and (run.sender, run.player) not in trusted:
             why = f"the other runs by {run.player} are from {home}/"
             yield replace(run.marked(why), untrusted=why if asked(run) else "")

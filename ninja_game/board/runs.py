@@ -154,6 +154,11 @@ class Run(Judged):
         return replace(self, marks=(mark, *self.marks)) if mark else self
 
     @property
+    def now_confirmed(self) -> Run:
+        """The run as the keeper confirms it; the remark on a near copy says so."""
+        return replace(self.marked("confirmed by the keeper" if self.near else ""), near="", confirmed=True)
+
+    @property
     def order(self) -> tuple[str, bool, bool, Key]:
         """Its place in time: the earliest run owns its inputs. A level of an episode comes after single runs."""
         return self.added, not self.again, bool(self.episode), self.key

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import UTC, datetime
+from html import escape
 from pathlib import Path
 from typing import Any
 from unittest.mock import Mock
@@ -570,10 +571,10 @@ def test_a_faster_near_copy_is_told_and_confirmed_by_a_command(runs: Path, level
     level, rejected, waiting = (
         (site / name).read_text("utf-8") for name in (f"levels/{DIGEST[:16]}.html", "rejected.html", "waiting.html")
     )
-    assert (waits in level, ">Waiting for confirmation: 1 run<" in rejected) == (True, True)
+    assert (waits in level, ">Waiting: 1</a>" in rejected, ">Waiting: 1</a>" in level) == (True, True, False)
     assert "<div>better.txt</div>" in waiting
-    for does in ("--confirm better.txt", "--reject better.txt --reason copied"):
-        assert f"<code>ninja-game board {runs.name} --json board.json {does}</code>" in waiting
+    for does in ("--confirm better.txt", "--reject better.txt --reason 'not confirmed'"):
+        assert f"<code>ninja-game board {runs.name} --json board.json {escape(does)}</code>" in waiting
     both = re.search(r'<a href="../play.html#watch=(\w+),(\w+)"[^>]*>Watch with Ann</a>', waiting)
     assert both, "a link shows it beside the run that it resembles"
     authors = [(site.parent / "replays" / f"{stem}.txt").read_text("utf-8") for stem in both.groups()]
@@ -583,8 +584,10 @@ def test_a_faster_near_copy_is_told_and_confirmed_by_a_command(runs: Path, level
     assert (told.exit_code, "that waits; there are: better.txt" in told.stderr) == (2, True)
     assert check(runs, levels, "--confirm", "better.txt")[0] == 2
     assert check(runs, levels, *command, "--confirm", "better.txt")[0] == 0
+    assert "Waiting" not in (site / "rejected.html").read_text("utf-8")
     assert check(runs, levels, *command)[1].endswith("; rejected: none\n")
-    assert waits not in (site / f"levels/{DIGEST[:16]}.html").read_text("utf-8")
+    level = (site / f"levels/{DIGEST[:16]}.html").read_text("utf-8")
+    assert (waits in level, ">confirmed by the keeper; " in level) == (False, True)
     assert not (site / "waiting.html").exists()
     assert '"confirmed": true' in data.read_text("utf-8")
 

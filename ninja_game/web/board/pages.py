@@ -119,7 +119,7 @@ class BoardPages:
         self._levels()
         self._rejected()
         if episodes := self._episodes():
-            parts.pages.write(EPISODES[0], page(EPISODES[1], tag("p", EPISODE_NUMBERS), *episodes, links=parts.links))
+            parts.pages.write(EPISODES[0], page(EPISODES[1], tag("p", EPISODE_NUMBERS), *episodes, links=parts.top))
         parts.pages.write("index.html", self._first())
         parts.pages.write(FEED, self._feed())
         # Last: if the disk is full, the earlier pages are still complete.
@@ -155,7 +155,7 @@ class BoardPages:
         contents = [section(title, content, anchor=anchor) for anchor, title, content in parts]
         leads = on_this_page([part[:2] for part in parts])
         title = self.ranking.name or f"Board: {self._name}"
-        return page(title, lead, again, leads, *contents, links=self.parts.links, current="index.html")
+        return page(title, lead, again, leads, *contents, links=self.parts.top, current="index.html")
 
     @property
     def _name(self) -> str:
@@ -471,9 +471,8 @@ class BoardPages:
             for run in runs.values()
             if run.waits
         ]
-        waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
         movable = any(item.kind == "refused" and item.way for item in rejected)
-        leads = tag("p", lead), tag("p", waiting) if near else None, tag("p", HOW_TO_MOVE) if movable else None
+        leads = tag("p", lead), tag("p", HOW_TO_MOVE) if movable else None
         heads = "Run", "Why"
         parts.write_table("rejected", "Rejected", "What does not count", heads, rows, *leads)
         if near:
@@ -486,7 +485,7 @@ class BoardPages:
         if other:
             yield tag("p", self.parts.watch_link([run, other], "", f"Watch with {self.parts.shown_name(other.player)}"))
         file, folder = quote(shown_text(run.file)), quote(shown_text(run.folder.folder.resolve().name))
-        for does in f"--confirm {file}", f"--reject {file} --reason copied":
+        for does in f"--confirm {file}", f"--reject {file} --reason 'not confirmed'":
             yield tag("p", tag("code", f"ninja-game board {folder} --json board.json {does}"))
 
     def _known_player(self, player: str) -> Content:

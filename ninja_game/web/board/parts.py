@@ -64,6 +64,9 @@ class Parts:
         assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
         others = [link for link in LINKS[2:] if link != EPISODES or ranking.shown.levels.episodes]
         self.links = [(self.game, "Play"), (LINKS[0][0], ranking.name or LINKS[0][1]), LINKS[1], *assisted, *others]
+        waiting = sum(bool(run.waits) for run in ranking.judged.runs)
+        # Pages of levels and runs have no number that changes them all.
+        self.top = [*self.links, *([("waiting.html", f"Waiting: {waiting}")] if waiting else [])]
         self.deeper = [(UP + address, name) for address, name in self.links]
         self.around = values_digest([self.links, self.site])  #: of the text on every page
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
@@ -83,7 +86,7 @@ class Parts:
 
         Without heads each row is a card.
         """
-        up, links = (UP, self.deeper) if "/" in name else ("", self.links)
+        up, links = (UP, self.deeper) if "/" in name else ("", self.top)
         current = f"{name}.html"
         parts = [rows[first : first + PER_PAGE] for first in range(0, len(rows), PER_PAGE)] or [()]
         names = [f"{name}{f'-{number}' if number > 1 else ''}.html" for number in range(1, len(parts) + 1)]
