@@ -159,9 +159,9 @@ class BoardPages:
 
     @property
     def _name(self) -> str:
-        """Returns the name of the pack, else that of the only level: the name of its file says nothing to readers."""
+        """Returns the name of the pack or folder, or that of the only level: its file's says nothing to readers."""
         titles = [entry.title for entry in self.entries.values()]
-        return self.ranking.shown.name if self.ranking.shown.pack else titles[0] if len(titles) == 1 else "own levels"
+        return titles[0] if len(titles) == 1 and not self.ranking.shown.pack else self.ranking.shown.name
 
     def _runs_and_how_to_send(self) -> list[Piece]:
         parts = self.parts
