@@ -166,11 +166,12 @@ class BoardPages:
     def _runs_and_how_to_send(self) -> list[Piece]:
         parts = self.parts
         rows = [
-            (level_link(run.entry), parts.watch_link([run], ""), parts.player_link(run.player), *times, run.moment)
+            (level_link(run.entry), parts.watch_link([run], ""), player, time, run.moment)
             for run in self.ranking.judged.runs[: -NEWEST_RUNS - 1 : -1]
-            for times in [(parts.run_link(run, "", seconds_text(run.tick)), made_text(run))]
+            for player in [joined(parts.player_link(run.player), tag("div", made_text(run), class_="faint"))]
+            for time in [parts.run_link(run, "", seconds_text(run.tick))]
         ]
-        newest = table("Newest first", ("Level", "Watch", "Player", "Time", "Made", "Date"), rows, LESSER)
+        newest = table("Newest first", ("Level", "Watch", "Player", "Time", "Date"), rows, LESSER)
         steps = tag("ol", *(tag("li", step) for step in HOW_TO_SEND))
         play = tag("p", tag("a", "Play", href=parts.game, class_="button"))
         runs: list[Piece] = [("runs", "Newest runs", newest)] if rows else []
@@ -201,7 +202,7 @@ class BoardPages:
             return rows
         levels, players = ({getattr(record.run, name) for record in records} for name in ("level", "player"))
         where = tag("a", counted(len(levels), "level"), href="levels.html")
-        return [(where, "", counted(len(players), "player"), _together(records), moment)]
+        return [(where, "", counted(len(players), "player"), stack(_together(records)), moment)]
 
     def _lines(self, record: Record) -> Iterator[str]:
         return (f"{name}: {result}, {gain}" for name, result, gain in self._achieved(record))

@@ -14,7 +14,7 @@ from ninja_game.board.runs import Run
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.levels.episodes import Entry
-from ninja_game.web.pages.frame import GAME_PAGE, REPLAYS, Content, Markup, Pages, joined, page, table, tag
+from ninja_game.web.pages.frame import GAME_PAGE, LONG_CELL, REPLAYS, Content, Markup, Pages, joined, page, table, tag
 from ninja_game.web.pages.gallery import (
     BOARD,
     PICTURE_HEIGHT,
@@ -186,7 +186,10 @@ def cards(caption: str, contents: Iterable[Content]) -> Markup:
 
 
 def made_text(run: Run) -> Markup:
-    return tag("span", run.made or "unknown", class_="made")
+    """How a run was made; a long text is folded."""
+    if len(run.made) <= LONG_CELL:
+        return tag("span", run.made or "unknown", class_="made")
+    return tag("details", tag("summary", "Assisted" if run.assisted else "Played"), run.made, class_="note made")
 
 
 def _stem(run: Run) -> str:
