@@ -7,11 +7,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninja_game.board.runs import Run
+from ninja_game.board.runs import ASSISTED, PLAYED, Run
 from ninja_game.errors import FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.untrusted import parse_toml
@@ -139,29 +139,39 @@ USUAL = (FASTEST, HIGHEST)
 """The default categories: the time to the exit, and the score with gold (game.md §1.3)."""
 
 
-def read_rules(path: Path) -> tuple[str, tuple[Category, ...]]:
-    """The board's name, "" for none, and the categories of a text.
+class BoardRules(NamedTuple):
+    """What a board ranks, and how."""
 
-    Raises FormatError with the place and the problem, FileError, OSError.
-    """
+    categories: tuple[Category, ...] = USUAL
+    name: str = ""  #: of the board, "" for none
+    unknown: str = PLAYED  #: the ladder of runs that do not say how they were made
+
+
+def read_rules(path: Path) -> BoardRules:
+    """The rules in a text. Raises FormatError with the place and the problem, FileError, OSError."""
     file = str(path)
     text = read_utf8(path, _MAX_BYTES)
     try:
         table = parse_toml(text)
     except ValueError as error:
         raise FormatError(f"no TOML: {error}", file) from None
-    tables, title = table.get("category"), table.pop("name", "")
+    others = dict(table)
+    title, unknown, tables = others.pop("name", ""), others.pop("unknown", PLAYED), others.pop("category", None)
     if not isinstance(title, str) or len(title) > _MAX_NAME:
         raise FormatError("not the name of a board", file, expected=f"a text of at most {_MAX_NAME} characters")
-    if set(table) != {"category"} or not isinstance(tables, list) or not 1 <= len(tables) <= MAX_CATEGORIES:
-        raise FormatError(
-            "no categories of a board", file, expected=f"1 to {MAX_CATEGORIES} tables [[category]], and a name"
-        )
+    if unknown not in (PLAYED, ASSISTED):
+        found, expected = ascii(unknown)[:60], f'"{PLAYED}" or "{ASSISTED}"'
+        raise FormatError("'unknown' is no ladder", file, found=found, expected=expected)
+    if tables is None and table and not others:
+        return BoardRules(USUAL, title.strip(), unknown)
+    if others or not isinstance(tables, list) or not 1 <= len(tables) <= MAX_CATEGORIES:
+        expected = f"1 to {MAX_CATEGORIES} tables [[category]], a name, unknown"
+        raise FormatError("no categories of a board", file, expected=expected)
     categories = tuple(_category(category, f"{file}: category {number}") for number, category in enumerate(tables, 1))
     names = [category.name.casefold() for category in categories]
     if len(set(names)) < len(names):
         raise FormatError("two categories have one name", file, found=next(n for n in names if names.count(n) > 1))
-    return title.strip(), categories
+    return BoardRules(categories, title.strip(), unknown)
 
 
 def _category(table: Any, place: str) -> Category:

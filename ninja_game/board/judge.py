@@ -17,6 +17,7 @@ from ninja_game.board.copies import without_copies
 from ninja_game.board.memo import Memo, program, values_digest
 from ninja_game.board.players import UNNAMED, Players, folded
 from ninja_game.board.runs import (
+    ASSISTED,
     NO_LEDGER,
     OWN,
     PLAYED,
@@ -80,13 +81,14 @@ def judge(
     ledger: Ledger = NO_LEDGER,
     decide: Callable[[Sequence[Run], Collection[str]], object] | None = None,
     confirm: Collection[str] = (),
+    unknown: str = PLAYED,
 ) -> ValidatedRuns:
     """Simulate every run below a folder again, on the board's levels. Raises OSError.
 
     ``dates``, ``taken``: of the board's ``ledger``, as ``added`` and ``taken`` of Run; without it runs go by the names
     of their files. ``memo``: what was found out before, of the same files, levels and rules; it is not simulated again.
     ``decide``: writes decisions on these runs, of these files, into the ledger. ``confirm``: files whose runs wait no
-    longer.
+    longer. ``unknown``: the ladder of runs that do not say how they were made, unless the keeper has decided.
     """
     memo, players = memo or Memo(), Players()
     judging = _Judging(RunFolder(folder, {key: entry.named.level for key, entry in shown.entries.items()}), shown, memo)
@@ -95,7 +97,7 @@ def judge(
     if decide:
         decide(runs, {run.file for run in runs} | {item.file for item in rejected})
     owners = ledger.owners
-    runs, impossible = _parted(_possible(run, ledger) for run in runs)
+    runs, impossible = _parted(_possible(run, ledger, unknown) for run in runs)
     runs = sorted(_first_again(runs, owners), key=lambda run: run.order)
     credited, moderated = _parted(run.decided(ledger.decision(run)) for run in _of_players(runs, players))
     unique, copies = without_copies(credited, memo, owners)
@@ -119,9 +121,14 @@ def _dated(run: Run, dates: Dates | None, taken: Dates | None) -> Run:
     return replace(run, added=added, taken=later)
 
 
-def _possible(run: Run, ledger: Ledger) -> Run | Rejected:
-    """The run; rejected if no keyboard can do it, unless the keeper has put it on the assisted ladder."""
+def _possible(run: Run, ledger: Ledger, unknown: str) -> Run | Rejected:
+    """The run, on the ladder ``unknown`` if it does not say how it was made and nobody has decided.
+
+    It is rejected if no keyboard can do it, unless it is on the assisted ladder.
+    """
     decision = ledger.decision(run)
+    if not decision and run.assisted is None and unknown == ASSISTED:
+        return replace(run, kind="", assisted=True)
     return run if not run.kind or (decision and decision.what != PLAYED) else run.rejected(run.kind, run.why)
 
 
@@ -270,7 +277,7 @@ def _with_row(run: Run, ledger: Ledger, owner: Mapping[str, Any]) -> Run:
     own = ledger.runs.get(run.key, {})
     row = own if own.get("way") == run.way else owner
     if row.get("confirmed") is True:
-        return replace(run, near="", confirmed=True)
+        return run.now_confirmed
     if not run.near and not run.derived and (near := row.get("near")):
         return replace(run.marked(f"{near} (found earlier)"), near=near)
     return run
@@ -298,7 +305,7 @@ def _of_senders(runs: Sequence[Run], ledger: Ledger, confirm: Collection[str]) -
     for run in runs:
         home = homes.get(run.player, run.sender)
         if run.file in confirm and (run.near or home != run.sender):
-            yield replace(run, near="", confirmed=True)
+            yield run.now_confirmed
         elif home != run.sender and (run.sender, run.player) not in trusted:
             why = f"the other runs by {run.player} are from {home}/"
             yield replace(run.marked(why), untrusted=why if asked(run) else "")

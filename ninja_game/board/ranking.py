@@ -55,12 +55,17 @@ class Standing:
 
 
 class Ranking:
-    """All rankings for the pages of a folder. ``name``: of the board, "" for none."""
+    """All rankings for the pages of a folder. ``name``, ``unknown``: as of BoardRules."""
 
     def __init__(
-        self, judged: ValidatedRuns, shown: PublishedLevels, categories: Sequence[Category] = USUAL, name: str = ""
+        self,
+        judged: ValidatedRuns,
+        shown: PublishedLevels,
+        categories: Sequence[Category] = USUAL,
+        name: str = "",
+        unknown: str = PLAYED,
     ) -> None:
-        self.judged, self.name = judged, name
+        self.judged, self.name, self.unknown = judged, name, unknown
         self.shown = shown
         self.categories = tuple(categories)
         self.by_level: dict[str, list[Run]] = defaultdict(list)

@@ -149,8 +149,8 @@ def moderate(
 ) -> None:
     """Write the keeper's decisions on the runs of ``files`` into a ledger.
 
-    ``decisions``: files, and one of DECISIONS. Raises ArgumentError for a file without such runs,
-    and for a reason that is too long, or missing where a run is rejected.
+    ``decisions``: a file, a folder that ends in / or a player, and one of DECISIONS. Raises ArgumentError for one
+    without such runs, and for a reason that is too long, or missing where a run is rejected.
     """
     if len(reason) > MAX_REASON or (not reason and any(what == REJECTED for _, what in decisions)):
         raise ArgumentError(f"--reject: say why with --reason, in at most {MAX_REASON} characters")
@@ -178,9 +178,10 @@ def _decidable(ledger: Ledger, runs: Sequence[Run], files: Collection[str], what
 
 
 def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -> list[dict[str, Any]]:
-    """The rows of a file. Raises ArgumentError, with the files that have some, for none."""
-    if of_file := [row for row in rows if row["file"] == name]:
-        return of_file
+    """The rows of a file or folder, else of a player. Raises ArgumentError, with the files that have some, for none."""
+    in_it = [row for row in rows if row["file"] == name or (name.endswith("/") and row["file"].startswith(name))]
+    if chosen := in_it or [row for row in rows if folded(row["player"]) == folded(name)]:
+        return chosen
     files = ", ".join(dict.fromkeys(plain(row["file"]) for row in rows[:10])) or "none"
     raise ArgumentError(f"{what} {name!a}: no run of the ledger {which}; there are: {files}")
 

@@ -27,7 +27,7 @@ Rows = dict[tuple[str, Any], dict[str, Any]]
 
 PLAYED = "played"
 ASSISTED = "assisted"
-"""The two ladders; a run of unknown making is on the first one."""
+"""The two ladders; a run of unknown making is on the first one, unless the board's rules say otherwise."""
 
 REJECTED = "rejected"
 DISOWNED = "disowned"
@@ -152,6 +152,11 @@ class Run(Judged):
     def marked(self, mark: str) -> Run:
         """The run with one more mark, before its others; itself for ""."""
         return replace(self, marks=(mark, *self.marks)) if mark else self
+
+    @property
+    def now_confirmed(self) -> Run:
+        """The run as the keeper confirms it; the remark on a near copy says so."""
+        return replace(self.marked("confirmed by the keeper" if self.near else ""), near="", confirmed=True)
 
     @property
     def order(self) -> tuple[str, bool, bool, Key]:

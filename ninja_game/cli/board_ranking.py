@@ -37,7 +37,7 @@ rules_option = click.option(
     "--rules",
     metavar="BOARD.TOML",
     type=OLD_FILE,
-    help="The categories in which runs are ranked. [default: the fastest, and the highest score]",
+    help="The board's name, its categories, the ladder of unknown runs. [default: the fastest, and the highest score]",
 )
 
 
@@ -77,7 +77,7 @@ def ranking_of(
     ``same``: ``levels`` and ``rules`` that are not given are those of the folder's last board; so is ``ledger`` where
     nothing is decided.
     """
-    from ninja_game.board.categories import USUAL, read_rules
+    from ninja_game.board.categories import BoardRules, read_rules
     from ninja_game.board.judge import judge
     from ninja_game.board.ranking import Ranking
     from ninja_game.board.report import dates_of, read_board, read_dates
@@ -94,7 +94,7 @@ def ranking_of(
         levels, rules = levels or last, rules or ruled
     if not decide:
         ledger = ledger or kept
-    name, categories = read_rules(rules) if rules else ("", USUAL)
+    stated = read_rules(rules) if rules else BoardRules()
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
     if decide:
         memo.note(LAST_LEVELS, str(levels.resolve()) if levels and levels.exists() else "")
@@ -107,13 +107,14 @@ def ranking_of(
     added, taken = dates_of(before, now, dates_by_file) if ledger else (None, None)
     deciding = partial(decide, before, now) if decide else None
     judged = judge(
-        folder, shown, dates=added, taken=taken, jobs=jobs, memo=memo, ledger=before, decide=deciding, confirm=confirm
-    )
+        folder, shown, dates=added, taken=taken, jobs=jobs, memo=memo, ledger=before, decide=deciding, confirm=confirm,
+        unknown=stated.unknown,
+    )  # fmt: skip
     present = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
     memo.save()
     if unknown := dates_by_file.keys() - present:
         raise FileError("a file that is not among the runs", str(dates), found=shown_text(min(unknown)))
-    return Ranking(judged, shown, categories, name), before
+    return Ranking(judged, shown, *stated), before
 
 
 def _remembered(memo: Memo, key: str) -> Path | None:

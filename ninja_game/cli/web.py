@@ -120,20 +120,21 @@ class _Board(click.Group):
     "--reject",
     metavar="RUN",
     multiple=True,
-    help="The runs of this file in FOLDER do not count. Needs --json and --reason.",
+    help="The runs of this file in FOLDER, of a folder there (bob/) or of a player (Bob) do not count. These options "
+    "may be repeated, for many files. Needs --json and --reason.",
 )
 @click.option(
     "--disown",
     metavar="RUN",
     multiple=True,
-    help="The runs of this file in FOLDER are not by the player whom they name, and do not count. Needs --json.",
+    help="Runs, named as for --reject, are not by the player whom they name, and do not count. Needs --json.",
 )
 @click.option(
     "--ladder",
     metavar="RUN LADDER",
     multiple=True,
     type=(str, click.Choice(["played", "assisted"])),
-    help="Rank the runs of this file in FOLDER as played or as assisted, whatever they say. Needs --json.",
+    help="Rank runs, named as for --reject, as played or as assisted, whatever they say. Needs --json.",
 )
 @click.option("--reason", metavar="TEXT", default="", help="Why, for these three: it stands on the pages.")
 @click.option(
@@ -167,7 +168,7 @@ def board(
       ninja-game board replays/ --json board.json --confirm ann/00-0.txt
       ninja-game board replays/ --json board.json --reject bob/00-0.txt --reason "spliced"
       ninja-game board replays/ --json board.json --disown eve/00-0.txt
-      ninja-game board replays/ --json board.json --ladder bob/00-1.txt assisted
+      ninja-game board replays/ --json board.json --ladder bob/00-1.txt assisted --ladder old/ assisted
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """

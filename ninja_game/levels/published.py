@@ -43,7 +43,8 @@ def published_levels(path: Path) -> PublishedLevels:
     """The levels of a pack, or of any file or folder. Raises NinjaGameError, OSError."""
     if not is_pack(path):
         entries = tuple(Entry(level, YOURS) for level in load_levels(path))
-        return PublishedLevels(path.stem, "", "", EpisodeSet("", path.stem, (), {}, entries))
+        name = path.resolve().stem  # of "." too
+        return PublishedLevels(name, "", "", EpisodeSet("", name, (), {}, entries))
     pack = Pack(path)
     return PublishedLevels(pack.name, pack.index.author, pack.index.comment, episode_set(pack, ""), pack)
 

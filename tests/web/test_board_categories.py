@@ -22,7 +22,7 @@ from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.parts import UNKNOWN_ORIGIN
 from ninja_game.web.pages.gallery import path_data
 from tests.support.board import DIGEST, Tags, board, put, slow_walk
-from tests.support.forgeries import GOLD_LATER, WALKING, replay
+from tests.support.forgeries import GOLD_LATER, WALKING, record, replay
 from tests.support.samples import WALK_END
 
 SEARCHED = Provenance(edits=3, searches=("improve",), begun_by="Ann")
@@ -66,7 +66,7 @@ def test_the_categories_of_the_template_rank_as_they_say(runs: Path, levels: Pat
     put(runs, "bea.txt", slow_walk(author="Bea"))
     put(runs, "cid.txt", replay(level=GOLD_LATER, author="Cid"))
     shown = published_levels(levels)
-    _, categories = read_rules(TEMPLATE)
+    categories = read_rules(TEMPLATE).categories
     assert [each.name for each in categories] == ["Any %", "Highest score", "All gold", "Low gold", "Fewest keys"]
     ranking = Ranking(judge(runs, shown, jobs=1), shown, categories)
     for (ladder, each), table in ranking.tables[DIGEST].items():
@@ -86,7 +86,7 @@ def test_a_run_is_in_a_category_only_where_its_formula_holds(runs: Path, levels:
     put(runs, "ann.txt", slow_walk(author="Ann"))
     put(runs, "bea.txt", replay(author="Bea"))
     others = category("B", rank=["-ticks"]) + category("C", rank=["1 / (gold - 1)"])
-    _, given = read_rules(filed(tmp_path, category(when=f"ticks > {WALK_END}") + others))
+    given, *_ = read_rules(filed(tmp_path, category(when=f"ticks > {WALK_END}") + others))
     shown = published_levels(levels)
     tables = Ranking(judge(runs, shown, jobs=1), shown, given).tables[DIGEST]
     players = {each.name: [ranked.run.player for ranked in table] for (_, each), table in tables.items()}
@@ -115,7 +115,7 @@ def test_a_level_says_its_ladder_once_why_a_run_is_played_and_who_was_refused(
         (site / "board" / name).read_text("utf-8") for name in (f"levels/{DIGEST[:16]}.html", "rejected.html")
     )
     assert "<h2>Fastest; Highest score, assisted</h2>" in level
-    assert UNKNOWN_ORIGIN in level, "Ann's run does not say how it was made"
+    assert UNKNOWN_ORIGIN.format(PLAYED) in level, "Ann's run does not say how it was made"
     assert '<span class="with"> with Eve</span>' in level
     assert [f"{name}</a>, The walk" in rejected or f">{name}</a>" in rejected for name in ("Ann", "Nobody")] == [
         True, False,
@@ -127,25 +127,53 @@ def test_a_level_says_its_ladder_once_why_a_run_is_played_and_who_was_refused(
 
 def test_a_board_has_the_name_of_its_rules(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
-    name, categories = read_rules(filed(tmp_path, 'name = "Friday <races>"\n' + category()))
+    (levels / "pack.toml").unlink()
+    rules = read_rules(filed(tmp_path, 'name = "Friday <races>"\n' + category()))
     shown = published_levels(levels)
     now = "2026-01-31T12:00:00Z"
     judged = judge(runs, shown, jobs=1, dates=lambda *_: now)
-    BoardPages(tmp_path / "named", Ranking(judged, shown, categories, name)).write()
-    BoardPages(tmp_path / "unnamed", Ranking(judged, shown, categories)).write()
+    BoardPages(tmp_path / "named", Ranking(judged, shown, *rules)).write()
+    BoardPages(tmp_path / "unnamed", Ranking(judged, shown, rules.categories)).write()
     named, plain = (tmp_path / folder / "board" for folder in ("named", "unnamed"))
     assert "<title>Friday &lt;races&gt; - ninja-game</title>" in (named / "index.html").read_text("utf-8")
     assert '"index.html">Friday &lt;races&gt;</a>' in (named / "players.html").read_text("utf-8")
     assert "<title>New records: Friday &lt;races&gt;</title>" in (named / "feed.xml").read_text("utf-8")
+    assert "<title>Board: levels - ninja-game</title>" in (plain / "index.html").read_text("utf-8")
     assert '"index.html">Board</a>' in (plain / "players.html").read_text("utf-8")
     ids = [re.findall("<id>(.*?)</id>", (folder / "feed.xml").read_text("utf-8")) for folder in (named, plain)]
     assert ids[0] == ids[1], "a reader of feeds knows the entries again"
 
 
+def test_rules_put_unknown_runs_on_the_assisted_ladder(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """Also those that no keyboard can do; the keeper's decision goes first, and pages say which it is."""
+    put(runs, "old.txt", replay(author="Old"))
+    put(runs, "demo.txt", record(bytes([4]) + WALKING))
+    put(runs, "ann.txt", replay(bytes(9) + WALKING + b"\2", author="Ann", made=Provenance(played=True)))
+    rules, site = filed(tmp_path, 'unknown = "assisted"\n'), tmp_path / "site"
+    assert read_rules(rules) == (USUAL, "", ASSISTED)
+    words = "--json", str(tmp_path / "board.json"), "--site", str(site)
+    page = site / "board" / "levels" / f"{DIGEST[:16]}.html"
+
+    def played(*more: str) -> tuple[bool, ...]:
+        board(runs, levels, *words, *more)
+        table = page.read_text("utf-8").partition("<h2>Fastest; Highest score")[2].partition("</section>")[0]
+        return *(f">{name}<" in table for name in ("Old", "unknown (demo.txt)", "Ann")), among("played")
+
+    def among(ladder: str) -> bool:
+        return UNKNOWN_ORIGIN.format(ladder).strip() in page.read_text("utf-8")
+
+    assert played() == (True, False, True, True)
+    assert played("--rules", str(rules)) == (False, False, True, False)
+    assert (among("assisted"), ">unknown (demo.txt)<" in page.read_text("utf-8")) == (True, True)
+    assert played("--rules", str(rules), "--ladder", "old.txt", "played") == (True, False, True, False)
+    assert played() == (True, False, True, True)
+
+
 BROKEN = {
     "name = 3\n" + category(): "not the name of a board", f"name = '{'x' * 41}'\n" + category(): "not the name",
-    "": "1 to 12 tables [[category]], and a name", "category = 3": "no categories",
-    "x = 1\n" + category(): "no categories",
+    "": "1 to 12 tables [[category]], a name, unknown", "category = 3": "no categories",
+    "x = 1\n" + category(): "no categories", "x = 1": "no categories",
+    'unknown = "other"': "'unknown' is no ladder", "unknown = [3]\n" + category(): "'unknown' is no ladder",
     "[[category": "no TOML", category() * (MAX_CATEGORIES + 1): "no categories", category() * 2: "two categories",
     category(rank=[]): "list of formulas", category(rank=[3]): "list of formulas", category(rank="ticks"): "wrong type",
     category(name=""): "empty or too long", category(name="x" * 41): "empty or too long",

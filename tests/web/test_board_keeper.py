@@ -86,6 +86,21 @@ def test_a_run_is_moved_to_the_other_ladder(ledger: Path, runs: Path, levels: Pa
     assert len(json.loads(ledger.read_text("utf-8"))["decisions"]) == 1
 
 
+def test_many_files_are_decided_on_at_once(ledger: Path, runs: Path, levels: Path) -> None:
+    """By name, by folder and by player; a name that is both is that of the file."""
+    put(runs, "old/ann.txt", slow_walk(40, author="Old"))
+    put(runs, "old/bea/2.txt", slow_walk(60, author="ann.txt"))
+    words = "--json", str(ledger)
+    board(runs, levels, *words, "--ladder", "old/", "assisted", "--ladder", "BEA", "assisted")
+    rejected = "--reject", "ann.txt", "--reject", "tool.txt", "--reason", "spliced"
+    board(runs, levels, *words, *rejected)
+    decided = {row["file"]: row["what"] for row in json.loads(ledger.read_text("utf-8"))["decisions"]}
+    moved = dict.fromkeys(("old/ann.txt", "old/bea/2.txt", "bea.txt"), "assisted")
+    assert decided == moved | dict.fromkeys(("ann.txt", "tool.txt"), "rejected")
+    for name in ("ol/", "nn", "/"):
+        assert "no run of the ledger" in told(runs, levels, *words, "--ladder", name, "played")
+
+
 @pytest.mark.parametrize(
     "words, error",
     [

@@ -40,7 +40,7 @@ _MAX_SECONDS = 30 * TICKS_PER_SECOND  # a longer run has fewer rows, some second
 MAX_SPLITS = 60  # rows of splits; beyond it gold is left out
 
 _RECORDS = "records"
-SPLITS = "splits"
+SPLITS, RACES = "splits", "races"  # tables that a narrow page makes small
 SPLITS_OF = "Seconds, and px per tick; numbers are those in the pictures above"
 
 
@@ -110,7 +110,7 @@ class LevelPages:
         if ghosts:
             first = self.parts.shown_name(beside[-1].player)
             heads = "No.", "Split", "Time", "Speed", f"Later than {first}"
-            splits = section("Splits", table(SPLITS_OF, heads, lines))
+            splits = section("Splits", table(SPLITS_OF, heads, lines), anchor=SPLITS)
         if len(ghosts) > 1:
             where = section("Where time goes", *self._where_time_goes([(first, beside[1], 1), (name, run, 0)]))
         best = int(speeds.argmax())
@@ -128,14 +128,15 @@ class LevelPages:
             [parts.stems[run.key], run.added, run.remark, run.waits, run.medal, run.tick] for run in runs
         ]
         categories = [[category.name, category.rank, category.when] for category in self.ranking.categories]
-        about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
+        about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest]
+        ladders = self.ranking.ladders, self.ranking.unknown
 
         def content() -> str:
             top, drawn, more = self._runs(entry)
             return level_page(entry, {}, UP + parts.game, parts.deeper, more, site=parts.site, top=top, drawn=drawn)
 
         parts.pages.make(picture_name(digest), digest, lambda: picture(named.level))
-        parts.pages.make(page_name(digest), [about, rows, categories, parts.deeper, parts.site], content)
+        parts.pages.make(page_name(digest), [about, ladders, rows, categories, parts.deeper, parts.site], content)
         known = {parts.stems[run.key]: run for run in runs}
 
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
@@ -186,7 +187,7 @@ class LevelPages:
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
         top = tag("ul", *(leaders[part] for part in tables), class_="cards"), on_this_page(leads) if leads else None
         unknown = any(not row.run.made for same in merged.values() for ranks in same for row in ranks.rows)
-        shown.append(tag("p", UNKNOWN_ORIGIN) if unknown else None)
+        shown.append(tag("p", UNKNOWN_ORIGIN.format(self.ranking.unknown)) if unknown else None)
         return joined(*top), drawn, joined(*shown, note, link, first, folded, beside)
 
     def _left_out(self, what: str, rows: Sequence[Ranked]) -> Content:
@@ -206,7 +207,7 @@ class LevelPages:
             waits = tag("a", counted(number, "run waits", "runs wait"), href=f"{UP}waiting.html")
             return tag("li", link, tag("p", waits, class_="facts"), class_="card leader")
         result, run = tag("strong", leaderboard[1].measured(best.values[0])), best.run
-        about = tag("p", parts.player_link(run.player, UP), run.day, parts.watch_link([run], UP), class_="facts")
+        about = tag("p", parts.player_link(run.player, UP), parts.watch_link([run], UP), run.day, class_="facts")
         return tag("li", link, result, about, class_="card leader")
 
     def _table(self, same: Sequence[_Ranks], marks: Mapping[Key, Content], anchor: str) -> Markup:
@@ -270,18 +271,19 @@ class LevelPages:
             (tag("div", swatch(at), " ", names[at], class_="text"), *(self._pair(runs, at, other) for other in numbers))
             for at in numbers
         ]
-        races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
+        heads = [tag("div", swatch(at), tag("span", names[at], class_="name"), class_="text") for at in numbers]
+        races = table("Seconds by which the left one is later; a link watches both", ("Run", *heads), pairs)
         lines = [
             (tag("a", number, href=f"#{PLACE}{number}"), row.split.name, *_cells(row))
             for number, row in enumerate(rows, 1)
         ]
-        fastest, *others = [name for name, *_ in by_time]
+        fastest, first, *others = by_time[0][0], *(heads[number] for *_, number in by_time)
         note = f"Seconds; later than {fastest}: +; numbers are those in the picture"
-        splits = table(note, ("No.", "Split", fastest, "Fastest segment", *others), lines)
+        splits = table(note, ("No.", "Split", first, "Fastest segment", *others), lines, ("No.",))
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
         where = self._where_time_goes(by_time, tabled=len(rows) < ENOUGH_SPLITS)
         return joined(drawn, together), joined(
-            section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS),
+            section("Any two of the first", races, anchor=RACES), section("Splits", splits, best, anchor=SPLITS),
             section("Where time goes", *where) if where else None,
         )  # fmt: skip
 

@@ -73,7 +73,7 @@ FEED = "feed.xml"
 ONE_MOMENT = "Where several runs that came in together beat a level's record, the best of them is the record."
 HOW_TO_MOVE = (
     "What no keyboard can do was made by tools. The keeper ranks it so with: "
-    "ninja-game board FOLDER --json board.json --ladder FILE assisted"
+    "ninja-game board FOLDER --json board.json --ladder FILE assisted, or all unknown ones by its rules."
 )
 GAINS = "By how much could be won"
 BY_LEVELS = "By levels led in all categories together, then by levels passed"
@@ -119,7 +119,7 @@ class BoardPages:
         self._levels()
         self._rejected()
         if episodes := self._episodes():
-            parts.pages.write(EPISODES[0], page(EPISODES[1], tag("p", EPISODE_NUMBERS), *episodes, links=parts.links))
+            parts.pages.write(EPISODES[0], page(EPISODES[1], tag("p", EPISODE_NUMBERS), *episodes, links=parts.top))
         parts.pages.write("index.html", self._first())
         parts.pages.write(FEED, self._feed())
         # Last: if the disk is full, the earlier pages are still complete.
@@ -155,22 +155,23 @@ class BoardPages:
         contents = [section(title, content, anchor=anchor) for anchor, title, content in parts]
         leads = on_this_page([part[:2] for part in parts])
         title = self.ranking.name or f"Board: {self._name}"
-        return page(title, lead, again, leads, *contents, links=self.parts.links, current="index.html")
+        return page(title, lead, again, leads, *contents, links=self.parts.top, current="index.html")
 
     @property
     def _name(self) -> str:
-        """The name of the pack, else that of the only level: the name of its file says nothing to readers."""
+        """The name of the pack or folder, or that of the only level: its file's says nothing to readers."""
         titles = [entry.title for entry in self.entries.values()]
-        return self.ranking.shown.name if self.ranking.shown.pack else titles[0] if len(titles) == 1 else "own levels"
+        return titles[0] if len(titles) == 1 and not self.ranking.shown.pack else self.ranking.shown.name
 
     def _runs_and_how_to_send(self) -> list[Piece]:
         parts = self.parts
         rows = [
-            (linked_level(run.entry), parts.watch_link([run], ""), parts.player_link(run.player), *times, run.moment)
+            (linked_level(run.entry), parts.watch_link([run], ""), player, time, run.moment)
             for run in self.ranking.judged.runs[: -NEWEST_RUNS - 1 : -1]
-            for times in [(parts.run_link(run, "", seconds_text(run.tick)), made_text(run))]
+            for player in [joined(parts.player_link(run.player), tag("div", made_text(run), class_="faint"))]
+            for time in [parts.run_link(run, "", seconds_text(run.tick))]
         ]
-        newest = table("Newest first", ("Level", "Watch", "Player", "Time", "Made", "Date"), rows, LESSER)
+        newest = table("Newest first", ("Level", "Watch", "Player", "Time", "Date"), rows, LESSER)
         steps = tag("ol", *(tag("li", step) for step in HOW_TO_SEND))
         play = tag("p", tag("a", "Play", href=parts.game, class_="button"))
         runs: list[Piece] = [("runs", "Newest runs", newest)] if rows else []
@@ -201,7 +202,7 @@ class BoardPages:
             return rows
         levels, players = ({getattr(record.run, name) for record in records} for name in ("level", "player"))
         where = tag("a", counted(len(levels), "level"), href="levels.html")
-        return [(where, "", counted(len(players), "player"), _together(records), moment)]
+        return [(where, "", counted(len(players), "player"), stack(_together(records)), moment)]
 
     def _lines(self, record: Record) -> Iterator[str]:
         return (f"{name}: {result}, {gain}" for name, result, gain in self._achieved(record))
@@ -471,9 +472,8 @@ class BoardPages:
             for run in runs.values()
             if run.waits
         ]
-        waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
         movable = any(item.kind == "refused" and item.way for item in rejected)
-        leads = tag("p", lead), tag("p", waiting) if near else None, tag("p", HOW_TO_MOVE) if movable else None
+        leads = tag("p", lead), tag("p", HOW_TO_MOVE) if movable else None
         heads = "Run", "Why"
         parts.write_table("rejected", "Rejected", "What does not count", heads, rows, *leads)
         if near:
@@ -486,7 +486,7 @@ class BoardPages:
         if other:
             yield tag("p", self.parts.watch_link([run, other], "", f"Watch with {self.parts.shown_name(other.player)}"))
         file, folder = quote(shown_text(run.file)), quote(shown_text(run.folder.folder.resolve().name))
-        for does in f"--confirm {file}", f"--reject {file} --reason copied":
+        for does in f"--confirm {file}", f"--reject {file} --reason 'not confirmed'":
             yield tag("p", tag("code", f"ninja-game board {folder} --json board.json {does}"))
 
     def _known_player(self, player: str) -> Content:

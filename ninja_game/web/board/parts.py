@@ -14,7 +14,7 @@ from ninja_game.board.runs import Run
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.levels.episodes import Entry
-from ninja_game.web.pages.frame import GAME_PAGE, REPLAYS, Content, Markup, Pages, joined, page, table, tag
+from ninja_game.web.pages.frame import GAME_PAGE, LONG_CELL, REPLAYS, Content, Markup, Pages, joined, page, table, tag
 from ninja_game.web.pages.gallery import (
     BOARD,
     PICTURE_HEIGHT,
@@ -46,8 +46,8 @@ HOW_TO_CONFIRM = (
     "The commands in a row confirm or reject its run; the keeper runs them where the folder and the ledger lie."
 )
 UNKNOWN_ORIGIN = (
-    "Made unknown: the run does not say how it was made, and nobody can check it. It is ranked among the played ones "
-    "until the keeper of the board moves it. "
+    "Made unknown: the run does not say how it was made, and nobody can check it. It is ranked among the {} ones until "
+    "the keeper of the board moves it. "
 )
 
 
@@ -64,6 +64,9 @@ class Parts:
         assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
         others = [link for link in LINKS[2:] if link != EPISODES or ranking.shown.levels.episodes]
         self.links = [(self.game, "Play"), (LINKS[0][0], ranking.name or LINKS[0][1]), LINKS[1], *assisted, *others]
+        waiting = sum(bool(run.waits) for run in ranking.judged.runs)
+        # Pages of levels and runs have no number that changes them all.
+        self.top = [*self.links, *([("waiting.html", f"Waiting: {waiting}")] if waiting else [])]
         self.deeper = [(UP + address, name) for address, name in self.links]
         self.around = values_digest([self.links, self.site])  #: of the text on every page
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
@@ -83,7 +86,7 @@ class Parts:
 
         Without heads each row is a card.
         """
-        up, links = (UP, self.deeper) if "/" in name else ("", self.links)
+        up, links = (UP, self.deeper) if "/" in name else ("", self.top)
         current = f"{name}.html"
         parts = [rows[first : first + PER_PAGE] for first in range(0, len(rows), PER_PAGE)] or [()]
         names = [f"{name}{f'-{number}' if number > 1 else ''}.html" for number in range(1, len(parts) + 1)]
@@ -183,7 +186,10 @@ def cards(caption: str, contents: Iterable[Content]) -> Markup:
 
 
 def made_text(run: Run) -> Markup:
-    return tag("span", run.made or "unknown", class_="made")
+    """How a run was made; a long text is folded."""
+    if len(run.made) <= LONG_CELL:
+        return tag("span", run.made or "unknown", class_="made")
+    return tag("details", tag("summary", "Assisted" if run.assisted else "Played"), run.made, class_="note made")
 
 
 def _stem(run: Run) -> str:

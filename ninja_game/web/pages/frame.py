@@ -103,7 +103,7 @@ _FAINT = 0.35  # share between the palette's ink and its faint one for small tex
 _FRAME = 0.4  # how much darker than a tile the frame of a page is, on which letters stand
 _ICON_SIZE = 64
 _MAX_HEADING = 30
-_MAX_LINE = 24  # characters of a cell that stay in one line
+LONG_CELL = 24  # most characters of a cell in one line
 _MAX_HEAD = 14  # letters in the first row
 _NUMBER = re.compile(r"(?:<[^>]*>)*[-+]?\d[\d.,]*(?: of \d+| s)?(?:<[^>]*>)*")
 """A cell with a number, which is aligned to the right for comparison."""
@@ -294,7 +294,7 @@ def table(
     return tag("div", whole, class_="wide", tabindex="0", role="region", aria_label=caption)
 
 
-def _wrapping(cell: Content, longest: int = _MAX_LINE) -> Content:
+def _wrapping(cell: Content, longest: int = LONG_CELL) -> Content:
     """A cell that breaks its lines if it is long."""
     long = isinstance(cell, str) and not isinstance(cell, Markup) and len(cell) > longest
     return tag("span", cell, class_="text") if long else cell

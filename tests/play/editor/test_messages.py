@@ -540,7 +540,7 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(room: Make
     field = screen._row_widgets[1][-1]
     room.mouse(*field.centre)
     assert isinstance(field, TextEntry)
-    field.with_stamp("{jump}")
+    field.put("{jump}")
     assert "jump" in field.hint
     screen.messages[1].text = "Here"
     room.frames()
