@@ -1005,13 +1005,17 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
     packs.describe(made, {"version": "1.1"})
     drop()
     assert driver.shown(MenuScreen).title == "You have Laundry in another version"
-    assert "1 level new, 1 level changed, 1 level gone" in drawn(driver.app)
+    news = "1 level new: Fresh; 4 levels changed; 1 level gone: First Steps"
+    assert news in drawn(driver.app), "the texts of a level count too"
     driver.choose("Update it")
     driver.choose("Not now")
-    assert driver.app.notice == "Laundry: 1 level new, 1 level changed, 1 level gone"
+    assert driver.app.notice == f"Laundry: {news}"
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     assert Pack(path).index.version == "1.1"
     assert packs.same_pack(Pack(path), Pack(made))
+    for file in ("00-2", "00-3", "00-4"):
+        (level,) = made.glob(f"{file}-*.txt")
+        level.write_text(level.read_text("utf-8").replace("\ncomment: ", "\ncomment: Well: ", 1), "utf-8")
     driver.chord("z", pygame.KMOD_CTRL)
     assert {file: file.read_bytes() for file in path.rglob("*") if file.is_file()} == before
     drop()
