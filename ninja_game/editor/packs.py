@@ -220,8 +220,11 @@ def move_episode(path: Path, number: int, to: int) -> None:
 # --- levels ---
 
 
-def place(path: Path, names: Sequence[str], number: int | None, before: str = "") -> None:
-    """Put levels into an episode, in this order, before another or at the end; ``number``: None for no episode."""
+def place(path: Path, names: Sequence[str], number: int | None, before: str = "") -> bool:
+    """Put levels into an episode, in this order, before another or at the end; whether that changes anything.
+
+    ``number``: None for no episode.
+    """
     pack = Pack(path)
     old = {episode.number: list(episode.files(pack.files.levels)) for episode in pack.index.episodes}
     new = {key: [name for name in files if name not in names] for key, files in old.items()}
@@ -230,7 +233,8 @@ def place(path: Path, names: Sequence[str], number: int | None, before: str = ""
         new[number][at:at] = names
         if len(new[number]) > LEVELS_PER_EPISODE:
             raise PackError(f"episode {number + 1} is full", expected=f"at most {LEVELS_PER_EPISODE} levels")
-    _change_episodes(path, {key: {"levels": files} for key, files in new.items() if files != old[key]})
+    _change_episodes(path, changes := {key: {"levels": files} for key, files in new.items() if files != old[key]})
+    return bool(changes)
 
 
 def new_level(path: Path, name: str, author: str) -> str:
