@@ -30,6 +30,11 @@ class Stamp(NamedTuple):
     tiles: Tiles
     objects: tuple[ObjectSpec, ...] = ()
 
+    @property
+    def solid(self) -> Stamp:
+        """It without its empty cells."""
+        return self._replace(tiles={cell: tile for cell, tile in self.tiles.items() if tile != EMPTY})
+
     def carried(self, motion: Motion) -> Stamp:
         tiles = {motion.cell(cell): motion.tile(tile) for cell, tile in self.tiles.items()}
         return Stamp(tiles, tuple(carried(spec, motion) for spec in self.objects))
@@ -181,9 +186,12 @@ def arranged(draft: Draft, selection: Selection, axis: int, share: float | None)
     return draft.with_objects(tuple(objects))
 
 
-def pasted(draft: Draft, stamp: Stamp) -> tuple[Draft, Selection]:
-    """The draft with a stamp on it, and the selection of the pasted things: objects are added, but a ninja moves."""
-    after, stamped = put(draft, stamp), set(stamp.objects)
+def pasted(draft: Draft, stamp: Stamp, *, empty: bool = False) -> tuple[Draft, Selection]:
+    """The draft with a stamp on it, and the selection of the pasted things: objects are added, but a ninja moves.
+
+    ``empty``: its empty cells remove tiles.
+    """
+    after, stamped = put(draft, stamp if empty else stamp.solid), set(stamp.objects)
     new = {number for number, spec in enumerate(after.objects) if spec in stamped}
     parts = {(number, part) for number in new for part in points(after.objects[number])}
     cells = list(stamp.tiles)

@@ -97,7 +97,7 @@ class EditorTools:
     def _take_first(self) -> None:
         self.tool, self.symmetry = "brush", "off"  #: one of TOOLS; a name
         self.nearest = True  #: whether doors go to the side of a cell nearest to the pointer, not to their own
-        self.takes = TAKES[0]
+        self.takes, self.pastes_empty = TAKES[0], False  #: whether empty cells of a copy remove tiles
         self.draws_objects, self.tile = False, brush.FULL  #: whether the brush draws the spec, not the tile
         self.spec: ObjectSpec = brush.object_of_type("gold")
 
@@ -174,7 +174,7 @@ class EditorTools:
             self.finish()
         elif stamp := self.pasted:
             self.tool, self.ghost = "select", None
-            draft, self.selection = stamps.pasted(self.draft, stamp)
+            draft, self.selection = stamps.pasted(self.draft, stamp, empty=self.pastes_empty)
             self.history.change(draft)
         elif pick or (self.tool == "pick" and not erase):
             self.pick()
@@ -400,7 +400,8 @@ class EditorTools:
         (ax, ay), (bx, by) = brush.snapped(*self._pressed_at, snap), brush.snapped(*self.pointer, snap)
         began, chosen, motion = self.history.began, self._chosen_before, Motion(dx=bx - ax, dy=by - ay)
         if self._copies:
-            draft, self.selection = stamps.pasted(began, stamps.copied(began, chosen).carried(motion))
+            copy = stamps.copied(began, chosen).carried(motion)
+            draft, self.selection = stamps.pasted(began, copy, empty=self.pastes_empty)
         else:
             draft, self.selection = stamps.moved(began, chosen, motion)
         self.history.change(draft)

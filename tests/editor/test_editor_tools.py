@@ -701,6 +701,19 @@ def test_a_fill_shows_what_it_would_fill_and_a_frame_how_large_it_is(tools: Edit
     drawn = tools.framed
     tools.release()
     assert (drawn, tools.framed) == ((4, 2), None)
+    neighbour = (2, 9)
+    before = tools.draft.with_tiles({neighbour: 1})
+    tools.history.change(before)
     tools.tool, tools.tile = "fill", 6
+    assert tools.draft.tile(neighbour) == 1, "empty cells of the copy remove nothing"
     tools.move(36, 36)
     assert tools.preview == dict.fromkeys([(column, row) for column in (1, 2, 3, 4) for row in (1, 2)], 6)
+    for empty in (False, True):
+        tools.selection, tools.pastes_empty = Selection((2, 2, 4, 2)), empty
+        assert tools.copy()
+        assert tools.paste()
+        tools.move(84, 216)
+        tools.press()
+        assert (tools.draft.tile((2, 8)), tools.draft.tile(neighbour)) == (1, not empty)
+        tools.undo()
+        assert tools.draft == before

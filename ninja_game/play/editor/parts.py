@@ -96,6 +96,10 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         rows.append(
             lambda area: Choice(area, "", taken, lambda: tools.takes, tools.take, hint=EDITOR_COMMANDS.hint("takes"))
         )
+    if tools.ghost.tiles if tools.ghost else tools.selection.area:
+        empty = [("empty cells: left out", False), ("empty cells: copied", True)]
+        put_empty, about = partial(setattr, tools, "pastes_empty"), "Whether empty cells of a copy remove tiles there"
+        rows.append(lambda area: Choice(area, "", empty, lambda: tools.pastes_empty, put_empty, hint=about))
     if tools.ghost:
         title = _title("A click pastes", len(tools.ghost.tiles), len(tools.ghost.objects))
         rows.append(_turning(view))
@@ -360,7 +364,7 @@ class Properties(EditorPart):
 
     def refresh(self) -> None:
         tools = self.session.tools
-        about = tools.tool == "select" and tools.takes, *panel_key(tools)
+        about = tools.tool == "select" and tools.takes, tools.pastes_empty, *panel_key(tools)
         if about != self._subject:
             self._subject = about
             x, y, w, h = self.area

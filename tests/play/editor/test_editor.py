@@ -551,7 +551,7 @@ def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_onc
     room.press("v")
     room.drag((190, 280), (320, 320))
     before = room.draft
-    choice = room.editor.properties.widgets[2]
+    choice = room.editor.properties.widgets[3]
     room.mouse(*choice.centre)
     changed = [spec.values[2] for spec in room.draft.objects[-3:]]
     assert len(set(changed)) == 1
@@ -751,6 +751,11 @@ def test_what_is_pasted_has_its_buttons_and_esc_leads_back_to_what_was_selected(
     assert (bool(tools.ghost), tools.selection, tools.tool) == (False, before, "select")
 
 
+    empty = room.editor.properties.widgets[1]
+    assert isinstance(empty, Choice)
+    for pastes in (True, False):
+        room.mouse(*empty.centre)
+        assert tools.pastes_empty == pastes
 def test_find_has_the_keys_from_the_start_until_it_is_left(room: Maker) -> None:
     tools, view = room.editor.session.tools, room.editor.view
     find = room.editor.sides[1].widgets[0]
