@@ -321,6 +321,36 @@ def joined(cells: list[Cell]) -> list[Cell]:
     return cells if left == right or top == bottom else [*cells, *((x + dx, y + dy) for x, y in cells)]
 
 
+def ramp(a: Cell, b: Cell) -> Tiles:
+    """The tiles of a line, one cell thick: slopes of 22° or 67°, of 45° between, else full; {} if it does not slant."""
+    steep = abs(b[1] - a[1]) > abs(b[0] - a[0])
+
+    def turned(cell: Cell) -> Cell:
+        """A steep ramp is a gentle one with x and y exchanged."""
+        return (cell[1], cell[0]) if steep else cell
+
+    (x, y), end = sorted((turned(a), turned(b)), key=lambda cell: cell[1])
+    down, side, long = end[1] - y, 1 if end[0] > x else -1, abs(end[0] - x) + 1
+    if not down:
+        return {}
+    # It goes down as far as its last cell, or below that where slopes alone fill its length.
+    drops = down + (long <= 2 * down or long == 2 * down + 2)
+    tiles = dict.fromkeys([end] * (drops == down), FULL)
+    long -= len(tiles)
+    for k in range(drops):
+        run = long * (k + 1) // drops - long * k // drops
+        keys = ("1",) if run == 1 else _STEEP if steep else _GENTLE
+        for left in range(run, 0, -1):
+            if left > 2:
+                tiles[x, y] = FULL
+            else:
+                tiles[x, y] = _SLOPES[keys[left - 1]][_AIR[turned((side, -1))]]
+                tiles[x, y + 1] = _SLOPES[keys[-left]][_AIR[turned((-side, 1))]]
+            x += side
+        y += 1
+    return {turned(cell): tile for cell, tile in tiles.items()}
+
+
 def steps(cells: list[Cell]) -> list[Cell]:
     """Of a line, for two cells that touch only at a corner: the cell below the upper one, so that slopes join them."""
     return [(min(a, b, key=lambda cell: cell[1])[0], max(a[1], b[1])) for a, b in pairwise(cells) if dist(a, b) > 1]

@@ -296,16 +296,19 @@ class EditorTools:
         """Tiles that fill it, or objects: they fill a box, and lie along a line or an ellipse."""
         if not self.draws_objects:
             cells = stamps.covered(self._gesture, cell_of(*self._pressed_at), self.cell, self._bend)
-            tiles = dict.fromkeys(cells, self.tile)
-            if self._gesture == Gesture.LINE:
+            tiles, shaped = dict.fromkeys(cells, self.tile), dict[Cell, int]()
+            if self.slopes and self.tile == brush.FULL and not self._bend and self._gesture == Gesture.LINE:
+                shaped = stamps.ramp(cell_of(*self._pressed_at), self.cell)
+            elif self.slopes and self.tile == brush.FULL and self._gesture == Gesture.ELLIPSE:
+                column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
+                shaped = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
+            if shaped:
+                # Slopes of the shape remove no tiles.
+                rock = {cell for cell in shaped if self.history.began.tile(cell)}
+                tiles = {cell: tile for cell, tile in shaped.items() if tile == brush.FULL or cell not in rock}
+            elif self._gesture == Gesture.LINE:
                 ramp = self.slopes and self.tile in (brush.EMPTY, brush.FULL)
                 tiles = self._lined(stamps.joined(cells) if ramp else cells, self.tile, self.history.began)
-            elif self.slopes and self._gesture == Gesture.ELLIPSE and self.tile == brush.FULL:
-                column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
-                tiles = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
-                # Slopes of the shape remove no tiles.
-                rock = {cell for cell in tiles if self.history.began.tile(cell)}
-                tiles = {cell: tile for cell, tile in tiles.items() if tile == brush.FULL or cell not in rock}
             self._change(stamps.Stamp(tiles), self.history.began)
             return
         ends = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)

@@ -482,6 +482,8 @@ class StatusLine(EditorPart):
         if messages:
             return f"Double click opens the message, Select drags it: {messages[0].text}"
         slopes = "Slopes by themselves. " if tools.sets_slopes else ""
+        if tools.slopes and tools.tool == "rectangle" and not tools.draws_objects:
+            slopes = "No slopes: a box keeps its corners. "
         if tools.tool == "select" and tools.takes != TAKES[0]:
             slopes = f"Takes only {tools.takes}: Shift+V. "
         start, shown = self.session.start, slopes + _TOOL_HINTS[tools.effective_tool]

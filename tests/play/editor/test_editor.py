@@ -677,6 +677,12 @@ def test_slopes_and_spacing_are_set_in_the_panel_and_the_wheel_bends_a_line(room
     room.chord("s", pygame.KMOD_LSHIFT)
     assert "by hand" in slopes.options[slopes.index][0]
     room.press("shift+g")
+    room.mouse(*slopes.centre)
+    room.mouse(*room.button("Box").centre)
+    room.mouse(*room.at(300, 204), click=False)
+    assert "No slopes: a box keeps its corners" in drawn(room.app)
+    room.mouse(*room.button("Brush").centre)
+    room.mouse(*slopes.centre)
     room.press("i")
     spacing = room.editor.properties.widgets[-1]
     room.mouse(*spacing.centre)
