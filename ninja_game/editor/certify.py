@@ -127,6 +127,7 @@ class Certification:
     full: Replay | None = None  #: the best run with all gold
     then: Callable[[Certification], object] | None = None  #: called at the end, in the solver's thread
     failed: bool = False  #: whether an error ended it
+    known: tuple[bytes, ...] = ()  #: inputs of runs of the level as it was before, tried first
     stopping: Event = field(default_factory=Event)  #: set to end it
 
     def take(self, run: Replay) -> None:
@@ -198,7 +199,8 @@ class Solver:
             from ninja_game.search.solve import solve
             from ninja_game.search.task import Task, obstacle
 
-            task, report = Task(search.level, seconds=search.seconds), partial(setattr, search, "progress")
+            task = Task(search.level, seconds=search.seconds, others=search.known)
+            report = partial(setattr, search, "progress")
             result = solve(task, report=report, on_better=search.take, stop=search.stopping)
             if not (result or search.run or search.end) and search.progress:
                 search.obstacles = (obstacle(search.level, 0, search.progress),)
@@ -272,14 +274,20 @@ class Certifier:
         return self.search.level is not None and level != self.search.level
 
     def start(self, level: Level) -> None:
-        """Begin to search a level, for twice as long as an earlier search that failed; known runs stay."""
+        """Begin to search a level, for twice as long as an earlier search that failed.
+
+        Known runs stay; those of the level before its change are tried first.
+        """
         before, waits = self.search, self.waits
         self.stop()
         longer = 2 * before.seconds if before.obstacles and not before.run and before.level == level else self.seconds
         if not compiled_available():
             self.search = Certification(end=f"Certifying needs Numba: {install_hint('fast')}")
             return
-        self.search = Certification(level, seconds=longer, began=before.began if waits else monotonic())
+        # Of two known runs the shorter one comes last: the solver reports what is no longer than those before.
+        known = tuple(run.inputs for run in (before.full, before.run) if run) or before.known
+        began = before.began if waits else monotonic()
+        self.search = Certification(level, seconds=longer, began=began, known=known)
         for run in (before.run, before.full) if before.level == level else ():
             if run:
                 self.search.take(run)

@@ -17,7 +17,7 @@ from ninja_game.editor.files import SUFFIX, ascii_text, draft_of, open_source, s
 from ninja_game.editor.pack_steps import move_folder, noted, write_file
 from ninja_game.errors import PackError
 from ninja_game.files.reading import read_bytes, read_utf8
-from ninja_game.files.shown_text import counted, file_stem, name_problem
+from ninja_game.files.shown_text import counted, file_stem, name_problem, shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
@@ -112,11 +112,19 @@ def copy_pack(pack: Pack, folder: Path, name: str, *, received: bool = False, ov
 
 
 def news(old: Pack, pack: Pack) -> str:
-    """The differences between a pack and an older version of it."""
+    """The differences between a pack and an older version of it; one or two levels of a kind are named."""
     both = old.levels.keys() & pack.levels.keys()
-    changed = sum(old.levels[file].level != pack.levels[file].level for file in both)
-    counts = {"new": len(pack.levels) - len(both), "changed": changed, "gone": len(old.levels) - len(both)}
-    return ", ".join(f"{counted(n, 'level')} {what}" for what, n in counts.items() if n) or "Its levels are the same"
+    kinds = {
+        "new": [level.name for file, level in pack.levels.items() if file not in both],
+        "changed": [pack.levels[file].name for file in both if old.files.text(file) != pack.files.text(file)],
+        "gone": [level.name for file, level in old.levels.items() if file not in both],
+    }
+    texts = [
+        f"{counted(len(names), 'level')} {what}" + f": {shown_text(', '.join(sorted(names)))}" * (len(names) < 3)
+        for what, names in kinds.items()
+        if names
+    ]
+    return "; ".join(texts) or "Its levels are the same"
 
 
 def make_own(path: Path) -> None:
@@ -212,8 +220,11 @@ def move_episode(path: Path, number: int, to: int) -> None:
 # --- levels ---
 
 
-def place(path: Path, names: Sequence[str], number: int | None, before: str = "") -> None:
-    """Put levels into an episode, in this order, before another or at the end; ``number``: None for no episode."""
+def place(path: Path, names: Sequence[str], number: int | None, before: str = "") -> bool:
+    """Put levels into an episode, in this order, before another or at the end; whether that changes anything.
+
+    ``number``: None for no episode.
+    """
     pack = Pack(path)
     old = {episode.number: list(episode.files(pack.files.levels)) for episode in pack.index.episodes}
     new = {key: [name for name in files if name not in names] for key, files in old.items()}
@@ -222,7 +233,8 @@ def place(path: Path, names: Sequence[str], number: int | None, before: str = ""
         new[number][at:at] = names
         if len(new[number]) > LEVELS_PER_EPISODE:
             raise PackError(f"episode {number + 1} is full", expected=f"at most {LEVELS_PER_EPISODE} levels")
-    _change_episodes(path, {key: {"levels": files} for key, files in new.items() if files != old[key]})
+    _change_episodes(path, changes := {key: {"levels": files} for key, files in new.items() if files != old[key]})
+    return bool(changes)
 
 
 def new_level(path: Path, name: str, author: str) -> str:

@@ -30,6 +30,11 @@ class Stamp(NamedTuple):
     tiles: Tiles
     objects: tuple[ObjectSpec, ...] = ()
 
+    @property
+    def solid(self) -> Stamp:
+        """It without its empty cells."""
+        return self._replace(tiles={cell: tile for cell, tile in self.tiles.items() if tile != EMPTY})
+
     def carried(self, motion: Motion) -> Stamp:
         tiles = {motion.cell(cell): motion.tile(tile) for cell, tile in self.tiles.items()}
         return Stamp(tiles, tuple(carried(spec, motion) for spec in self.objects))
@@ -181,9 +186,12 @@ def arranged(draft: Draft, selection: Selection, axis: int, share: float | None)
     return draft.with_objects(tuple(objects))
 
 
-def pasted(draft: Draft, stamp: Stamp) -> tuple[Draft, Selection]:
-    """The draft with a stamp on it, and the selection of the pasted things: objects are added, but a ninja moves."""
-    after, stamped = with_stamp(draft, stamp), set(stamp.objects)
+def pasted(draft: Draft, stamp: Stamp, *, empty: bool = False) -> tuple[Draft, Selection]:
+    """The draft with a stamp on it, and the selection of the pasted things: objects are added, but a ninja moves.
+
+    ``empty``: its empty cells remove tiles.
+    """
+    after, stamped = with_stamp(draft, stamp if empty else stamp.solid), set(stamp.objects)
     new = {number for number, spec in enumerate(after.objects) if spec in stamped}
     parts = {(number, part) for number in new for part in points(after.objects[number])}
     cells = list(stamp.tiles)
@@ -311,6 +319,36 @@ def ramp_cells(cells: list[Cell]) -> list[Cell]:
     (left, right), (top, bottom) = ((min(along), max(along)) for along in zip(*cells, strict=True))
     dx, dy = (0, 1) if right - left >= bottom - top else (1, 0)
     return cells if left == right or top == bottom else [*cells, *((x + dx, y + dy) for x, y in cells)]
+
+
+def ramp(a: Cell, b: Cell) -> Tiles:
+    """The tiles of a line, one cell thick: slopes of 22° or 67°, of 45° between, else full; {} if it does not slant."""
+    steep = abs(b[1] - a[1]) > abs(b[0] - a[0])
+
+    def turned(cell: Cell) -> Cell:
+        """A steep ramp is a gentle one with x and y exchanged."""
+        return (cell[1], cell[0]) if steep else cell
+
+    (x, y), end = sorted((turned(a), turned(b)), key=lambda cell: cell[1])
+    down, side, long = end[1] - y, 1 if end[0] > x else -1, abs(end[0] - x) + 1
+    if not down:
+        return {}
+    # It goes down as far as its last cell, or below that where slopes alone fill its length.
+    drops = down + (long <= 2 * down or long == 2 * down + 2)
+    tiles = dict.fromkeys([end] * (drops == down), FULL)
+    long -= len(tiles)
+    for k in range(drops):
+        run = long * (k + 1) // drops - long * k // drops
+        keys = ("1",) if run == 1 else _STEEP if steep else _GENTLE
+        for left in range(run, 0, -1):
+            if left > 2:
+                tiles[x, y] = FULL
+            else:
+                tiles[x, y] = _SLOPES[keys[left - 1]][_AIR[turned((side, -1))]]
+                tiles[x, y + 1] = _SLOPES[keys[-left]][_AIR[turned((-side, 1))]]
+            x += side
+        y += 1
+    return {turned(cell): tile for cell, tile in tiles.items()}
 
 
 def stair_cells(cells: list[Cell]) -> list[Cell]:

@@ -97,7 +97,7 @@ class EditorTools:
     def _take_first(self) -> None:
         self.tool, self.symmetry = "brush", "off"  #: one of TOOLS; a name
         self.nearest = True  #: whether doors go to the side of a cell nearest to the pointer, not to their own
-        self.takes = TAKES[0]
+        self.takes, self.pastes_empty = TAKES[0], False  #: whether empty cells of a copy remove tiles
         self.draws_objects, self.tile = False, brush.FULL  #: whether the brush draws the spec, not the tile
         self.spec: ObjectSpec = brush.object_of_type("gold")
 
@@ -174,7 +174,7 @@ class EditorTools:
             self.finish()
         elif stamp := self.pasted:
             self.tool, self.ghost = "select", None
-            draft, self.selection = stamps.pasted(self.draft, stamp)
+            draft, self.selection = stamps.pasted(self.draft, stamp, empty=self.pastes_empty)
             self.history.change(draft)
         elif pick or (self.tool == "pick" and not erase):
             self.pick()
@@ -296,16 +296,19 @@ class EditorTools:
         """Tiles that fill it, or objects: they fill a box, and lie along a line or an ellipse."""
         if not self.draws_objects:
             cells = stamps.covered(self._gesture, cell_of(*self._pressed_at), self.cell, self._bend)
-            tiles = dict.fromkeys(cells, self.tile)
-            if self._gesture == Gesture.LINE:
+            tiles, shaped = dict.fromkeys(cells, self.tile), dict[Cell, int]()
+            if self.slopes and self.tile == brush.FULL and not self._bend and self._gesture == Gesture.LINE:
+                shaped = stamps.ramp(cell_of(*self._pressed_at), self.cell)
+            elif self.slopes and self.tile == brush.FULL and self._gesture == Gesture.ELLIPSE:
+                column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
+                shaped = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
+            if shaped:
+                # Slopes of the shape remove no tiles.
+                rock = {cell for cell in shaped if self.history.began.tile(cell)}
+                tiles = {cell: tile for cell, tile in shaped.items() if tile == brush.FULL or cell not in rock}
+            elif self._gesture == Gesture.LINE:
                 ramp = self.slopes and self.tile in (brush.EMPTY, brush.FULL)
                 tiles = self._lined(stamps.ramp_cells(cells) if ramp else cells, self.tile, self.history.began)
-            elif self.slopes and self._gesture == Gesture.ELLIPSE and self.tile == brush.FULL:
-                column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
-                tiles = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
-                # Slopes of the shape remove no tiles.
-                rock = {cell for cell in tiles if self.history.began.tile(cell)}
-                tiles = {cell: tile for cell, tile in tiles.items() if tile == brush.FULL or cell not in rock}
             self._change(stamps.Stamp(tiles), self.history.began)
             return
         ends = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)
@@ -400,7 +403,8 @@ class EditorTools:
         (ax, ay), (bx, by) = brush.snapped(*self._pressed_at, snap), brush.snapped(*self.pointer, snap)
         began, chosen, motion = self.history.began, self._chosen_before, Motion(dx=bx - ax, dy=by - ay)
         if self._copies:
-            draft, self.selection = stamps.pasted(began, stamps.copied(began, chosen).carried(motion))
+            copy = stamps.copied(began, chosen).carried(motion)
+            draft, self.selection = stamps.pasted(began, copy, empty=self.pastes_empty)
         else:
             draft, self.selection = stamps.moved(began, chosen, motion)
         self.history.change(draft)

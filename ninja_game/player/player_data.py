@@ -102,9 +102,10 @@ class PlayerData:
         return self.progress_in(episode.pack).columns[episode.column].beaten
 
     def episode_state(self, episode: Episode) -> str:
-        """Whether an episode is unlocked, "cheated" or locked; the first of a column is always unlocked."""
+        """Whether an episode is unlocked, "cheated" or locked; unlocked: first ones, and one's own."""
         state = self.progress_in(episode.pack).state(episode.number)
-        return state if self.catalogue.preceding(episode) else UNLOCKED
+        is_free = not self.catalogue.preceding(episode) or (self._is_maker and self.catalogue.is_own(episode.levels[0]))
+        return UNLOCKED if is_free else state
 
     def lock_of(self, entry: Entry) -> str:
         """A sentence: why a level may not be played by itself yet; "" if it may. One rule for every screen."""

@@ -43,7 +43,7 @@ class ListView(Widget):
     def fill(self, rows: Sequence[object]) -> None:
         """Set the number of rows; the selection stays if possible, and so does a first click on an unchanged row."""
         at = self._clicked
-        stays = 0 <= at < min(len(self._rows), len(rows)) and self._rows[at] is rows[at]
+        stays = 0 <= at < min(len(self._rows), len(rows)) and self._rows[at] == rows[at]
         self._rows, self.count = rows, len(rows)
         self._select(min(self.index, max(0, self.count - 1)))
         self._clicked = at if stays else -1

@@ -439,11 +439,28 @@ def test_a_line_that_slants_is_a_ramp_where_slopes_set_themselves(tools: EditorT
     tools.undo()
     tools.slopes = True
     drag(tools, *ends)
-    assert picture(tools, range(2, 6), range(4, 9)) == ["...#", "..sq", ".sq.", "sq..", "#..."]
+    assert picture(tools, range(2, 6), range(4, 9)) == ["...s", "..sq", ".sq.", "sq..", "q..."]
     tools.undo()
     drag(tools, (60, 60), (252, 132))
-    gentle = ["sa........", "w#Dd......", "..rR#Dd...", "....rR##a.", ".......wq."]
-    assert picture(tools, range(2, 12), range(2, 7)) == gentle, "22°"
+    gentle = ["Dd.......", "rR#Dd....", "...rR#Dd.", "......rR#", "........."]
+    assert picture(tools, range(2, 11), range(2, 7)) == gentle, "22°"
+    tools.undo()
+    drag(tools, (60, 60), (180, 132))
+    assert picture(tools, range(2, 8), range(2, 7)) == ["a.....", "wDd...", ".rRa..", "...wDd", "....rR"]
+    clean = ["Dd......", "rRDd....", "..rRDd..", "....rRDd", "......rR"]
+    for start, end, columns, rows, there in (
+        ((60, 60), (228, 132), range(2, 10), range(2, 7), clean),
+        ((60, 60), (252, 156), range(2, 11), range(2, 7), [*(row + "." for row in clean[:4]), "......rR#"]),
+        ((228, 60), (60, 132), range(2, 10), range(2, 7), ["......fF", "....fFEe", "..fFEe..", "fFEe....", "Ee......"]),
+        ((60, 60), (84, 132), range(2, 5), range(2, 6), ["Yg.", "yG.", ".Yg", ".yG"]),
+        ((84, 60), (60, 132), range(2, 5), range(2, 6), [".hT", ".Ht", "hT.", "Ht."]),
+    ):
+        tools.undo()
+        drag(tools, start, end)
+        assert picture(tools, columns, rows) == there, "clean ends"
+        before = tools.draft
+        drag(tools, end, start)
+        assert tools.draft.level == before.level, "from either end; its slopes remove no tiles"
 
 
 def test_an_ellipse_is_round_where_slopes_set_themselves(tools: EditorTools) -> None:
@@ -684,13 +701,26 @@ def test_a_drag_can_drag_a_copy(tools: EditorTools) -> None:
     before = tools.draft
     tools.tool = "select"
     drag(tools, (50, 50), (140, 90))
+    neighbour = (2, 9)
+    before = tools.draft.with_tiles({neighbour: 1})
+    tools.history.change(before)
     drag(tools, (60, 60), (300, 90), (60, 204), copies=True)
+    assert tools.draft.tile(neighbour) == 1, "empty cells of the copy remove nothing"
     assert tools.selection == Selection((2, 8, 4, 2), frozenset({(1, 0)}))
     assert forms(tools) == ["gold 3,3", "gold 3,9"]
     assert [tools.draft.tile((3, row)) for row in (2, 3, 8, 9)] == [1, 0, 1, 0]
     drag(tools, (60, 204), copies=True)
     tools.undo()
     assert tools.draft == before, "a press alone changes nothing"
+    for empty in (False, True):
+        tools.selection, tools.pastes_empty = Selection((2, 2, 4, 2)), empty
+        assert tools.copy()
+        assert tools.paste()
+        tools.move(84, 216)
+        tools.press()
+        assert (tools.draft.tile((2, 8)), tools.draft.tile(neighbour)) == (1, not empty)
+        tools.undo()
+        assert tools.draft == before
 
 
 def test_a_fill_shows_what_it_would_fill_and_a_frame_how_large_it_is(tools: EditorTools) -> None:

@@ -156,6 +156,12 @@ def test_next_episode_is_the_next_one_that_there_is(tmp_path: Path) -> None:
 def test_first_episode_that_there_is_in_a_column_is_open(tmp_path: Path) -> None:
     data = PlayerData(tmp_path)
     pack_of(tmp_path / "levels" / "mine", "My pack", (2, 5, 17))
+    newcomer = data.newcomer()
+    episodes = data.catalogue.packs()[1].episodes
+    assert {data.episode_state(episode) for episode in episodes.values()} == {UNLOCKED}, "all of one's own"
+    assert not data.lock_of(episodes[5].levels[0])
+    assert [newcomer.episode_state(episode) for episode in episodes.values()] == [UNLOCKED, LOCKED, UNLOCKED]
+    (tmp_path / "levels" / "mine" / "received").touch()
     episodes = data.catalogue.packs()[1].episodes
     assert [data.episode_state(episode) for episode in episodes.values()] == [UNLOCKED, LOCKED, UNLOCKED]
     run = EpisodePlaythrough(data, episodes[2])

@@ -22,6 +22,7 @@ from ninja_game.editor.certify import Certification, TestMap
 from ninja_game.editor.files import Source, draft_of
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.files.bundled import CHECKOUT, bundled_replays
+from ninja_game.files.user_folder import STAMPS
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.named_level import parse_levels
 from ninja_game.play.editor.screen import EditorScreen
@@ -394,7 +395,12 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     yield "editor-tests"
     driver.press("f9", "f3")
     yield "editor-list"
-    driver.press("f3")
+    stamps = driver.player.folder / STAMPS
+    stamps.mkdir()
+    (stamps / "range.txt").write_text(RANGE)
+    driver.press("f3", "p", "down")
+    yield "editor-stamps"
+    driver.press("escape")
     with patch.dict(CHECKOUT, levels=PACK.parent.parent / "levels"):
         driver.app.push(GoodLevelsScreen(driver.app, lambda _: None))
         driver.frames(4)

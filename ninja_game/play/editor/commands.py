@@ -29,6 +29,7 @@ from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import UNREACHABLE_CODES, EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
+from ninja_game.play.editor.stamp_menu import StampMenu
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.level.messages import heard
 from ninja_game.play.level.screen import LevelScreen
@@ -157,14 +158,17 @@ class EditorCommands(DocumentCommands):
         tools = self.session.tools
         tools.copy()
         keep = partial(self._keep_stamp, tools.clipboard) if tools.clipboard else None
-        rows: list[MenuRow] = [("Keep as a stamp...", keep, "What is selected; without that, what was copied last")]
         files = sorted(self._stamps.glob(f"*{SUFFIX}"), key=lambda path: -path.stat().st_mtime)[:STAMPS_SHOWN]
-        rows += [(path.stem, partial(self._load, partial(self._take_stamp, path)), short_path(path)) for path in files]
+        rows: list[MenuRow] = [
+            (path.stem, partial(self._load, partial(self._take_stamp, path)), short_path(path)) for path in files
+        ]
+        rows.append(("Keep as a stamp...", keep, "What is selected; without that, what was copied last"))
         change: list[MenuRow] = [(path.stem, partial(self._change_stamp, path), short_path(path)) for path in files]
         if files:
-            ask = partial(self.app.push, Menu(self.app, "Rename or delete which stamp?", [*change, CANCEL]))
+            menu = StampMenu(self.app, "Rename or delete which stamp?", files, [*change, CANCEL])
+            ask = partial(self.app.push, menu)
             rows.append(("Rename or delete...", ask, ""))
-        self.app.push(Menu(self.app, "Stamps", [*rows, CANCEL]))
+        self.app.push(StampMenu(self.app, "Stamps", files, [*rows, CANCEL]))
 
     def _change_stamp(self, path: Path) -> None:
         def rename(name: str) -> None:

@@ -97,6 +97,10 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         rows.append(
             lambda area: Choice(area, "", taken, lambda: tools.takes, tools.take, hint=EDITOR_COMMANDS.hint("takes"))
         )
+    if tools.ghost.tiles if tools.ghost else tools.selection.area:
+        empty = [("empty cells: left out", False), ("empty cells: copied", True)]
+        put_empty, about = partial(setattr, tools, "pastes_empty"), "Whether empty cells of a copy remove tiles there"
+        rows.append(lambda area: Choice(area, "", empty, lambda: tools.pastes_empty, put_empty, hint=about))
     if tools.ghost:
         title = _title("A click pastes", len(tools.ghost.tiles), len(tools.ghost.objects))
         rows.append(_turning(view))
@@ -361,7 +365,7 @@ class Properties(EditorPart):
 
     def refresh(self) -> None:
         tools = self.session.tools
-        about = tools.tool == "select" and tools.takes, *panel_key(tools)
+        about = tools.tool == "select" and tools.takes, tools.pastes_empty, *panel_key(tools)
         if about != self._subject:
             self._subject = about
             x, y, w, h = self.area
@@ -480,6 +484,8 @@ class StatusLine(EditorPart):
             message = parse_messages(tools.draft.says)[number]
             return f"Double click opens the message{', Select drags it' * bool(message.place)}: {message.one_line}"
         slopes = "Slopes by themselves. " if tools.sets_slopes else ""
+        if tools.slopes and tools.tool == "rectangle" and not tools.draws_objects:
+            slopes = "No slopes: a box keeps its corners. "
         if tools.tool == "select" and tools.takes != TAKES[0]:
             slopes = f"Takes only {tools.takes}: Shift+V. "
         start, shown = self.session.start, slopes + _TOOL_HINTS[tools.effective_tool]

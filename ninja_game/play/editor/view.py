@@ -135,9 +135,9 @@ class Overlay:
         pygame.draw.rect(self.target.surface, colour, rect, self.canvas.px(1.6))
         self._note(rect)
 
-    def _ghost(self, stamp: Stamp) -> None:
+    def _ghost(self, stamp: Stamp, *, empty: bool) -> None:
         """What a paste would draw."""
-        for cell, tile in stamp.tiles.items():
+        for cell, tile in (stamp if empty else stamp.solid).tiles.items():
             self._ghost_tile(cell, tile)
         for sprites in self.sheet.pictures.sprites_of(stamp.objects).values():
             sprites.draw(self.target, alpha=GHOST)
@@ -149,7 +149,7 @@ class Overlay:
         if tools.placing_switch:
             return
         if ghost := tools.pasted:
-            self._ghost(ghost)
+            self._ghost(ghost, empty=tools.pastes_empty)
             return
         draws = tools.effective_tool not in ("select", "pick")
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
@@ -362,8 +362,8 @@ class EditorView(Pane):
         tools = self.session.tools
         return (
             tools.pointer, self.hovering, tools.tool, tools.draws_objects, tools.tile, tools.spec, tools.snap,
-            tools.symmetry, tools.slopes, tools.nearest, tools.ghost, tools.selection, tools.marquee,
-            tools.placing_switch, tools.draft, self.session.reach and id(self.session.reach),
+            tools.symmetry, tools.slopes, tools.nearest, tools.ghost, tools.pastes_empty, tools.selection,
+            tools.marquee, tools.placing_switch, tools.draft, self.session.reach and id(self.session.reach),
         )  # fmt: skip
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:

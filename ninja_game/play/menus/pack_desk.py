@@ -26,6 +26,8 @@ from ninja_game.ui.widgets import Widget
 
 Edit = Callable[[Entry, Finding | None], object]
 
+_BACK = "Undo, or Ctrl+Z, takes it back"
+
 
 class PackDesk(ThumbnailScreen):
     """Shows a pack, and changes it by steps that can be undone."""
@@ -224,7 +226,7 @@ class PackDesk(ThumbnailScreen):
             change(move, f"{'Copy' if copy else 'Move'} {called(levels)}")
         elif moving and moving.episode and goal and goal.episode:
             numbers = moving.episode.number, goal.episode.number
-            self.change_pack(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
+            self.change_pack(partial(self._move_episode, *numbers), f"Move episode {numbers[0] + 1}")
 
     def _is_after(self, index: int) -> bool:
         """Whether the mouse is over the right half of a cell: a dropped level lands behind that cell."""
@@ -252,7 +254,7 @@ class PackDesk(ThumbnailScreen):
         if came := [level for level in levels if copy or Path(level.named.file).parent != target]:
             done = "Copied" if Path(came[0].named.file).exists() else "Moved"
             source = {YOURS: "your folder", GAME: "the game"}.get(came[0].source, shown_text(came[0].source))
-            self.app.notify(f"{done} {called(came)} from {source}. Undo, or Ctrl+Z, takes it back")
+            self.app.notify(f"{done} {called(came)} from {source}. {_BACK}")
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:
@@ -260,7 +262,14 @@ class PackDesk(ThumbnailScreen):
             row = [cell.level for cell in self.shelves.cells if goal and cell.episode is goal.episode and cell.level]
             behind = row[row.index(goal.level) + after :] if goal and goal.level else []
             before = (Path(entry.named.file).name for entry in behind if entry not in levels)
-            packs.place(target, names, number, next(before, ""))
+            if packs.place(target, names, number, next(before, "")) and not came:
+                where = "out of its episode" if number is None else f"to episode {number + 1}"
+                self.app.notify(f"Moved {called(levels)} {where}. {_BACK}")
+
+    def _move_episode(self, number: int, to: int) -> None:
+        packs.move_episode(self.path, number, to)
+        if number != to:
+            self.app.notify(f"Moved episode {number + 1} to the place of {to + 1}. {_BACK}")
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_RIGHT and not self.moving:

@@ -91,6 +91,11 @@ class Rack(ListView):
         line, first = divmod(self.gap, self.columns)
         return _GAP * (0 < first <= index % self.columns and index // self.columns == line)
 
+    @property
+    def clicked(self) -> PackCell:
+        """The cell that was clicked last, if it is still selected."""
+        return self.cells[self._clicked] if self._clicked >= 0 else PackCell(None)
+
     def at(self, x: float, y: float) -> int | None:
         return self._index_at(x, y) if self.contains(x, y) else None
 
@@ -162,7 +167,7 @@ class Marks(set[str]):
 
     def click(self, rack: Rack, index: int) -> bool:
         """Mark levels where Ctrl or Shift is down; whether it was. A click on another than those marked ends that."""
-        mods, level, chosen = pygame.key.get_mods(), rack.cells[index].level, rack.chosen.level
+        mods, level, clicked = pygame.key.get_mods(), rack.cells[index].level, rack.clicked.level
         if not (level and mods & (pygame.KMOD_CTRL | pygame.KMOD_META | pygame.KMOD_SHIFT)):
             if not (level and level.named.file in self):
                 self.clear()
@@ -171,8 +176,8 @@ class Marks(set[str]):
             first, last = sorted((rack.index, index))
             self.update(cell.level.named.file for cell in rack.cells[first : last + 1] if cell.level)
             return True
-        if chosen and not self:
-            self.add(chosen.named.file)
+        if clicked and not self:
+            self.add(clicked.named.file)
         if self != {level.named.file}:
             self.symmetric_difference_update({level.named.file})
         return True

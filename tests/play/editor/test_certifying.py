@@ -17,7 +17,16 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.brush import object_of_type, placed, with_switch
-from ninja_game.editor.certify import LANDED_TICK, Ask, Certification, find_reach, passed_by, search_of
+from ninja_game.editor.certify import (
+    LANDED_TICK,
+    Ask,
+    Certification,
+    Certifier,
+    Solver,
+    find_reach,
+    passed_by,
+    search_of,
+)
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import open_source
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
@@ -176,6 +185,24 @@ def test_a_search_goes_on_with_the_changed_level_once_that_has_rested(
         room.frames()
         clock[0] += 2
     assert len(asked) == 1, "there is no exit to look for yet"
+
+
+def test_after_a_change_the_runs_known_before_are_tried_first(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    certifier, tasks = Certifier(), list[Task]()
+    monkeypatch.setattr(certifier, "solver", solver := Solver())
+    monkeypatch.setattr(solver.job, "ask", solver._work)
+    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.search.solve.solve", lambda task, **_: tasks.append(task))
+    level = load_levels(root / "levels" / "00-0-first-steps.txt")[0].level
+    run, gold = (
+        parse_replay((root / "levels/certificates" / f"00-0-first-steps.{kind}.replay.txt").read_text("utf-8"))
+        for kind in ("exit", "gold")
+    )
+    for known in (gold, run):
+        certifier.adopt(search_of(level, known))
+    for places in (1, 2):
+        certifier.start(Level(level.tiles, level.objects[places:]))
+        assert tasks[-1].others == (gold.inputs, run.inputs), "also where the search between has no run"
 
 
 def test_a_search_that_waits_is_of_the_level_as_it_is_by_then(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -30,6 +30,7 @@ from ninja_game.play.editor.commands import EDITOR_COMMANDS, TryScreen
 from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import sign_mark
+from ninja_game.play.editor.stamp_menu import StampMenu
 from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import DropDown, FormPanel, Menu
@@ -551,7 +552,7 @@ def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_onc
     room.press("v")
     room.drag((190, 280), (320, 320))
     before = room.draft
-    choice = room.editor.properties.widgets[2]
+    choice = room.editor.properties.widgets[3]
     room.mouse(*choice.centre)
     changed = [spec.values[2] for spec in room.draft.objects[-3:]]
     assert len(set(changed)) == 1
@@ -676,6 +677,12 @@ def test_slopes_and_spacing_are_set_in_the_panel_and_the_wheel_bends_a_line(room
     assert "by themselves" in slopes.options[slopes.index][0]
     room.chord("s", pygame.KMOD_LSHIFT)
     assert "by hand" in slopes.options[slopes.index][0]
+    room.mouse(*slopes.centre)
+    room.mouse(*room.button("Box").centre)
+    room.mouse(*room.at(300, 204), click=False)
+    assert "No slopes: a box keeps its corners" in drawn(room.app)
+    room.mouse(*room.button("Brush").centre)
+    room.mouse(*slopes.centre)
     room.press("shift+g")
     room.press("i")
     spacing = room.editor.properties.widgets[-1]
@@ -744,6 +751,11 @@ def test_what_is_pasted_has_its_buttons_and_esc_leads_back_to_what_was_selected(
     room.chord("c", pygame.KMOD_LCTRL)
     room.chord("v", pygame.KMOD_LCTRL)
     assert room.editor.properties.widgets[0].text == "A click pastes: 8 cells, 2 objects"  # type: ignore[attr-defined]
+    empty = room.editor.properties.widgets[1]
+    assert isinstance(empty, Choice)
+    for pastes in (True, False):
+        room.mouse(*empty.centre)
+        assert tools.pastes_empty == pastes
     before_turn = tools.ghost
     room.choose("Mirror")
     assert tools.ghost not in (None, before_turn)
@@ -958,11 +970,22 @@ def test_what_is_selected_is_kept_as_a_stamp_for_every_level(room: Maker, tmp_pa
     room.editor.session.begin(new_source())
     tools.clipboard = None
     room.mouse(*room.button("Stamps").centre)
+    menu = room.app.top
+    assert isinstance(menu, StampMenu)
+    drawn(room.app)
+    assert [text for text, *_ in menu.rows()][:2] == ["stairs-1", "Keep as a stamp..."]
+    (picture,) = menu._pictures
+    assert picture
+    wide, high = picture.get_size()
+    assert wide * 2 == high * 3, "its cells alone"
+    rock, empty = (picture.get_at((x, high // 4)) for x in (wide // 6, wide // 2))
+    assert sum(rock[:3]) < sum(empty[:3])
     room.choose("stairs-1")
     assert tools.ghost == before
     (tmp_path / "stamps" / "stairs-1.txt").write_text("no level")
     room.press("escape")
     room.mouse(*room.button("Stamps").centre)
+    assert drawn(room.app), "a broken one has no picture"
     room.choose("stairs-1")
     assert room.app.notice
     assert not tools.ghost

@@ -196,6 +196,12 @@ def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_onc
     click(driver, place(1))
     click(driver, place(3), pygame.KMOD_CTRL)
     assert {Path(file).name[:4] for file in screen.marked} == {"00-0", "00-2"}, "with the one that was clicked before"
+    driver.press("escape", "right")
+    click(driver, place(5), pygame.KMOD_CTRL)
+    assert {Path(file).name[:4] for file in screen.marked} == {"00-4"}, "without one that keys or the beginning chose"
+    driver.press("escape")
+    click(driver, place(1))
+    click(driver, place(3), pygame.KMOD_CTRL)
     click(driver, place(3), pygame.KMOD_CTRL)
     click(driver, place(4), pygame.KMOD_CTRL)
     driver.carry(place(4), half(screen, 7, right=True), drop=False)
@@ -208,8 +214,9 @@ def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_onc
     assert layout(path)[0] == ["00-0", "00-3", "00-1", "00-2", "00-4"], "they stay marked"
     click(driver, place(3))
     assert not screen.marked
+    screen.enter()
     click(driver, place(3))
-    assert driver.shown(MenuScreen).title == "Mind the Gap", "a second click opens its menu as ever"
+    assert driver.shown(MenuScreen).title == "Mind the Gap", "a second click opens its menu, however late it comes"
     driver.choose("Cancel")
     click(driver, place(5), pygame.KMOD_SHIFT)
     driver.carry(place(4), half(screen, 7))
@@ -245,14 +252,17 @@ def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path, screen:
     shelves = screen.shelves
     driver.carry(shelves.row_area(2), half(screen, 8))
     assert layout(path) == {0: ["00-0", "00-2", "00-3", "00-4"], 1: ["01-0", "00-1", "01-1", "01-2"]}
+    assert driver.app.notice == "Moved Mind the Gap to episode 2. Undo, or Ctrl+Z, takes it back"
     driver.carry(shelves.row_area(1), screen.tray.area)
     assert layout(path)[0] == ["00-2", "00-3", "00-4"]
     assert titles(screen.tray) == ["First Steps"]
+    assert driver.app.notice == "Moved First Steps out of its episode. Undo, or Ctrl+Z, takes it back"
     driver.carry(screen.tray.row_area(0), shelves.row_area(13))
     assert layout(path)[2] == ["00-0"], "a row below the others is a new episode"
     assert [each.name for each in Pack(path).index.episodes][2] == "Episode 3"
     driver.carry(shelves.row_area(12), shelves.row_area(0))
     assert layout(path) == {0: ["00-0"], 1: ["00-2", "00-3", "00-4"], 2: ["01-0", "00-1", "01-1", "01-2"]}
+    assert driver.app.notice == "Moved episode 3 to the place of 1. Undo, or Ctrl+Z, takes it back"
     driver.carry(shelves.row_area(1), (300, 530, 2, 2))
     assert layout(path)[0] == ["00-0"], "let go over nothing it stays"
     assert driver.top() is screen
@@ -1011,13 +1021,17 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
     (made / "00-0-first-steps.txt").unlink()
     (made / "00-1-mind-the-gap.txt").write_text((made / "01-0-springtime.txt").read_text("utf-8"), "utf-8")
     packs.new_level(made, "Fresh", "me")
+    for file in ("00-2", "00-3", "00-4"):
+        (level,) = made.glob(f"{file}-*.txt")
+        level.write_text(level.read_text("utf-8").replace("\ncomment: ", "\ncomment: Well: ", 1), "utf-8")
     packs.describe(made, {"version": "1.1"})
     drop()
     assert driver.shown(MenuScreen).title == "You have Laundry in another version"
-    assert "1 level new, 1 level changed, 1 level gone" in drawn(driver.app)
+    news = "1 level new: Fresh; 4 levels changed; 1 level gone: First Steps"
+    assert news in drawn(driver.app), "the texts of a level count too"
     driver.choose("Update it")
     driver.choose("Not now")
-    assert driver.app.notice == "Laundry: 1 level new, 1 level changed, 1 level gone"
+    assert driver.app.notice == f"Laundry: {news}"
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     assert Pack(path).index.version == "1.1"
     assert packs.same_pack(Pack(path), Pack(made))
@@ -1073,7 +1087,7 @@ def test_a_level_that_comes_from_elsewhere_is_moved_or_with_ctrl_copied_and_that
     assert layout(path)[0][0] == "00-0"
     driver.app.notify("")
     driver.carry(screen.shelves.row_area(1), half(screen, 4))
-    assert driver.app.notice == "", "within the pack it is seen"
+    assert driver.app.notice == "Moved First Steps to episode 1. Undo, or Ctrl+Z, takes it back"
 
 
 def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
