@@ -9,7 +9,7 @@ import pygame
 
 from ninja_game.editor.files import open_source
 from ninja_game.editor.specs import points
-from ninja_game.editor.stamp import area_between, stamp_of
+from ninja_game.editor.stamp import area_between, level_stamp
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
 from ninja_game.play.menu_screen import Menu, MenuRow
@@ -47,7 +47,7 @@ class StampMenu(Menu):
             draft = open_source(path).draft
         except (NinjaGameError, OSError):
             return None
-        stamp = stamp_of(draft)
+        stamp = level_stamp(draft)
         parts = [cell_of(*place) for spec in stamp.objects for place in points(spec).values()]
         if not (cells := [*stamp.tiles, *parts]):
             return None
