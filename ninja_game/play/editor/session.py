@@ -188,7 +188,7 @@ class EditorSession:
     @property
     def certifying_inputs(self) -> bytes:
         """The inputs of the run that certifies the level in its present state; none without such a run."""
-        run = self.certifier.search.run
+        run = self.certifier.certification.run
         return run.inputs if run and not self.certifier.is_stale(self.draft.level) else b""
 
     @property
@@ -267,7 +267,7 @@ class EditorSession:
             self.app.notify(f"The level could not be examined: {self._checks.problem}")
             self._checks.problem = ""
         level, says, inputs = self.draft.level, self.draft.says, self.certifying_inputs
-        obstacles = () if self.certifier.is_stale(level) else self.certifier.search.obstacles
+        obstacles = () if self.certifier.is_stale(level) else self.certifier.certification.obstacles
         before = self._asked
         news = before is None or level is not before[0] or obstacles is not before[1] or (says, inputs) != before[2:]
         due = news and monotonic() - self._asked_at >= CHECK_SPACING
@@ -348,7 +348,7 @@ class EditorSession:
 
     def certify_file(self) -> None:
         """Write the known runs beside the level's file if that holds their level: packs then need no other."""
-        search, path = self.certifier.search, self.source.path
+        search, path = self.certifier.certification, self.source.path
         known = search.run, search.full, path
         if path and self.certifying_inputs and known != self._certified and self.is_saved:
             self._certified = known
@@ -465,7 +465,7 @@ class EditorSession:
         return True
 
     def keep_certificate(self) -> None:
-        run = self.certifier.search.run
+        run = self.certifier.certification.run
         if run is None or self.certifier.is_stale(self.draft.level):
             self.app.notify("Certify the level first (F7)")
             return

@@ -414,7 +414,7 @@ def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Mak
     session = room.editor.session
     session.tools.history.change(replace(room.draft, says="at 21,19: A text that lies beside the place"))
     run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
-    session.certifier.search = search_of(room.draft.level, run)
+    session.certifier.certification = search_of(room.draft.level, run)
     screen = opened(room)
     drawn(room.app)
     (shown,) = screen._things.values()
@@ -741,7 +741,7 @@ def test_a_message_of_any_moment_lies_where_the_preview_shows_it(
 
 def test_a_message_that_waits_for_another_is_a_problem_with_its_place(doors: Maker) -> None:
     session = doors.editor.session
-    session.certifier.search = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
+    session.certifier.certification = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
     said(doors, "gold: One | gold: Two | lock 11,22: Three | at 20,20: Four | death 1: Five | trap for 9 s: Six")
     late = [finding for finding in session.examine() if finding.code == "late-message"]
     assert [(finding.text, finding.cells) for finding in late] == [
