@@ -67,7 +67,7 @@ NAMELESS = "My level"
 """The name of a level to which its maker gave none."""
 
 Begun = tuple[bytes, int]
-"""What a test begins with: ``lead`` and ``deaths`` of a LevelContext."""
+"""What a test begins with: ``lead`` and ``deaths`` of a Playthrough."""
 
 NOTHING_BEGUN: Begun = b"", 0
 
