@@ -25,7 +25,7 @@ from ninja_game.levels.episodes import YOURS, Entry, Episode
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, save_work
 from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks, next_par
-from ninja_game.player.store import Store, Work
+from ninja_game.player.store import Store, StoreWork
 from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Simulation

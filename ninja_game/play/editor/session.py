@@ -80,12 +80,12 @@ REST = 1.0
 
 LEVEL_PICTURE_WIDTH = 1584
 
-Question = tuple[Level, tuple[Finding, ...], str, bytes]
+_Question = tuple[Level, tuple[Finding, ...], str, bytes]
 """A level to examine, what the solver has found about it, its messages, and the inputs of its known run, if any."""
 Examined = tuple[Level, list[Finding]]
 
 
-def _examine(question: Question) -> Examined:
+def _examine(question: _Question) -> Examined:
     level, searched, says, inputs = question
     odd = [*level_findings(level, says), *_late_messages(level, says, inputs)]
     # An unreachable exit needs no finding of the solver too.
@@ -132,7 +132,7 @@ class EditorSession:
         self.certifier.edit(self.draft.level)
         self._objects = self.draft.objects
         # Running searches are about another level.
-        self._checks: NewestJob[Question, Examined] = NewestJob(_examine)
+        self._checks: NewestJob[_Question, Examined] = NewestJob(_examine)
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
         self._known_runs: NewestJob[tuple[Level, Replay], Certification] = NewestJob(lambda known: search_of(*known))
@@ -148,7 +148,7 @@ class EditorSession:
         self._file_stamp, self._looked_at = NO_FILE, 0.0
         self._certified: tuple[object, ...] = ()
         self._resting = self.draft.level, 0.0  #: the level, and when it became that, s
-        self._asked: Question | None = None
+        self._asked: _Question | None = None
         self._asked_at = 0.0
 
     def begin(self, source: Source, draft: RecoveredDraft | None = None) -> None:
