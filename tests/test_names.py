@@ -67,13 +67,24 @@ def test_no_two_public_constants_of_one_name_have_different_values() -> None:
     assert not TWO_MEANINGS.keys() - shared.keys(), "they mean one thing now: strike them out"
 
 
-def test_no_two_public_classes_have_one_name() -> None:
+def types(node: ast.stmt) -> Iterator[str]:
+    """The public types that a statement names: its class, or its aliases of types."""
+    if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+        yield node.name
+    if isinstance(node, ast.Assign | ast.AnnAssign) and not ast.unparse(node.value or node).startswith("TypeVar("):
+        for target in node.targets if isinstance(node, ast.Assign) else [node.target]:
+            if isinstance(target, ast.Name) and target.id[0].isupper() and not target.id.isupper():
+                yield target.id
+
+
+def test_no_two_public_types_have_one_name() -> None:
     files = defaultdict(list)
     for file, tree in modules().items():
-        for node in tree.body:
-            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
-                files[node.name].append(file)
-    assert not {name: where for name, where in files.items() if len(where) > 1}
+        for name in (name for node in tree.body for name in types(node)):
+            files[name].append(file)
+    assert not {name: where for name, where in files.items() if len(where) > 1}, (
+        "say in the name of an alias what it is of (RunKey), or begin it with _ if only its module uses it"
+    )
 
 
 def test_no_two_public_functions_have_one_name() -> None:

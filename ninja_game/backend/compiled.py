@@ -19,7 +19,7 @@ from ninja_game.backend.kernels import (
     step_world,
     trace_world,
 )
-from ninja_game.backend.layout import TILE_MAP, Records, new_worlds, plain_copy, world_bytes, write_plain
+from ninja_game.backend.layout import TILE_MAP, WorldArray, new_worlds, plain_copy, world_bytes, write_plain
 from ninja_game.backend.worlds import (
     TRACED_FLOATS,
     TRACED_INTS,
@@ -47,7 +47,7 @@ _NinjaRow: Any = namedtuple("_NinjaRow", [field.name for field in fields_of(Ninj
 _EventRow: Any = namedtuple("_EventRow", [field.name for field in fields_of(Event)])  # type: ignore[misc]  # noqa: PYI024
 
 
-def load_worlds(compiled: Compile, levels: Sequence[Level], *, box: bool) -> tuple[NDArray[np.void], Records]:
+def load_worlds(compiled: Compile, levels: Sequence[Level], *, box: bool) -> tuple[NDArray[np.void], WorldArray]:
     """Load levels, and a new world in each, as arrays of records. Raises LevelError as ``object_table`` does."""
     tables = [object_table(level) for level in levels]
     worlds = new_worlds(len(levels), max(table.slots for table in tables))
@@ -55,7 +55,7 @@ def load_worlds(compiled: Compile, levels: Sequence[Level], *, box: bool) -> tup
 
 
 def _loaded(
-    compiled: Compile, levels: Sequence[Level], tables: Sequence[ObjectTable], worlds: Records, first: int, box: bool
+    compiled: Compile, levels: Sequence[Level], tables: Sequence[ObjectTable], worlds: WorldArray, first: int, box: bool
 ) -> NDArray[np.void]:
     """Load one world per level into zeroed worlds from ``first`` on; gives the maps of the levels."""
     maps = np.zeros(len(levels), TILE_MAP)
@@ -84,7 +84,7 @@ class CompiledWorlds(Worlds):
         self.slots = max(table.slots for table in tables)
         # Behind the worlds lies a fresh one per level, and one more: an array of one record is always contiguous, which
         # is another type for Numba and would be compiled again.
-        self.worlds: Records = new_worlds(count + len(tables) + 1, self.slots)
+        self.worlds: WorldArray = new_worlds(count + len(tables) + 1, self.slots)
         self.maps = _loaded(compiled, self.levels, tables, self.worlds, count, box)
         self.records, self.fresh = self.worlds[:count], self.worlds[count:]
         self._all_states = world_bytes(self.worlds)

@@ -26,7 +26,7 @@ _REFUSED = set(dir(np.recarray)) | set(dir(np.record))
 
 HUGE_PAGE = 1 << 21  # bytes of a huge page
 
-Records = NDArray[np.void]
+WorldArray = NDArray[np.void]
 
 
 def dtype_of(cls: type) -> np.dtype[np.void]:
@@ -114,7 +114,7 @@ def used_bytes(objects: int) -> int:
     return OBJECTS_START + objects * OBJECT_DTYPE.itemsize
 
 
-def new_worlds(count: int, objects: int) -> Records:
+def new_worlds(count: int, objects: int) -> WorldArray:
     """Make ``count`` zeroed worlds in one block, with room for ``objects`` slots each, as an array of records.
 
     The stride is that of the used bytes, smaller than the item, which has the full capacity. Unused capacity lies in
@@ -133,7 +133,7 @@ def new_worlds(count: int, objects: int) -> Records:
     return np.ndarray((count,), WORLD, block, 0, (stride,))
 
 
-def world_bytes(worlds: Records) -> NDArray[np.uint8]:
+def world_bytes(worlds: WorldArray) -> NDArray[np.uint8]:
     """View the states of worlds, without events, as a matrix of bytes, one row per world.
 
     Save-states and copies between worlds are copies of rows. ``worlds``: an array from ``new_worlds``, not a slice.
@@ -141,7 +141,7 @@ def world_bytes(worlds: Records) -> NDArray[np.uint8]:
     return np.ndarray((len(worlds), worlds.strides[0]), np.uint8, worlds.base)[:, STATE_START:]
 
 
-def plain_copy(worlds: Records, index: int) -> World:
+def plain_copy(worlds: WorldArray, index: int) -> World:
     """Copy one world of an array, with its events, to plain objects; of each object only the fields of its kind."""
     record = worlds[index]
     w = World()
@@ -161,7 +161,7 @@ def plain_copy(worlds: Records, index: int) -> World:
     return w
 
 
-def write_plain(w: World, worlds: Records, index: int) -> None:
+def write_plain(w: World, worlds: WorldArray, index: int) -> None:
     """Write plain objects into one record of an array: of each object only the fields that its kind has."""
     record = worlds[index]
     for name in _SCALARS:

@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ninja_game.backend.compiled import WORK_SLICE
-from ninja_game.backend.layout import Records
+from ninja_game.backend.layout import WorldArray
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
@@ -120,7 +120,7 @@ class Batch:
         return deepcopy(self)
 
     def _make_views(self) -> None:
-        self.records: Records = self._worlds.records.view()
+        self.records: WorldArray = self._worlds.records.view()
         self.levels_now: Indices = np.asarray(self._worlds.level_of).view()
         self.records.flags.writeable = self.levels_now.flags.writeable = False
         ninja = self.records["ninja"]
@@ -133,7 +133,7 @@ class Batch:
         self.used: NDArray[np.int32] = self.records["slots_used"]
         objects = self.records["objects"]
         capacity = (self.records.strides[0] - (objects.ctypes.data - self.records.ctypes.data)) // objects.strides[1]
-        self.objects: Records = objects[:, :capacity]
+        self.objects: WorldArray = objects[:, :capacity]
         self.places = pairs(self.objects["x"])
 
     def velocities(self) -> NDArray[np.float64]:

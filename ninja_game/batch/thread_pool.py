@@ -16,7 +16,7 @@ from typing import SupportsIndex, TypeAlias
 from ninja_game.errors import ArgumentError
 from ninja_game.runtime import cores
 
-Work: TypeAlias = Callable[[int, int], int]  # processes items first … last - 1 and returns the work done
+_Work: TypeAlias = Callable[[int, int], int]  # processes items first … last - 1 and returns the work done
 
 CHUNKS_PER_THREAD = 8
 SMALL_CHUNK = 2048  # least ticks of a chunk, unless a thread gets only one: a thread waits when it takes a chunk
@@ -57,7 +57,7 @@ def thread_count(threads: int | None) -> int:
 class _ParallelCall:
     """One call of ``ThreadPool.share``: a free thread takes the next range."""
 
-    def __init__(self, work: Work, ranges: list[tuple[int, int]]) -> None:
+    def __init__(self, work: _Work, ranges: list[tuple[int, int]]) -> None:
         self.work = work
         self.count = len(ranges)
         # A built-in iterator gives an item to one thread only: next() holds the interpreter's lock.
@@ -96,7 +96,7 @@ class ThreadPool:
         for queue in self._queues:
             Thread(target=_serve, args=(queue,), name="ninja-game worker", daemon=True).start()
 
-    def share(self, work: Work, count: int, ticks: int = SMALL_CHUNK) -> int:
+    def share(self, work: _Work, count: int, ticks: int = SMALL_CHUNK) -> int:
         """Do items 0 … ``count`` - 1, of ``ticks`` each, on all threads; gives the sum of the results of ``work``.
 
         Raises the first exception of ``work``.

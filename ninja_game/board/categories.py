@@ -16,7 +16,7 @@ from ninja_game.errors import FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.untrusted import parse_toml
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_measure, parse_truth
+from ninja_game.search.formula.language import Formula, FormulaError, FormulaValues, parse_measure, parse_truth
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 RUN_NUMBERS: dict[str, Callable[[Run], float]] = {
@@ -129,7 +129,7 @@ class Category:
         return self.difference(amount) if amount else ", ".join(rank.strip(" -") for rank in self.rank[1:])
 
 
-def _all(values: Values) -> Callable[[], Values]:
+def _all(values: FormulaValues) -> Callable[[], FormulaValues]:
     return lambda: values
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ninja_game.board.memo import Memo, program, values_digest
 from ninja_game.board.players import folded
-from ninja_game.board.runs import OWN, Key, Rejected, Rows, Run
+from ninja_game.board.runs import OWN, Rejected, Run, RunKey, RunRows
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN
 
@@ -218,7 +218,7 @@ def edit_distance(ours: bytes, theirs: bytes) -> int:
     return distance
 
 
-def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run], list[Rejected]]:
+def without_copies(runs: list[Run], memo: Memo, owners: RunRows) -> tuple[list[Run], list[Rejected]]:
     """The runs that are no copies, with near copies marked, and the copies.
 
     If several players sent the same run at one moment, nobody knows who was first: all stay, with a remark. ``owners``:
@@ -244,7 +244,7 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
             copies.append(run.rejected(kind, why, first.key))
-    together: dict[Key, str] = {}
+    together: dict[RunKey, str] = {}
     for same in ways.values():
         for run in same if len(same) > 1 else ():
             others = " and ".join(f"{copy.player} in {copy.file}" for copy in same if copy is not run)
@@ -253,7 +253,7 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
     return sorted(unique, key=lambda run: run.order), copies
 
 
-def _marked(runs: list[Run], memo: Memo, together: Mapping[Key, str]) -> Iterator[Run]:
+def _marked(runs: list[Run], memo: Memo, together: Mapping[RunKey, str]) -> Iterator[Run]:
     """The runs of a level, in order, each with a mark if it is near to earlier ones by others alone.
 
     Of two of one moment nobody knows which was first: the second has the mark, and is no near copy. That is when the
@@ -290,7 +290,7 @@ class _Compared:
         self._key = values_digest([program(), level])
         self._runs: list[Run] = []
         self._courses, self._known, self._earlier = Courses(MAX_COMPARED), 0, 0
-        self._last: tuple[Key, Course] | None = None
+        self._last: tuple[RunKey, Course] | None = None
 
     def _key_of(self, run: Run) -> str:
         """The key of a run's likeness, which depends only on it, the level's earlier runs and their moments."""

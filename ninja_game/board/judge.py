@@ -26,8 +26,8 @@ from ninja_game.board.runs import (
     Judged,
     Ledger,
     Rejected,
-    Rows,
     Run,
+    RunRows,
     ValidatedRuns,
 )
 from ninja_game.budget import RUN_BUDGET, tick_cost
@@ -132,7 +132,7 @@ def _possible(run: Run, ledger: Ledger, unknown: str) -> Run | Rejected:
     return run if not run.kind or (decision and decision.what != PLAYED) else run.rejected(run.kind, run.why)
 
 
-def _first_again(runs: Sequence[Run], owners: Rows) -> Iterator[Run]:
+def _first_again(runs: Sequence[Run], owners: RunRows) -> Iterator[Run]:
     """The runs; one that was withdrawn, or is in another file now, keeps its date if its player sent it."""
     known = {(run.level, run.way, run.added) for run in runs}
     for run in runs:

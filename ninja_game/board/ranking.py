@@ -12,7 +12,7 @@ from math import inf
 from operator import itemgetter
 
 from ninja_game.board.categories import USUAL, Category
-from ninja_game.board.runs import PLAYED, Key, Run, ValidatedRuns
+from ninja_game.board.runs import PLAYED, Run, RunKey, ValidatedRuns
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.levels.episodes import Episode
 from ninja_game.levels.published import PublishedLevels
@@ -143,9 +143,9 @@ class Ranking:
         return category, sorted(runs, key=lambda run: run.ladder != PLAYED)
 
     @cached_property
-    def places(self) -> dict[Key, list[tuple[Leaderboard, list[Ranked], int]]]:
+    def places(self) -> dict[RunKey, list[tuple[Leaderboard, list[Ranked], int]]]:
         """By run its tables, and its row in each."""
-        rows_of: dict[Key, list[tuple[Leaderboard, list[Ranked], int]]] = defaultdict(list)
+        rows_of: dict[RunKey, list[tuple[Leaderboard, list[Ranked], int]]] = defaultdict(list)
         for tables in self.tables.values():
             for leaderboard, table in tables.items():
                 for number, ranked in enumerate(table):

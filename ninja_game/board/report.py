@@ -21,10 +21,10 @@ from ninja_game.board.runs import (
     REJECTED_KINDS,
     Dates,
     Decision,
-    Key,
     Ledger,
-    Rows,
     Run,
+    RunKey,
+    RunRows,
     ValidatedRuns,
 )
 from ninja_game.errors import ArgumentError, FormatError
@@ -102,12 +102,12 @@ def read_board(path: Path, now: datetime) -> Ledger:
         raise FormatError("not a board", str(path), expected="a file that `ninja-game board --json` wrote") from None
 
 
-def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> Rows:
+def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> RunRows:
     """The rows of a part of a board by their first two fields. Raises FormatError for an invalid one."""
     first, second, *_ = _FIELDS[part]
     if not isinstance(rows, list):
         raise FormatError(f"{part!r} is of the wrong type", str(path), expected="a list of rows")
-    rows_by_key: Rows = {}
+    rows_by_key: RunRows = {}
     for number, row in enumerate(rows, 1):
         place = f"row {number} of {part!r}"
         for name, kind in (_FIELDS[part] | {key: kind for key, kind in _KEPT.items() if key in row}).items():
@@ -211,14 +211,14 @@ def dates_of(before: Ledger, now: datetime, dates_by_file: Mapping[str, str]) ->
             row |= {"taken": row.get("taken", row["added"]), "added": date}
     rows, today = before.rejected | before.runs, now.strftime(DATE)
 
-    def known(key: Key, way: str) -> Mapping[str, Any]:
+    def known(key: RunKey, way: str) -> Mapping[str, Any]:
         row = rows.get(key, {})
         return row if row.get("way") == way else {"added": today}
 
-    def added(key: Key, way: str) -> str:
+    def added(key: RunKey, way: str) -> str:
         return dates_by_file.get(key[0]) or str(known(key, way)["added"])
 
-    def taken(key: Key, way: str) -> str:
+    def taken(key: RunKey, way: str) -> str:
         row = known(key, way)
         return str(row.get("taken", row["added"] if key[0] in dates_by_file else ""))
 
@@ -272,7 +272,7 @@ def _achieved(ranking: Ranking, run: Run) -> str:
     return f"{text}; note: {plain(run.remark)}" if run.remark else text
 
 
-def _place(key: Key) -> str:
+def _place(key: RunKey) -> str:
     file, record = key
     return plain(file) + (f", record {record}" if record else "")
 

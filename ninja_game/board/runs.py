@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-Key = tuple[str, int]  # a run's file, as a path in the folder, and its record there
+RunKey = tuple[str, int]  # a run's file, as a path in the folder, and its record there
 
-Dates = Callable[[Key, str], str]
+Dates = Callable[[RunKey, str], str]
 """When the board first had a run, by its key and way: UTC as in 2026-01-31T12:00:00Z, "" if unknown."""
 
-Rows = dict[tuple[str, Any], dict[str, Any]]
+RunRows = dict[tuple[str, Any], dict[str, Any]]
 
 PLAYED = "played"
 ASSISTED = "assisted"
@@ -88,9 +88,9 @@ class Decision(NamedTuple):
 class Ledger(NamedTuple):
     """Earlier facts about a board."""
 
-    runs: Rows  #: by file and record
-    rejected: Rows  #: likewise
-    withdrawn: Rows  #: by level and way the runs that counted once, and are gone now or do not count
+    runs: RunRows  #: by file and record
+    rejected: RunRows  #: likewise
+    withdrawn: RunRows  #: by level and way the runs that counted once, and are gone now or do not count
     decisions: dict[tuple[str, str, str], Decision]  #: by their ``key``
 
     def decision(self, run: Run) -> Decision | None:
@@ -98,7 +98,7 @@ class Ledger(NamedTuple):
         return self.decisions.get((run.level, run.way, folded(run.player)))
 
     @property
-    def owners(self) -> Rows:
+    def owners(self) -> RunRows:
         """By level and way the row of who did it first; it may have ``near`` and ``confirmed``, as a run has.
 
         A run that is not by its player has none: whoever did it may send it.
@@ -123,7 +123,7 @@ class Run(Judged):
     folder: RunFolder = field(repr=False, compare=False)
     marks: tuple[str, ...] = ()  #: remarks for readers
     near: str = ""  #: the run that it nearly copies, a sentence
-    near_to: Key | None = None  #: that run, if it was compared now
+    near_to: RunKey | None = None  #: that run, if it was compared now
     untrusted: str = ""  #: where its player's other runs are from, a sentence, if it is from another folder
     confirmed: bool = False  #: by the keeper, as no copy, and as by its player
     again: bool = False  #: it was withdrawn, and is the first of its moment
@@ -131,7 +131,7 @@ class Run(Judged):
     derived: bool = False  #: near to a run of one of its ``origins``
 
     @cached_property
-    def key(self) -> Key:
+    def key(self) -> RunKey:
         return self.file, self.record
 
     @property
@@ -159,7 +159,7 @@ class Run(Judged):
         return replace(self.marked("confirmed by the keeper" if self.near else ""), near="", confirmed=True)
 
     @property
-    def order(self) -> tuple[str, bool, bool, Key]:
+    def order(self) -> tuple[str, bool, bool, RunKey]:
         """Its place in time: the earliest run owns its inputs. A level of an episode comes after single runs."""
         return self.added, not self.again, bool(self.episode), self.key
 
@@ -205,7 +205,7 @@ class Run(Judged):
         """The ninja after each tick: float64 (ticks, 2), px."""
         return run_level(self.entry.named.level, self.inputs).positions
 
-    def rejected(self, kind: str, why: str, first: Key | None = None) -> Rejected:
+    def rejected(self, kind: str, why: str, first: RunKey | None = None) -> Rejected:
         """The run as one that does not count."""
         return Rejected(*self.key, kind, why, self.player, self.entry.title, self.way, self.added, first)
 
@@ -245,7 +245,7 @@ class Rejected:
     level: str = ""  #: its title
     way: str = ""  #: as of Run, of one that was simulated to its end
     added: str = ""  #: likewise
-    first: Key | None = None  #: the run that it copies
+    first: RunKey | None = None  #: the run that it copies
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from ninja_game.files.reading import protect_inputs
 from ninja_game.signals import Terminated, announced, end_on_signals, leave_signals, raising, received
 
 
-class Commands(click.Group):
+class CommandGroup(click.Group):
     """A group that imports a command when it is needed, and turns expected errors into one line and an exit code."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -131,7 +131,7 @@ def _failed(error: BaseException) -> int:
     return BAD_INPUT
 
 
-@click.command(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.command(cls=CommandGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, prog_name="ninja-game", message="%(prog)s %(version)s")
 def cli() -> None:
     """Play N-style levels, and verify, trace, convert and measure them.

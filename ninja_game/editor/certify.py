@@ -171,11 +171,11 @@ def passed_by(level: Level, runs: Sequence[Replay]) -> tuple[Finding, ...]:
 
 def search_of(level: Level, run: Replay) -> Certification:
     """A finished search with this run; without a run if it fails in the level."""
-    search = Certification(level, end="Done")
+    certification = Certification(level, end="Done")
     played = _played(level, run.inputs + bytes(1))  # the tick of the contact may read no input
     if played and played.outcome == "exit":
-        search.take(run)
-    return search
+        certification.take(run)
+    return certification
 
 
 class Solver:
@@ -191,26 +191,26 @@ class Solver:
         self.at_work = Certification(end="Stopped")
         self.job: NewestJob[Certification, None] = NewestJob(self._work, every=True)
 
-    def _work(self, search: Certification) -> None:
-        if search.end or search.level is None:
+    def _work(self, certification: Certification) -> None:
+        if certification.end or certification.level is None:
             return
-        self.at_work = search
+        self.at_work = certification
         try:
             from ninja_game.search.solve import solve
             from ninja_game.search.task import Task, obstacle
 
-            task = Task(search.level, seconds=search.seconds, others=search.known)
-            report = partial(setattr, search, "progress")
-            result = solve(task, report=report, on_better=search.take, stop=search.stopping)
-            if not (result or search.run or search.end) and search.progress:
-                search.obstacles = (obstacle(search.level, 0, search.progress),)
+            task = Task(certification.level, seconds=certification.seconds, others=certification.known)
+            report = partial(setattr, certification, "progress")
+            result = solve(task, report=report, on_better=certification.take, stop=certification.stopping)
+            if not (result or certification.run or certification.end) and certification.progress:
+                certification.obstacles = (obstacle(certification.level, 0, certification.progress),)
         except BaseException as error:
-            search.end, search.failed = reason(error), True
+            certification.end, certification.failed = reason(error), True
             raise
-        nothing = f"No run in {search.seconds:.0f} s: the first problem says why. F7 looks twice as long"
-        search.end = search.end or ("Done" if search.run else nothing)
-        if search.then and not search.stopping.is_set():
-            search.then(search)
+        nothing = f"No run in {certification.seconds:.0f} s: the first problem says why. F7 looks twice as long"
+        certification.end = certification.end or ("Done" if certification.run else nothing)
+        if certification.then and not certification.stopping.is_set():
+            certification.then(certification)
 
 
 SOLVER = Solver()
@@ -218,108 +218,112 @@ SOLVER = Solver()
 
 
 class Certifier:
-    """The certification of the level under edit. ``search``: its newest one."""
+    """Certifies the level under edit. ``certification``: the newest one."""
 
     def __init__(self) -> None:
-        self.seconds, self.solver, self.search = SECONDS, SOLVER, Certification()
+        self.seconds, self.solver, self.certification = SECONDS, SOLVER, Certification()
 
     @property
     def text(self) -> str:
         """The state of the search in a line, "" before the first start; while kernels are compiled, for how long."""
-        search = self.search
-        if search.run is not None and not search.failed:
-            gold = f", {search.run.gold} gold" if search.run.gold else ""
+        certification = self.certification
+        if certification.run is not None and not certification.failed:
+            gold = f", {certification.run.gold} gold" if certification.run.gold else ""
             shortening = ", shortening" if self.busy else ""
-            return f"Certified: {seconds_text(search.run.end_tick)} s{gold}{shortening}"
-        if search.stopping.is_set() and search.progress:
-            return f"Stopped: no exit found in {search.progress.seconds:.0f} s"
-        if search.end or search.level is None:
-            return search.end
-        if search.progress is None:
+            return f"Certified: {seconds_text(certification.run.end_tick)} s{gold}{shortening}"
+        if certification.stopping.is_set() and certification.progress:
+            return f"Stopped: no exit found in {certification.progress.seconds:.0f} s"
+        if certification.end or certification.level is None:
+            return certification.end
+        if certification.progress is None:
             waits = f"Another level's search comes first: {self.waited} in the queue"
             return f"{f'{COMPILING}: {self.waited}' if self.compiling else waits}. Go on editing, or save and leave"
-        ticks = search.progress.ticks
+        ticks = certification.progress.ticks
         tried = f"{ticks / 1e6:.1f} million" if ticks >= 1e6 else f"{ticks // 1000} thousand"
         return f"Looking for a run: {tried} ticks tried"
 
     @property
     def place_in_queue(self) -> int:
         """Its place among the searches that wait, from 1; 0 while it is at work."""
-        queued = self.search is not self.solver.at_work and not self.solver.at_work.end
+        queued = self.certification is not self.solver.at_work and not self.solver.at_work.end
         return queued * (1 + sum(not other.end for other in self.solver.left))
 
     @property
     def waited(self) -> str:
         """Its place in the queue, or for how long it has been at work."""
-        search, place = self.search, self.place_in_queue
-        seconds = search.progress.seconds if search.progress else monotonic() - search.began
+        certification, place = self.certification, self.place_in_queue
+        seconds = certification.progress.seconds if certification.progress else monotonic() - certification.began
         return f"#{place}" if place else f"{seconds:.0f} s"
 
     @property
     def busy(self) -> bool:
-        return self.search.level is not None and not self.search.end
+        return self.certification.level is not None and not self.certification.end
 
     @property
     def compiling(self) -> bool:
         """Whether the solver is made ready for the search: nothing can be stopped."""
-        return self.busy and self.search.progress is None and not self.place_in_queue
+        return self.busy and self.certification.progress is None and not self.place_in_queue
 
     @property
     def waits(self) -> bool:
         """Whether the search has begun without any report yet."""
-        return self.busy and self.search.progress is None and self.search.run is None
+        return self.busy and self.certification.progress is None and self.certification.run is None
 
     def is_stale(self, level: Level) -> bool:
         """Whether there is a result, but for another level than this one."""
-        return self.search.level is not None and level != self.search.level
+        return self.certification.level is not None and level != self.certification.level
 
     def start(self, level: Level) -> None:
         """Begin to search a level, for twice as long as an earlier search that failed.
 
         Known runs stay; those of the level before its change are tried first.
         """
-        before, waits = self.search, self.waits
+        before, waits = self.certification, self.waits
         self.stop()
         longer = 2 * before.seconds if before.obstacles and not before.run and before.level == level else self.seconds
         if not compiled_available():
-            self.search = Certification(end=f"Certifying needs Numba: {install_hint('fast')}")
+            self.certification = Certification(end=f"Certifying needs Numba: {install_hint('fast')}")
             return
         # Of two known runs the shorter one comes last: the solver reports what is no longer than those before.
         known = tuple(run.inputs for run in (before.full, before.run) if run) or before.known
         began = before.began if waits else monotonic()
-        self.search = Certification(level, seconds=longer, began=began, known=known)
+        self.certification = Certification(level, seconds=longer, began=began, known=known)
         for run in (before.run, before.full) if before.level == level else ():
             if run:
-                self.search.take(run)
+                self.certification.take(run)
         self.solver.stopped.discard(level)
-        self.solver.job.ask(self.search)
+        self.solver.job.ask(self.certification)
 
-    def adopt(self, search: Certification) -> None:
+    def adopt(self, certification: Certification) -> None:
         """Use a known result for a level until the solver finds a better one; one without a run changes nothing."""
-        if search.run and self.search.level != search.level:
+        if certification.run and self.certification.level != certification.level:
             self.stop()
-            self.search = search
-        elif search.run:
-            self.search.take(search.run)
+            self.certification = certification
+        elif certification.run:
+            self.certification.take(certification.run)
 
     def stop(self) -> None:
         """Cancel the search; its results stay. It does not wait: kernels being compiled are finished first."""
         if self.busy:
-            self.search.end = "Stopped"
-            self.solver.stopped |= {self.search.level} if self.search.level and not self.search.run else set()
-            self.search.stopping.set()
+            self.certification.end = "Stopped"
+            self.solver.stopped |= (
+                {self.certification.level} if self.certification.level and not self.certification.run else set()
+            )
+            self.certification.stopping.set()
 
     def leave(self, then: Callable[[Certification], object] | None) -> None:
         """The level is closed. ``then``: called when its search, which continues, has ended; None: cancel it."""
-        self.search.then = then
+        self.certification.then = then
         if then is None:
             self.stop()
-        self.solver.left = [search for search in (*self.solver.left, self.search) if search.then and not search.end]
+        self.solver.left = [one for one in (*self.solver.left, self.certification) if one.then and not one.end]
 
     def edit(self, level: Level) -> None:
         """Another level is under edit, perhaps one with a running search."""
-        self.search = next((old for old in self.solver.left if old.level == level and not old.end), Certification())
-        self.search.then = None
+        self.certification = next(
+            (old for old in self.solver.left if old.level == level and not old.end), Certification()
+        )
+        self.certification.then = None
 
 
 TICKS = TICKS_PER_SECOND

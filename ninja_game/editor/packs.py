@@ -29,7 +29,7 @@ from ninja_game.sim.level import Level
 if TYPE_CHECKING:
     from tomlkit import TOMLDocument
 
-Values = Mapping[str, str | int | Sequence[str]]
+_Values = Mapping[str, str | int | Sequence[str]]
 
 # --- the index ---
 
@@ -54,7 +54,7 @@ def _write_index(path: Path, document: TOMLDocument) -> None:
     write_file(path, INDEX, text)
 
 
-def _add(document: TOMLDocument, key: str, values: Values) -> None:
+def _add(document: TOMLDocument, key: str, values: _Values) -> None:
     """A table [[key]] behind the others."""
     import tomlkit
 
@@ -68,7 +68,7 @@ def _add(document: TOMLDocument, key: str, values: Values) -> None:
     tables.append(table)
 
 
-def _remove(document: TOMLDocument, key: str, values: Values) -> None:
+def _remove(document: TOMLDocument, key: str, values: _Values) -> None:
     """Delete the first table [[key]] with these values."""
     tables: Any = document[key]
     del tables[next(k for k, table in enumerate(tables) if all(table[name] == values[name] for name in values))]
@@ -168,7 +168,7 @@ def same_pack(pack: Pack, other: Pack) -> bool:
 # --- episodes ---
 
 
-def _change_episodes(path: Path, changes: Mapping[int, Values]) -> None:
+def _change_episodes(path: Path, changes: Mapping[int, _Values]) -> None:
     def change(document: TOMLDocument) -> None:
         for table in document.get("episode", ()):
             table.update(changes.get(table["number"], {}))

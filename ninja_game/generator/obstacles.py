@@ -40,7 +40,7 @@ _STEP = 28.0  # px between the mines of a line
 ON_ROCK = 6.0  # px from the rock to the middle of a mine
 GATE = 20.0  # px from the run to either mine of a gate
 
-Source = Callable[[Scene, Random], Iterator[ObjectSpec]]
+ObstacleSource = Callable[[Scene, Random], Iterator[ObjectSpec]]
 
 
 def guards(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
@@ -95,7 +95,7 @@ def launchers(scene: Scene, _: Random) -> Iterator[ObjectSpec]:
             yield object_of(f"homing launcher {column},{row}")
 
 
-SOURCES: dict[Source, tuple[int, float]] = {
+SOURCES: dict[ObstacleSource, tuple[int, float]] = {
     guards: (1, 3.0), zaps: (1, 5.0), thwumps: (1, 1.8), patrols: (2, 1.5), turrets: (3, 0.8), launchers: (5, 1.5),
 }  # fmt: skip
 """Sources of enemies: their least difficulty, and how often they are chosen."""

@@ -27,7 +27,7 @@ from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.levels.origins import Origin, level_source
-from ninja_game.learn.levels.source import LevelChoice, LevelSequences
+from ninja_game.learn.levels.source import ChosenLevels, LevelSequences
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import PartContext
 from ninja_game.learn.protocol import CHANCES, draw_starts, next_random
@@ -326,7 +326,7 @@ class EnvWorlds:
     # --- single worlds ---
 
     def reset(
-        self, worlds: WorldChoice = None, *, seeds: Sequence[int] | None = None, levels: LevelChoice | None = None
+        self, worlds: WorldChoice = None, *, seeds: Sequence[int] | None = None, levels: ChosenLevels | None = None
     ) -> None:
         """Begin new episodes. ``seeds``: new seeds of these worlds; ``levels``: the levels to play; None: drawn."""
         numbers = numbers_of(worlds, self.count, "worlds")
@@ -334,7 +334,7 @@ class EnvWorlds:
             self._levels.seed(numbers, seeds)
         self._restart(numbers, levels)
 
-    def _restart(self, numbers: Indices, levels: LevelChoice | None = None) -> None:
+    def _restart(self, numbers: Indices, levels: ChosenLevels | None = None) -> None:
         chosen, drawn = self._levels.next(numbers, levels)
         if self._unbounded:
             self._enter(numbers, chosen)

@@ -45,7 +45,7 @@ _HEAD, _FIRST, _ROW, _EDGE = 98, 62, 43, 16
 
 
 class MainMenu(MenuScreen):
-    """The first screen of the game, to which all others lead back. ``run``: the context that play continues."""
+    """The first screen of the game, to which all others lead back. ``run``: the playthrough that play continues."""
 
     offers_back = False
 

@@ -25,7 +25,7 @@ BUDGET = 0.006
 
 MAX_KEPT = 600
 
-Key = tuple[str, int, str]
+_Key = tuple[str, int, str]
 
 
 class Thumbnails:
@@ -33,8 +33,8 @@ class Thumbnails:
 
     def __init__(self, app: App) -> None:
         self.app = app
-        self._made: dict[Key, pygame.Surface] = {}
-        self._wanted: dict[Key, Entry] = {}
+        self._made: dict[_Key, pygame.Surface] = {}
+        self._wanted: dict[_Key, Entry] = {}
 
     def get(self, entry: Entry, width: float) -> pygame.Surface | None:
         """The picture of a level, ``width`` logical px wide; None if it is not made yet."""

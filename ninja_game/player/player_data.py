@@ -17,7 +17,7 @@ from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.progress import LOCKED, UNLOCKED, LevelMarks, Mark, PackProgress, Place, has_all_gold, medal_of
 from ninja_game.player.records import Records, Statistics
 from ninja_game.player.settings import Settings, read_settings, write_changes
-from ninja_game.player.store import Store, Work
+from ninja_game.player.store import Store, StoreWork
 
 
 class PlayerData:
@@ -196,7 +196,7 @@ def forget_replay(data: PlayerData, number: int) -> str:
     return "".join(save_work(data, work)[-1:])
 
 
-def save_work(data: PlayerData, work: Work) -> list[str]:
+def save_work(data: PlayerData, work: StoreWork) -> list[str]:
     """Save ``work``; its notices, and at the end why it is not on the disk, if so."""
     notices, problem = data.store.save(work)
     return [*notices, *([f"Not saved yet: {problem}"] if problem else [])]
@@ -223,7 +223,7 @@ def save_best(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
 
 def count_of(
     data: PlayerData, entry: Entry, attempt: Attempt, *, killer: str | None = None, passed: bool = False
-) -> Work:
+) -> StoreWork:
     """The counting of an attempt in its present state: passed, killed, or given up; an assisted pass gets its mark."""
     level, gold = entry.digest, attempt.gold
     helped = passed and attempt.assisted and not attempt.practice_mode

@@ -1,4 +1,4 @@
-"""Levels in their context: title and ghosts, saving, and the next level of a file or an episode.
+"""Levels as they are played: title and ghosts, saving, and the next level of a file or an episode.
 
 game.md §1.4, §2, §8.
 """
@@ -25,7 +25,7 @@ from ninja_game.levels.episodes import YOURS, Entry, Episode
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, save_work
 from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks, next_par
-from ninja_game.player.store import Store, Work
+from ninja_game.player.store import Store, StoreWork
 from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Simulation
@@ -42,7 +42,7 @@ class Navigation(Enum):
     """The next screen after a level."""
 
     SAME_LEVEL = "the level again"
-    NEXT_LEVEL = "the level at which the context now stands"
+    NEXT_LEVEL = "the level at which the playthrough now stands"
     EPISODE_END = "what the episode has brought"
     BACK = "the screen from which the level was opened"
 
@@ -166,7 +166,7 @@ class Playthrough:
         return False
 
     def advance(self) -> Navigation:
-        """Leave this level, passed or (in practice) skipped; NEXT_LEVEL: this context is at another one now."""
+        """Leave this level, passed or (in practice) skipped; NEXT_LEVEL: this playthrough is at another one now."""
         return Navigation.SAME_LEVEL
 
     @property
@@ -343,7 +343,7 @@ class EpisodePlaythrough(Playthrough):
         return self.notices
 
     def _save(
-        self, count: Work, position: int, score: int, replays: Sequence[Replay], *, legitimate: bool, whole: bool
+        self, count: StoreWork, position: int, score: int, replays: Sequence[Replay], *, legitimate: bool, whole: bool
     ) -> list[str]:
         count()
         levels = len(self.episode.levels)
@@ -417,7 +417,7 @@ def note_progress(
 
 
 def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodePlaythrough | None:
-    """The context to continue: after the level played last, or else the first episode that has not been passed.
+    """The playthrough to continue: after the level played last, or else the first episode that has not been passed.
 
     None without episodes.
     """

@@ -22,7 +22,7 @@ LAST_WAIT_MS = 3000  # longest wait at the end of the game
 
 STARTS_WAIT = 20.0  # seconds that a start waits for other games that are opening the same file
 
-Work = Callable[[], Sequence[str]]
+StoreWork = Callable[[], Sequence[str]]
 """Changes within one transaction; gives notices for the player. It may be called more than once."""
 
 
@@ -39,7 +39,7 @@ class Store:
         self.messages: list[str] = []
         self.problem = problem
         self.epoch = 0
-        self._pending: list[Work] = []
+        self._pending: list[StoreWork] = []
         self.connection = self._first_connection()
 
     def _first_connection(self) -> sqlite3.Connection:
@@ -133,7 +133,7 @@ class Store:
         finally:
             self.epoch += 1
 
-    def save(self, work: Work) -> tuple[Sequence[str], str]:
+    def save(self, work: StoreWork) -> tuple[Sequence[str], str]:
         """Do ``work`` in a transaction, after all earlier failed saves.
 
         Gives its notices and ''; or why it is not on the disk: it is then tried again with the next save.
@@ -148,7 +148,7 @@ class Store:
         except sqlite3.Error:
             return [], self.problem
 
-    def defer(self, work: Work) -> None:
+    def defer(self, work: StoreWork) -> None:
         """Do ``work`` with the next save or ``flush``, for changes that may reach the disk later."""
         self._pending.append(work)
 

@@ -56,8 +56,8 @@ class Lost(Unreadable):
 
 JOB_WEIGHT = 64  # files or records a job
 
-Job: TypeAlias = tuple[Chunk, ...]
-Done: TypeAlias = Iterable[tuple[Job, list[list[Result]] | WorkerLostError]]
+_Job: TypeAlias = tuple[Chunk, ...]
+Done: TypeAlias = Iterable[tuple[_Job, list[list[Result]] | WorkerLostError]]
 
 
 def verify_all(
@@ -156,7 +156,7 @@ def _verify_all(
             raise ClusterError(f"the scheduler at {cluster} is gone ({type(error).__name__}){hint}") from None
 
 
-def batched(chunks: Iterable[Chunk], log: CheckpointLog | None, context: str = "") -> Iterator[Job]:
+def batched(chunks: Iterable[Chunk], log: CheckpointLog | None, context: str = "") -> Iterator[_Job]:
     """Chunks in jobs of some weight, neighbours together. Chunks in the checkpoint log weigh nothing."""
     batch: list[Chunk] = []
     weight = 0
@@ -176,7 +176,7 @@ def _with_log_key(chunk: Chunk, log: CheckpointLog, context: str) -> Chunk:
     return Chunk(chunk.file, key=key, done=True) if key in log else replace(chunk, key=key)
 
 
-def _verify(options: VerifyOptions, job: Job) -> list[list[Result]]:
+def _verify(options: VerifyOptions, job: _Job) -> list[list[Result]]:
     counting = None if options.counting is None else frozenset(options.counting)
     return [
         [] if chunk.done else verify_chunk(chunk, options.memory, options.level, counting, options.budget)
@@ -184,13 +184,13 @@ def _verify(options: VerifyOptions, job: Job) -> list[list[Result]]:
     ]
 
 
-def _verify_as_text(options: VerifyOptions, job: Job) -> str:
+def _verify_as_text(options: VerifyOptions, job: _Job) -> str:
     """Verdicts as JSON, for workers of a cluster: the answer is checked when it comes back."""
     return results_as_text(_verify(options, job))
 
 
 def _isolate_failing(
-    pool: Workers, function: Callable[[Any], Any], jobs: Iterator[Job], read: Callable[[Any, Job], list[list[Result]]]
+    pool: Workers, function: Callable[[Any], Any], jobs: Iterator[_Job], read: Callable[[Any, _Job], list[list[Result]]]
 ) -> Done:
     """All jobs with their results; one that kills its workers is repeated chunk by chunk, to find the one chunk.
 

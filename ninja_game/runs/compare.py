@@ -35,7 +35,7 @@ _BLOCK = 1024  # ticks that are looked ahead for events
 SPLIT_EVENTS = tuple(_NAMES)  # the events that are splits (`ninja_game/sim/events.py`)
 
 
-Key = tuple[str, int | None, int]
+_Key = tuple[str, int | None, int]
 """Identifies a split in several runs: event, id of the object, and which occurrence of it, from 0."""
 
 
@@ -53,7 +53,7 @@ class Split(NamedTuple):
     y: float
 
     @property
-    def key(self) -> Key:
+    def key(self) -> _Key:
         return self.event, self.object_id, self.number
 
     @property
@@ -96,7 +96,7 @@ class RunSplits:
         return level_digest(self.recording.level)
 
     @property
-    def by_key(self) -> dict[Key, Split]:
+    def by_key(self) -> dict[_Key, Split]:
         return {split.key: split for split in self.splits}
 
 
@@ -177,7 +177,7 @@ def split_table(runs: Sequence[RunSplits], best: RunSplits) -> list[SplitRow]:
     order = [*best.splits, *sorted(split for key, split in others.items() if key not in known)]
     indexed = [run.by_key for run in runs]
     segments = _shortest_segments([best, *runs], known)
-    before: Key | None = None
+    before: _Key | None = None
     rows = []
     for split in order:
         ticks = tuple(splits[split.key].tick if split.key in splits else None for splits in indexed)
@@ -194,9 +194,9 @@ def sum_of_best(rows: Sequence[SplitRow]) -> int:
     return sum(row.best_segment for row in rows if row.best_segment is not None)
 
 
-def _shortest_segments(runs: Sequence[RunSplits], known: Container[Key]) -> dict[tuple[Key | None, Key], int]:
+def _shortest_segments(runs: Sequence[RunSplits], known: Container[_Key]) -> dict[tuple[_Key | None, _Key], int]:
     """The fewest ticks between each two known splits that follow one another in some run; None: the start, tick 0."""
-    shortest: dict[tuple[Key | None, Key], int] = {}
+    shortest: dict[tuple[_Key | None, _Key], int] = {}
     for run in runs:
         points = [(None, 0), *((split.key, split.tick) for split in run.splits if split.key in known)]
         for (before, start), (key, end) in pairwise(points):

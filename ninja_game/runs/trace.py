@@ -28,7 +28,7 @@ from ninja_game.sim.kinds import KIND_NAMES, KIND_OF
 from ninja_game.sim.level import Body, Level, is_box
 from ninja_game.sim.schema.world_fields import MAX_EVENTS
 
-Records: TypeAlias = NDArray[np.void]  # an array of NINJA_RECORD or OBJECT_RECORD
+_Records: TypeAlias = NDArray[np.void]  # an array of NINJA_RECORD or OBJECT_RECORD
 
 NINJA_NAME = "ninja"  # kind of the ninja's rows, beside the kinds of objects
 
@@ -253,7 +253,7 @@ def first_difference(ours: RunTrace, theirs: RunTrace, section: str = "") -> Dif
 
 
 def _first_unequal(
-    ours: Records, theirs: Records, names: tuple[str, ...]
+    ours: _Records, theirs: _Records, names: tuple[str, ...]
 ) -> tuple[int, str, str, object, object] | None:
     """Tick, name of the column, field and both values where two arrays of records (ticks, columns) first differ."""
     first: tuple[int, int, int] | None = None

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.layout import Records
+from ninja_game.backend.layout import WorldArray
 from ninja_game.backend.memories import compiled_if_possible
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
@@ -179,7 +179,7 @@ class Heuristics:
     ``levels``: the level as kernels take it; ``worlds``: a new world in it, as a record.
     """
 
-    def __init__(self, levels: Any, worlds: Records) -> None:
+    def __init__(self, levels: Any, worlds: WorldArray) -> None:
         used = int(worlds["slots_used"][0])
         objects = worlds["objects"][0][:used]
         self.costs = np.zeros(POINTS, np.float32)
@@ -218,7 +218,7 @@ class Heuristics:
         bits = world["objects"]["taken"][self.gold_slots] != 0
         return sum(1 << k for k in np.flatnonzero(bits).tolist())
 
-    def opened(self, worlds: Records, index: int) -> int:
+    def opened(self, worlds: WorldArray, index: int) -> int:
         """The switch state of world ``index``."""
         return int(compiled_if_possible(open_mask_at)(worlds, index, self.slots))
 

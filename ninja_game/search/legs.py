@@ -123,12 +123,12 @@ class LegFields:
         return self._pieces[piece, mask]
 
 
-Distances = NDArray[np.float64]  # ticks from a stop (row) to a stop (column)
+_Distances = NDArray[np.float64]  # ticks from a stop (row) to a stop (column)
 
 MAX_SEGMENT = 4  # most stops that are moved together
 
 
-def short_tour(start: Distances, between: Distances, end: Distances, order: Sequence[int] = ()) -> list[int]:
+def short_tour(start: _Distances, between: _Distances, end: _Distances, order: Sequence[int] = ()) -> list[int]:
     """Order all stops so that the way from the start over all of them to the end is short.
 
     ``start``: ticks from the start to the stops; ``end``: from the stops to the end; ``between``: from stop to stop.
@@ -148,7 +148,7 @@ def short_tour(start: Distances, between: Distances, end: Distances, order: Sequ
 
 
 def _best_place(
-    first: int, last: int, tour: list[int], start: Distances, between: Distances, end: Distances
+    first: int, last: int, tour: list[int], start: _Distances, between: _Distances, end: _Distances
 ) -> tuple[float, int]:
     """The least cost of inserting a segment (its first and last stop) into a tour, and the place for it."""
     if not tour:
@@ -162,7 +162,7 @@ def _best_place(
     return float(added[place]), place
 
 
-def _move_a_segment(tour: list[int], start: Distances, between: Distances, end: Distances) -> bool:
+def _move_a_segment(tour: list[int], start: _Distances, between: _Distances, end: _Distances) -> bool:
     """Move the first segment that is better elsewhere, also reversed; tells whether one was moved."""
     moved = False
     for length in range(1, min(MAX_SEGMENT, len(tour) - 1) + 1):
@@ -207,8 +207,8 @@ class PieceTicks:
         self._fields = fields
         count = len(fields.points)
         # The last row holds the ticks from the start of the level.
-        self._measured: Distances = np.full((count + 1, count), np.nan)
-        self._factors: Distances = np.ones((count + 1, count))
+        self._measured: _Distances = np.full((count + 1, count), np.nan)
+        self._factors: _Distances = np.ones((count + 1, count))
 
     def change(self, random: np.random.Generator, noise: float) -> None:
         """Change all estimates at random, by up to half of ``noise`` (a share of them), to get other tours."""
@@ -227,7 +227,7 @@ class PieceTicks:
         known = np.nan_to_num(self._measured[row, piece], nan=0.0)
         self._measured[row, piece] = min(FARTHEST, max(_FAILED, 1.5 * known))
 
-    def estimate(self, checkpoint: Checkpoint) -> tuple[Distances, Distances, Distances]:
+    def estimate(self, checkpoint: Checkpoint) -> tuple[_Distances, _Distances, _Distances]:
         """Ticks from piece to piece, from a checkpoint to the pieces, and from the pieces to the exit."""
         mask, here = checkpoint.mask, point_at(*checkpoint.place)
         fields, points = self._fields.tours(mask), self._fields.points

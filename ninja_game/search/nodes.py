@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.compiled import load_worlds
-from ninja_game.backend.layout import STATE_START, Records, dtype_of, new_worlds, used_bytes
+from ninja_game.backend.layout import STATE_START, WorldArray, dtype_of, new_worlds, used_bytes
 from ninja_game.backend.memories import compiled
 from ninja_game.search.heuristics import UNREACHED
 from ninja_game.sim.level import Level
@@ -189,7 +189,7 @@ def open_start(level: Level, *, box: bool) -> Start:
     return start
 
 
-def _words(worlds: Records, index: int, size: int) -> StateWords:
+def _words(worlds: WorldArray, index: int, size: int) -> StateWords:
     """View the state of a world as words."""
     return np.ndarray((size,), np.int64, worlds.base, index * worlds.strides[0] + STATE_START)
 

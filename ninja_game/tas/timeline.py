@@ -18,7 +18,7 @@ from ninja_game.errors import FormatError
 from ninja_game.runs.deaths import death_text, ending_text
 from ninja_game.runs.save_states import SaveStates
 from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
-from ninja_game.search.formula.language import Formula, Values, parse_measure, parse_truth
+from ninja_game.search.formula.language import Formula, FormulaValues, parse_measure, parse_truth
 from ninja_game.search.formula.names import FACTS, NAMES, flag_field, id_of, ninja_view, no_object
 from ninja_game.sim.digest import differences, state_digest
 from ninja_game.sim.inputs import MAX_TICKS, fit_inputs
@@ -321,7 +321,7 @@ class Watch:
     text: str
     formula: Formula
 
-    def values(self, timeline: Timeline) -> Values:
+    def values(self, timeline: Timeline) -> FormulaValues:
         """Its value after each simulated tick, float64 (simulated_until,); truth is 1 or 0, no value is NaN.
 
         Objects that are not recorded yet are recorded from now on. Raises ArgumentError for an unknown one.
@@ -348,14 +348,14 @@ def parse_watch(text: str) -> Watch:
             raise error from None
 
 
-def exit_distance(timeline: Timeline, span: slice = slice(None)) -> Values:
+def exit_distance(timeline: Timeline, span: slice = slice(None)) -> FormulaValues:
     """Distance of the ninja to the disc of the nearest exit after each tick, px; 0 or less: it touches it.
 
     ``span``: of these ticks only.
     """
     x, y = timeline.column("x")[span], timeline.column("y")[span]
     far = [np.hypot(x - exit_x, y - exit_y) for exit_x, exit_y in timeline.exits] or [np.full(len(x), np.inf)]
-    nearest: Values = np.min(far, axis=0) - (EXIT_RADIUS + RADIUS)
+    nearest: FormulaValues = np.min(far, axis=0) - (EXIT_RADIUS + RADIUS)
     return nearest
 
 
@@ -363,13 +363,13 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
     """The values of a formula's names after each simulated tick of a timeline."""
     column = timeline.column
 
-    def of(name: str) -> Values:
+    def of(name: str) -> FormulaValues:
         if name == "tick":
             return np.arange(0.0, timeline.simulated_until)
-        values: Values = column(name[1]) - column(f"prev_{name[1]}") if name in {"vx", "vy"} else column(name)
+        values: FormulaValues = column(name[1]) - column(f"prev_{name[1]}") if name in {"vx", "vy"} else column(name)
         return values
 
-    def of_object(name: str) -> Callable[..., Values]:
+    def of_object(name: str) -> Callable[..., FormulaValues]:
         return lambda number: _object_column(timeline, id_of(number), name)
 
     return ninja_view(of) | {
@@ -382,14 +382,14 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
     }
 
 
-def _object_column(timeline: Timeline, id_: float, name: str) -> Values:
+def _object_column(timeline: Timeline, id_: float, name: str) -> FormulaValues:
     timeline.at_start(id_)
     if id_ not in timeline.watched:
         raise _UnwatchedError(int(id_))
     return timeline.object_column(int(id_), name).astype(np.float64)
 
 
-def _flag(timeline: Timeline, id_: float, what: str) -> Values:
+def _flag(timeline: Timeline, id_: float, what: str) -> FormulaValues:
     """Whether an object is collected or opened: its status differs from that at the start."""
     kind, _, _, status = timeline.at_start(id_)
     if flag_field(what, kind, id_) == "switched":

@@ -80,7 +80,7 @@ import ninja_game.cli.main as program
 from ninja_game.signals import end_on_signals
 def compile_without_a_callback(*_): Deep(); raise RuntimeError("no compiled object yet")
 number = signal.SIGTERM; end_on_signals()
-program.Commands.invoke = compile_without_a_callback
+program.CommandGroup.invoke = compile_without_a_callback
 program.cli.main(["info"])
 """
 
@@ -104,7 +104,7 @@ IN_A_TEXT = """
 import os, signal
 import ninja_game.cli.main as program
 def compiled_from_a_text(*_): exec("os.kill(os.getpid(), signal.SIGINT)\\nwhile True: pass", globals())
-program.Commands.invoke = compiled_from_a_text
+program.CommandGroup.invoke = compiled_from_a_text
 program.raising.set()
 program.main()
 """

@@ -63,7 +63,7 @@ def test_an_assisted_pass_is_no_record_and_says_so(
     screen = open_level(app, recording)
     play_to_the_end(app, controls, screen, recording)
     assert screen.phase is Phase.PASSED
-    assert app.player.records.level_best(screen.context.entry.digest) is None
+    assert app.player.records.level_best(screen.playthrough.entry.digest) is None
     assert screen.play.notices[0] == HELPED
 
 

@@ -194,9 +194,9 @@ def test_a_search_that_was_stopped_changes_nothing_and_nobody_waits_for_it(monke
         certifier.start(new)
     ready.set()
     certifier.solver.job.finish(LONGEST)
-    assert (certifier.search.level is new, certifier.search.run) == (True, None)
+    assert (certifier.certification.level is new, certifier.certification.run) == (True, None)
     assert certifier.text == "No run in 20 s: the first problem says why. F7 looks twice as long"
-    assert [finding.code for finding in certifier.search.obstacles] == ["unreached-exit"]
+    assert [finding.code for finding in certifier.certification.obstacles] == ["unreached-exit"]
     certifier.start(new)
     certifier.solver.job.finish(LONGEST)
     assert times[-2:] == [20.0, 40.0]

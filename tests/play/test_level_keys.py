@@ -148,7 +148,7 @@ def test_changed_level_file_is_read_again_on_retry(app: App, recording: Recordin
     app.push(screen)
     file.write_text(both.replace("400,564", "500,564"))
     tap(app, "retry")
-    assert screen.attempt.simulation.level == screen.context.level == load_levels(str(file))[1].level
+    assert screen.attempt.simulation.level == screen.playthrough.level == load_levels(str(file))[1].level
     assert "changed" in app.notice
     file.write_text("broken")
     tap(app, "retry")

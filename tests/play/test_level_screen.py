@@ -224,10 +224,10 @@ def test_the_levels_of_a_file_follow_each_other(
     file.write_text(file.read_text().replace("#a#", "#b#"))
     for title in ("two", "one"):
         tap(app, "retry")
-        assert screen.context.entry.named.comment == "b"
+        assert screen.playthrough.entry.named.comment == "b"
         play_to_the_end(app, controls, screen, recording)
         tap(app, "confirm")
-        assert screen.context.title == title
+        assert screen.playthrough.title == title
         assert phase_of(screen) is Phase.READY
 
 

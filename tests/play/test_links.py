@@ -51,7 +51,7 @@ def test_link_of_a_level_is_copied_under_levels_and_played(driver: MenuDriver, c
     opened(driver, link)
     screen = driver.shown(LevelScreen)
     assert browser.selected is not None
-    assert screen.context.level == browser.selected.named.level
+    assert screen.playthrough.level == browser.selected.named.level
     driver.frames(2)
     driver.press("q")
     assert isinstance(driver.top(), MainMenu)

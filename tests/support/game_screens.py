@@ -378,12 +378,12 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     yield "editor-not-certified"
     run = replace(load_replays(bundled_replays()[0])[0].replay, final_tick=156, gold=0)
     route = ((60.0, 542.0), (120.0, 500.0), (180.0, 540.0))
-    certifier.search = Certification(screen.session.draft.level, run, route, end="done")
+    certifier.certification = Certification(screen.session.draft.level, run, route, end="done")
     yield "editor-certified"
     driver.mouse(300, 300)
     driver.frames()
     yield "editor-stale-certificate"
-    certifier.search = Certification(route=route)
+    certifier.certification = Certification(route=route)
     driver.press("f5")
     driver.frames(12)
     yield "editor-test"

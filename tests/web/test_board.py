@@ -24,7 +24,7 @@ from ninja_game.board.copies import Near
 from ninja_game.board.judge import judge
 from ninja_game.board.ranking import Ranking
 from ninja_game.board.report import DATE, read_board
-from ninja_game.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns
+from ninja_game.board.runs import ASSISTED, PLAYED, RunKey, ValidatedRuns
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError
 from ninja_game.files.bundled import bundled_replays, data_folder
@@ -69,7 +69,7 @@ Array.from(new Set(Array.from(document.querySelectorAll(".wide"))
 def judged_by_file_dates(folder: Path, levels: Path) -> ValidatedRuns:
     """A folder judged with the times of its files as the dates of the ledger."""
 
-    def date(key: Key, way: str) -> str:
+    def date(key: RunKey, way: str) -> str:
         return datetime.fromtimestamp((folder / key[0]).lstat().st_mtime, UTC).strftime(DATE) if way else ""
 
     return judge(folder, published_levels(levels), dates=date, jobs=1)

@@ -47,5 +47,5 @@ def test_rows_are_watched_together_and_levels_are_played(site: Path, chromium: A
         page.locator(".card a").first.click()
         page.get_by_role("link", name="Play this level").click()
         visitor.until("ready")
-        assert visitor.python("app.top.context.title") == "Walk"
+        assert visitor.python("app.top.playthrough.title") == "Walk"
         assert visitor.problems == []

@@ -25,7 +25,7 @@ from ninja_game.formats.pack.pack import PARS
 from ninja_game.formats.pack.pars import DIGITS, parse_pars
 from ninja_game.sim.level import Level
 
-LevelChoice: TypeAlias = str | int | Sequence[str | int] | NDArray[np.integer]  # levels of a source, by name or number
+ChosenLevels: TypeAlias = str | int | Sequence[str | int] | NDArray[np.integer]  # levels of a source, by name or number
 
 
 class LevelSource:
@@ -59,7 +59,7 @@ class LevelSource:
     def report(self, numbers: NDArray[np.intp], passed: NDArray[np.bool_]) -> None:
         """Learn from episodes that have ended: the numbers of their levels (k,), whether they were passed (k,)."""
 
-    def numbers(self, choice: LevelChoice, count: int = 1) -> NDArray[np.intp]:
+    def numbers(self, choice: ChosenLevels, count: int = 1) -> NDArray[np.intp]:
         """The numbers (count,) of levels chosen by name or number, one for all or one for each.
 
         Raises ArgumentError for unknown levels.
@@ -121,7 +121,7 @@ class LevelSequences:
         self._seeds[worlds] = [checked_seed(seed) for seed in seeds]
         self._episodes[worlds] = 0
 
-    def next(self, worlds: Indices, chosen: LevelChoice | None) -> tuple[Indices, Draws]:
+    def next(self, worlds: Indices, chosen: ChosenLevels | None) -> tuple[Indices, Draws]:
         """The numbers of the levels of these worlds' next episodes, drawn or ``chosen``; both count as an episode.
 
         Also another random number per episode, for draws in it.

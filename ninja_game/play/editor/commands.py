@@ -67,7 +67,7 @@ NAMELESS = "My level"
 """The name of a level to which its maker gave none."""
 
 Begun = tuple[bytes, int]
-"""What a test begins with: ``lead`` and ``deaths`` of a LevelContext."""
+"""What a test begins with: ``lead`` and ``deaths`` of a Playthrough."""
 
 NOTHING_BEGUN: Begun = b"", 0
 
@@ -312,7 +312,7 @@ class EditorCommands(DocumentCommands):
             return
         if certifier.busy and not certifier.is_stale(level):
             certifier.stop()
-            self.app.notify(f"{'Stopped. ' if certifier.search.run else ''}{certifier.text}", here=True)
+            self.app.notify(f"{'Stopped. ' if certifier.certification.run else ''}{certifier.text}", here=True)
             return
         start, findings = partial(certifier.start, level), self.session.examine()
         odd = [number for finding in findings if finding.code in UNREACHABLE_CODES for number in finding.records]

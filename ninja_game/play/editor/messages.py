@@ -101,7 +101,7 @@ _WORDS = ", ".join(f"{{{name}}}" for name in KEYS + TARGETS)
 
 
 @dataclass(eq=False)
-class Message:
+class MessageRow:
     """``when``: as of a LevelMessage. As typed: ``detail``, of _DETAILS, and ``time``, the seconds that it is shown."""
 
     when: str = "start"
@@ -123,7 +123,7 @@ class Message:
 
     @property
     def problem(self) -> tuple[int, str]:
-        """Which field of the row is wrong, DETAIL, TIME or TEXT, and the problem in words; '' for none."""
+        """Which field of the row is wrong, DETAIL, TIME or _TEXT, and the problem in words; '' for none."""
         moment = self.moment
         if self.when in _DETAILS and (":" in moment or not _fits(f"{moment}: a text")):
             return DETAIL, _DETAILS[self.when][1]
@@ -148,8 +148,8 @@ def _fits(source: str) -> bool:
         return False
 
 
-def messages_of(says: str) -> list[Message]:
-    return [Message(m.when, _detail(m), m.text, str(m.seconds or "")) for m in parse_messages(says)]
+def messages_of(says: str) -> list[MessageRow]:
+    return [MessageRow(m.when, _detail(m), m.text, str(m.seconds or "")) for m in parse_messages(says)]
 
 
 def _detail(message: LevelMessage) -> str:
@@ -283,7 +283,7 @@ class MessagesScreen(MenuScreen):
         time = TextEntry((246, y, 84, 28), f"auto ({usual} s)", message.time, put_time, longest=2, hint=_TIME_HINT)
         return [moment, *details, time, text]
 
-    def _ask_moment(self, message: Message) -> None:
+    def _ask_moment(self, message: MessageRow) -> None:
         def choose(when: str) -> None:
             if when == message.when:
                 return
@@ -295,7 +295,7 @@ class MessagesScreen(MenuScreen):
         self.app.push(Menu(self.app, "When is it said?", [*rows, CANCEL], at=list(_WHEN).index(message.when)))
 
     @property
-    def selected(self) -> Message | None:
+    def selected(self) -> MessageRow | None:
         return self.messages[self._selected] if self._selected < len(self.messages) else None
 
     def _handle_mouse(self, event: pygame.Event) -> None:
@@ -334,10 +334,10 @@ class MessagesScreen(MenuScreen):
         self.redraw = True
 
     def _add(self) -> None:
-        self.messages.append(Message())
+        self.messages.append(MessageRow())
         self._select(len(self.messages) - 1)
 
-    def _put_at(self, number: int, message: Message, others: list[Message]) -> None:
+    def _put_at(self, number: int, message: MessageRow, others: list[MessageRow]) -> None:
         """Show the messages with one at that place among others, selected; a button keeps the focus."""
         number = min(max(0, number), len(others))
         behind = self.widgets.index(self.focus) - len(self.widgets) if self.focus else 0
@@ -448,16 +448,16 @@ class MessagesScreen(MenuScreen):
         lines = (*help_texts, *advice, *_HELP[bool(advice) :])
         theme.paragraph(surface, lines, below, 11, 15, colour=theme.palette.faint)
 
-    def _unseen(self, message: Message | None) -> list[Finding]:
+    def _unseen(self, message: MessageRow | None) -> list[Finding]:
         return [*unseen_messages(message.source, self._ground)] if message and not message.problem[1] else []
 
-    def _turn_of(self, message: Message) -> str:
+    def _turn_of(self, message: MessageRow) -> str:
         """The number of a message among those of its moment; '' for an only one."""
         together = self._together(message)
         place = next(k for k, other in enumerate(together, 1) if other is message)
         return f"No. {place} of {len(together)}" if len(together) > 1 else ""
 
-    def _heard(self, message: Message) -> Heard | None:
+    def _heard(self, message: MessageRow) -> Heard | None:
         """When a message comes in the known run; None: never, or without such a run."""
         sound, inputs = [other for other in self.messages if not other.problem[1]], self._certifying_inputs()
         if not inputs or message not in sound or message.when in {"start", "death"}:
@@ -465,15 +465,15 @@ class MessagesScreen(MenuScreen):
         parsed = [message for other in sound for message in parse_messages(other.source)]
         return heard(parsed, self._draft.level, inputs)[sound.index(message)]
 
-    def _wait_of(self, message: Message) -> str:
+    def _wait_of(self, message: MessageRow) -> str:
         """How late a message comes in the known run because others are read first; '' if it is in time."""
         text = late_text(moment) if (moment := self._heard(message)) else ""
         return text[:1].upper() + text[1:]
 
-    def _together(self, message: Message) -> list[Message]:
+    def _together(self, message: MessageRow) -> list[MessageRow]:
         return [other for other in self.messages if other.moment == message.moment]
 
-    def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
+    def _draw_level(self, surface: pygame.Surface, message: MessageRow | None) -> None:
         """The level with a message as in play. The level is drawn once, the message in each picture."""
         theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*_PICTURE)
         size, opened = (place.width, theme, self.app.settings.text_size), bool(message and message.when == "switch")
@@ -512,17 +512,17 @@ class MessagesScreen(MenuScreen):
                 theme.canvas.circle(surface, theme.palette.accent, (x, y), 6)
                 theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
 
-    def _things_of(self, message: Message | None) -> list[Point]:
+    def _things_of(self, message: MessageRow | None) -> list[Point]:
         """What a message can be about, px: the gold, or the switches of its moment."""
         return things_of(self._draft, message.when) if message and message.when in _DETAILS else []
 
-    def _parsed(self, message: Message | None) -> LevelMessage | None:
+    def _parsed(self, message: MessageRow | None) -> LevelMessage | None:
         """A message near a place as the level will have it; None for others and without a valid place."""
         if message and message.when == "at" and message.problem[0] != DETAIL:
             return parse_messages(f"{message.moment}: a text")[0]
         return None
 
-    def _eye(self, message: Message) -> Point | None:
+    def _eye(self, message: MessageRow) -> Point | None:
         """Where the ninja is when a message appears, px; None at the start, or where that is unknown."""
         if parsed := self._parsed(message):
             return parsed.place

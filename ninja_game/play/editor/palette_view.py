@@ -166,11 +166,11 @@ CHANGES: dict[str, dict[str, str | int]] = {
 }
 """The letters that change each property of the drawn or selected objects: to a word, or by a number of words."""
 
-Entry = int | brush.ObjectType
+PaletteEntry = int | brush.ObjectType
 """A tile or a type of objects."""
 
 _FAMILY_OF_KEY = {family.key: family for family in brush.FAMILIES}
-_ENTRY_OF_KEY: dict[str, Entry] = {
+_ENTRY_OF_KEY: dict[str, PaletteEntry] = {
     **{brush.tile_key(tile): tile for tile in (brush.EMPTY, brush.FULL)},
     **{f"shift+{object_type.key}": object_type for object_type in brush.OBJECT_TYPES},
 }
@@ -182,7 +182,7 @@ def live_changes(tools: EditorTools) -> dict[str, dict[str, str | int]]:
     return {name: CHANGES[name] for name in dict.fromkeys(names) if name in CHANGES}
 
 
-def entry_of_key(tools: EditorTools, key: str) -> Entry | None:
+def entry_of_key(tools: EditorTools, key: str) -> PaletteEntry | None:
     """What a key takes, whatever is in hand: a digit a tile, Shift and a letter an object.
 
     With tiles a letter of QUARTERS takes that quarter of the family in hand.
@@ -201,12 +201,12 @@ class PaletteView(Widget):
     def __init__(self, area: Area, tools: EditorTools) -> None:
         super().__init__(area)
         self.tools = tools
-        self.hovered: Entry | None = None
+        self.hovered: PaletteEntry | None = None
 
-    def places(self) -> list[tuple[Entry, Area]]:
+    def places(self) -> list[tuple[PaletteEntry, Area]]:
         """Every entry with its square; the four tiles of a family lie like their keys Q W A S."""
         x, y, _, _ = self.area
-        areas: list[tuple[Entry, Area]] = []
+        areas: list[tuple[PaletteEntry, Area]] = []
         for number, tile in enumerate((brush.EMPTY, brush.FULL)):
             areas.append((tile, (x + 104 + number * (TILE + 14), y + 1, TILE, TILE)))
         for number, family in enumerate(brush.FAMILIES):
@@ -221,7 +221,7 @@ class PaletteView(Widget):
         return areas
 
     @property
-    def _in_hand(self) -> Entry:
+    def _in_hand(self) -> PaletteEntry:
         if not self.tools.draws_objects:
             return self.tools.tile
         return brush.OBJECT_TYPES[brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(self.tools.spec))]
@@ -235,7 +235,7 @@ class PaletteView(Widget):
         name = brush.tile_name(what)
         return f"{name[0].upper()}{name[1:]}"
 
-    def _at(self, x: float, y: float) -> Entry | None:
+    def _at(self, x: float, y: float) -> PaletteEntry | None:
         return next((entry for entry, area in self.places() if inside(area, x, y)), None)
 
     def contains(self, x: float, y: float) -> bool:
@@ -293,7 +293,7 @@ class PaletteView(Widget):
     def _draw_key(self, surface: pygame.Surface, theme: Theme, key: str, at: Point) -> None:
         theme.text(surface, key_label_of(key), *at, size=8, height=KEY, bold=True)
 
-    def _icon(self, theme: Theme, entry: Entry, area: Area) -> pygame.Surface:
+    def _icon(self, theme: Theme, entry: PaletteEntry, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size
         if not isinstance(entry, brush.ObjectType):
             return tile_icon(entry, size, theme.palette.base.name)

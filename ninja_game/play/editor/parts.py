@@ -434,7 +434,7 @@ class FilePart(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         session, certifier = self.session, self.session.certifier
-        solver = certifier.text, certifier.busy, certifier.search.share, certifier.search.run is None
+        solver = certifier.text, certifier.busy, certifier.certification.share, certifier.certification.run is None
         return session.name, session.source.path, session.is_saved, solver, certifier.is_stale(session.draft.level)
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -448,7 +448,7 @@ class FilePart(EditorPart):
         file = f"{path.name}: {state}" if path else "not in a file yet"
         theme.text(surface, file, x, y + 20, size=9, colour=palette.faint, width=w)
         certifier = session.certifier
-        stale, run = certifier.is_stale(session.draft.level), certifier.search.run
+        stale, run = certifier.is_stale(session.draft.level), certifier.certification.run
         text = certifier.text or "Not certified yet: F7 looks for a way through it"
         if stale and certifier.busy:
             text = "The level has changed: the search starts again once you pause, or now by F7"
@@ -459,9 +459,9 @@ class FilePart(EditorPart):
         for number, line in enumerate(wrapped(theme, text, w, 9)[:3]):
             colour = palette.good if run and not stale else palette.text
             theme.text(surface, line, x, y + 36 + 12 * number, size=9, colour=colour)
-        if certifier.busy and certifier.search.progress:
+        if certifier.busy and certifier.certification.progress:
             canvas.fill_rect(surface, palette.panel_edge, x, y + h - 9, w, 5, 2)
-            canvas.fill_rect(surface, palette.accent, x, y + h - 9, max(1.0, w * certifier.search.share), 5, 2)
+            canvas.fill_rect(surface, palette.accent, x, y + h - 9, max(1.0, w * certifier.certification.share), 5, 2)
 
 
 class StatusLine(EditorPart):

@@ -80,12 +80,12 @@ REST = 1.0
 
 LEVEL_PICTURE_WIDTH = 1584
 
-Question = tuple[Level, tuple[Finding, ...], str, bytes]
+_Question = tuple[Level, tuple[Finding, ...], str, bytes]
 """A level to examine, what the solver has found about it, its messages, and the inputs of its known run, if any."""
 Examined = tuple[Level, list[Finding]]
 
 
-def _examine(question: Question) -> Examined:
+def _examine(question: _Question) -> Examined:
     level, searched, says, inputs = question
     odd = [*level_findings(level, says), *_late_messages(level, says, inputs)]
     # An unreachable exit needs no finding of the solver too.
@@ -132,7 +132,7 @@ class EditorSession:
         self.certifier.edit(self.draft.level)
         self._objects = self.draft.objects
         # Running searches are about another level.
-        self._checks: NewestJob[Question, Examined] = NewestJob(_examine)
+        self._checks: NewestJob[_Question, Examined] = NewestJob(_examine)
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
         self._known_runs: NewestJob[tuple[Level, Replay], Certification] = NewestJob(lambda known: search_of(*known))
@@ -148,7 +148,7 @@ class EditorSession:
         self._file_stamp, self._looked_at = NO_FILE, 0.0
         self._certified: tuple[object, ...] = ()
         self._resting = self.draft.level, 0.0  #: the level, and when it became that, s
-        self._asked: Question | None = None
+        self._asked: _Question | None = None
         self._asked_at = 0.0
 
     def begin(self, source: Source, draft: RecoveredDraft | None = None) -> None:
@@ -188,7 +188,7 @@ class EditorSession:
     @property
     def certifying_inputs(self) -> bytes:
         """The inputs of the run that certifies the level in its present state; none without such a run."""
-        run = self.certifier.search.run
+        run = self.certifier.certification.run
         return run.inputs if run and not self.certifier.is_stale(self.draft.level) else b""
 
     @property
@@ -267,7 +267,7 @@ class EditorSession:
             self.app.notify(f"The level could not be examined: {self._checks.problem}")
             self._checks.problem = ""
         level, says, inputs = self.draft.level, self.draft.says, self.certifying_inputs
-        obstacles = () if self.certifier.is_stale(level) else self.certifier.search.obstacles
+        obstacles = () if self.certifier.is_stale(level) else self.certifier.certification.obstacles
         before = self._asked
         news = before is None or level is not before[0] or obstacles is not before[1] or (says, inputs) != before[2:]
         due = news and monotonic() - self._asked_at >= CHECK_SPACING
@@ -348,7 +348,7 @@ class EditorSession:
 
     def certify_file(self) -> None:
         """Write the known runs beside the level's file if that holds their level: packs then need no other."""
-        search, path = self.certifier.search, self.source.path
+        search, path = self.certifier.certification, self.source.path
         known = search.run, search.full, path
         if path and self.certifying_inputs and known != self._certified and self.is_saved:
             self._certified = known
@@ -465,7 +465,7 @@ class EditorSession:
         return True
 
     def keep_certificate(self) -> None:
-        run = self.certifier.search.run
+        run = self.certifier.certification.run
         if run is None or self.certifier.is_stale(self.draft.level):
             self.app.notify("Certify the level first (F7)")
             return

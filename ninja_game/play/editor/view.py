@@ -391,7 +391,7 @@ class EditorView(Pane):
         certifier = session.certifier
         stale = certifier.is_stale(session.draft.level)
         state = (
-            session.draft.objects, self.lines, self.paths, session.last_try, certifier.search.route, stale,
+            session.draft.objects, self.lines, self.paths, session.last_try, certifier.certification.route, stale,
             session.findings, session.tools.symmetry, session.draft.says, self.tests and session.test_map,
             session.last_death, session.drone_round,
         )  # fmt: skip
@@ -403,7 +403,7 @@ class EditorView(Pane):
             p for finding in open_findings for p in finding_points(session.examined or session.draft.level, finding)
         ]
         routes: list[tuple[PathPoints, Colour]] = [(session.last_try, palette.ghost)]
-        routes.append((certifier.search.route, palette.faint if stale else palette.good))
+        routes.append((certifier.certification.route, palette.faint if stale else palette.good))
         routes.append((session.drone_round, palette.bad))
         marks = level_marks(
             self.sheet.flat,

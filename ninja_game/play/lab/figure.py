@@ -228,7 +228,7 @@ class Stage:
 
 Control = Callable[[Area], Widget]
 
-Range = tuple[float, float, float]
+_Range = tuple[float, float, float]
 
 Value = TypeVar("Value")
 
@@ -287,7 +287,7 @@ class Figure:
     def choice(self, text: str, options: Sequence[tuple[str, object]], name: str) -> Control:
         return lambda area: Choice(area, text, options, partial(getattr, self, name), partial(setattr, self, name))
 
-    def slider(self, text: str, span: Range, name: str, show: Callable[[float], str] = "{:.0f}".format) -> Control:
+    def slider(self, text: str, span: _Range, name: str, show: Callable[[float], str] = "{:.0f}".format) -> Control:
         """A control that sets an attribute to a number; ``span``: least, greatest, step."""
         get, put = partial(getattr, self, name), partial(setattr, self, name)
         return lambda area: Slider(area, text, span, get, put, show=show)

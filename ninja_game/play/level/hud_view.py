@@ -36,13 +36,13 @@ KeyName = Callable[[str], str]  # gives the key of an action
 
 def hud_view(play: LevelPlay) -> HudView:
     """The texts over a level now."""
-    app, attempt, context = play.app, play.attempt, play.context
+    app, attempt, playthrough = play.app, play.attempt, play.playthrough
     key, settings = app.controls.name, app.settings
     gold = f"{attempt.gold} / {play.all_gold}"
     end = None
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.messages.text
     # The text for a player who is stuck stays in place, too.
-    layout = context.level.tiles, play.things, play.messages.place, play.message_spot
+    layout = playthrough.level.tiles, play.things, play.messages.place, play.message_spot
     is_advice = "\n" in text and play.messages.message is None
     of_start = play.messages.is_start or is_advice
     message = placed_message(named_keys(text, key), *layout, of_start=of_start) if text else None
@@ -50,24 +50,24 @@ def hud_view(play: LevelPlay) -> HudView:
         cause, help_text = cause_of_death(play)
         end = EndPanel(cause, [*filter(None, [help_text]), _after_death(play, key)], *_covering(play))
     if play.phase is Phase.PASSED:
-        next_label = "go on" if context.next_screen is Navigation.EPISODE_END else context.next_label
+        next_label = "go on" if playthrough.next_screen is Navigation.EPISODE_END else playthrough.next_label
         keys = f"{key('confirm')}: {next_label}    {key('retry')}: play again    {key('replay')}: replay"
-        if not context.has_next:
+        if not playthrough.has_next:
             keys = f"{key('confirm')}: play again    {key('replay')}: replay    {key('back')}: leave"
         time = f"{seconds_text(attempt.ended_tick)} s"
         title = f"Time {time}" if play.medal else f"Passed    time {time}"
         end = EndPanel(title, [*_reached(play), keys], *_covering(play))
     hint = _hint(play, key)
-    name = shown_text(context.title)
+    name = shown_text(playthrough.title)
     title = f"{name} ({play.next_par})" if play.phase is Phase.READY and play.next_par else name
-    if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not context.practice_mode:
+    if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not playthrough.practice_mode:
         title += f"    {NO_MEDAL}"
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
     return HudView(
         play.shown_lifetime,
-        practice if context.practice_mode else "",
+        practice if playthrough.practice_mode else "",
         (title, hint or f"gold {gold}"),
-        name=shown_text(context.entry.title),
+        name=shown_text(playthrough.entry.title),
         pars=_pars_ahead(play),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
@@ -88,7 +88,7 @@ def hud_view(play: LevelPlay) -> HudView:
 
 def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
     """The medals that this try can still win, in a passed level, each with the lifetime at its par."""
-    pars, attempt = play.context.pars, play.attempt
+    pars, attempt = play.playthrough.pars, play.attempt
     if pars is None or not play.next_par or play.phase is Phase.PASSED:
         return []
     tick = attempt.simulation.tick
@@ -101,12 +101,12 @@ def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
     x, y = play.message_spot or (0.0, 0.0)
     end = [(x + dx, y + dy, 9 * MUST) for dx in (-_END_ROOM, 0, _END_ROOM) for dy in (-_END_ROOM, 0, _END_ROOM)]
     exits = [(o.x, o.y, 9 * MUST) for o in play.attempt.simulation.world.objects[1:] if o.kind == EXIT]
-    return play.context.level.tiles, (*end, *exits, *play.things)
+    return play.playthrough.level.tiles, (*end, *exits, *play.things)
 
 
 def _reached(play: LevelPlay) -> list[str]:
     """Lines after a pass: the medal, the time for the next medal, the gold, unlocked levels."""
-    attempt, pars = play.attempt, play.context.pars
+    attempt, pars = play.attempt, play.playthrough.pars
     following = []
     if pars and play.medal:
         following.append(next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!")
@@ -117,7 +117,7 @@ def _reached(play: LevelPlay) -> list[str]:
     first = FIRST_PASS in play.notices
     news = [notice for notice in play.notices if notice != NEW_ALL_GOLD and not (first and notice in OF_A_LEVEL)]
     gains = "    ".join([gold, *news] if play.all_gold else news)
-    lines = [*medal, *following, gains, clock if play.context.carries_clock else ""]
+    lines = [*medal, *following, gains, clock if play.playthrough.carries_clock else ""]
     return [line for line in lines if line]
 
 
@@ -139,11 +139,11 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
         if play.show_tutorial and not play.messages.text:
             return f"{key('left')} and {key('right')} to run    {key('jump')} to jump, hold it to go higher    {begin}"
         inside = f"    {key('overlay_hitboxes')} to {key('overlay_thinkers')}: look inside"
-        return begin + (inside if play.context.practice_mode else "")
+        return begin + (inside if play.playthrough.practice_mode else "")
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
     named = play.phase is not Phase.PASSED and play.attempt.simulation.tick < _TOOLS_NAMED
-    if play.context.practice_mode and named:
+    if play.playthrough.practice_mode and named:
         return "    ".join(f"{key(action)}: {name}" for action, name in _TOOLS.items())
     return ""
 

@@ -82,27 +82,30 @@ _PHASE_OF_OUTCOME = {"running": Phase.PLAY, "dead": Phase.DEAD, "exit": Phase.PA
 
 
 class LevelPlay:
-    """One level of a context, played again and again; its view shows every tick."""
+    """One level of a playthrough, played again and again; its view shows every tick."""
 
-    def __init__(self, app: App, context: Playthrough) -> None:
+    def __init__(self, app: App, playthrough: Playthrough) -> None:
         self.app = app
-        self.context = context
+        self.playthrough = playthrough
         self.rng = Random()  # noqa: S311 - presentation and the suicide key
         self.clock = RunClock()
         self.attempt = Attempt(
-            context.level, body=context.body, lifetime=context.lifetime, practice_mode=context.practice_mode
+            playthrough.level,
+            body=playthrough.body,
+            lifetime=playthrough.lifetime,
+            practice_mode=playthrough.practice_mode,
         )
-        messages = context.messages()
-        level, inputs = context.beginning() if messages else (context.level, b"")
-        world = self.attempt.simulation.world if level == context.level else Simulation(level).world
+        messages = playthrough.messages()
+        level, inputs = playthrough.beginning() if messages else (playthrough.level, b"")
+        world = self.attempt.simulation.world if level == playthrough.level else Simulation(level).world
         texts = [message.text for message in messages]
         self.things = things_at_start(level, world, texts, inputs)  #: what a message should not cover
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
-        self.all_gold = context.level.gold
-        self.show_tutorial = context.show_tutorial
-        self.messages = MessageQueue(messages, self.attempt.simulation.tiles, helps=context.shows_messages)
-        for _ in range(context.deaths):
+        self.all_gold = playthrough.level.gold
+        self.show_tutorial = playthrough.show_tutorial
+        self.messages = MessageQueue(messages, self.attempt.simulation.tiles, helps=playthrough.shows_messages)
+        for _ in range(playthrough.deaths):
             self.messages.on_death()
         self.shown_lifetime = float(self.attempt.lifetime)
         self.ghosts: list[Ghost] = []
@@ -122,14 +125,14 @@ class LevelPlay:
         self.killer, self.crushed = "", False  #: one of ``deaths.KILLERS``, and whether it crushed the ninja
         self.messages.at_start()
         self.notices: list[str] = []  #: what a pass has won
-        self.next_par = self.context.next_par()  #: in words, while the level waits at its start
-        runs = self.context.ghosts()
+        self.next_par = self.playthrough.next_par()  #: in words, while the level waits at its start
+        runs = self.playthrough.ghosts()
         if runs != [(ghost.inputs, ghost.pace) for ghost in self.ghosts]:
-            self.ghosts = [Ghost(run, self.context.level, self.context.body, pace=pace) for run, pace in runs]
+            self.ghosts = [Ghost(run, self.playthrough.level, self.playthrough.body, pace=pace) for run, pace in runs]
             self.view.ghosts = self.ghosts
-        if self.context.lead:
+        if self.playthrough.lead:
             self.messages.say_again()
-        for keys in self.context.lead:
+        for keys in self.playthrough.lead:
             self.attempt.tick(keys)
             self.tools.on_tick()
             self._say()
@@ -192,7 +195,7 @@ class LevelPlay:
     @property
     def is_stuck(self) -> bool:
         """Whether there were enough failed tries to offer help."""
-        return not self.context.practice_mode and len(self.tries) + (self.phase is Phase.DEAD) >= STUCK_AFTER
+        return not self.playthrough.practice_mode and len(self.tries) + (self.phase is Phase.DEAD) >= STUCK_AFTER
 
     # --- practice ---
 
@@ -260,7 +263,7 @@ class LevelPlay:
     @property
     def invincible(self) -> bool:
         """Whether deaths are refused; not in practice, which can go back in time."""
-        return self.app.settings.invincible and not self.context.practice_mode
+        return self.app.settings.invincible and not self.playthrough.practice_mode
 
     def run_ticks(self, due: int) -> None:
         """Simulate a number of ticks, each with the keys of its moment."""
@@ -292,15 +295,15 @@ class LevelPlay:
             self.changed = True
             if self.phase is Phase.PASSED:
                 self.shown_lifetime = float(self.attempt.lifetime)
-                self.notices = self.context.passed(self.attempt)
+                self.notices = self.playthrough.passed(self.attempt)
                 self._frozen_ms = 0 if self.app.settings.reduced_motion else FREEZE_MS
-                if self.attempt.assisted and not self.context.practice_mode:
+                if self.attempt.assisted and not self.playthrough.practice_mode:
                     self.notices = [HELPED, *self.notices]
             else:
                 self.killer = self.attempt.killer
                 self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED
                 self.messages.on_death()
-                self.context.died(self.attempt)
+                self.playthrough.died(self.attempt)
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
             if self.phase is Phase.PASSED:
@@ -313,14 +316,16 @@ class LevelPlay:
             self.app.audio_output.play("medal")
         if self.after_end == TRIES_FROM and self.tries and not quiet:
             pace = max(1.0, max(map(len, self.tries)) / TRIES_TICKS)
-            self.view.ghosts = [Ghost(run, self.context.level, self.context.body, pace=pace) for run in self.tries]
+            self.view.ghosts = [
+                Ghost(run, self.playthrough.level, self.playthrough.body, pace=pace) for run in self.tries
+            ]
         elif self.after_end == TRIES_FROM + TRIES_TICKS:
             self.view.ghosts = self.ghosts
 
     @property
     def medal(self) -> str:
         counts = self.phase is Phase.PASSED and not self.attempt.assisted
-        return self.context.pars.medal(self.attempt.ended_tick) if self.context.pars and counts else ""
+        return self.playthrough.pars.medal(self.attempt.ended_tick) if self.playthrough.pars and counts else ""
 
     @property
     def stamp(self) -> float:

@@ -39,32 +39,32 @@ HELP_ROW = 2  # the row of help in the pause panel
 
 
 class LevelScreen(Screen):
-    """The screen of a context's level. ``play``: its phases and ticks."""
+    """The screen of a playthrough's level. ``play``: its phases and ticks."""
 
     plays = True
 
-    def __init__(self, app: App, context: Playthrough) -> None:
+    def __init__(self, app: App, playthrough: Playthrough) -> None:
         super().__init__(app)
-        self.context = context
+        self.playthrough = playthrough
         self.overlays = Overlays()
         self._start_level()
 
     def _start_level(self) -> None:
         self.app.audio_output.quiet()
         self.app.follow_mood(self.mood)
-        self.play = LevelPlay(self.app, self.context)
+        self.play = LevelPlay(self.app, self.playthrough)
         self.play.view.overlays = self.overlays
 
     @property
     def mood(self) -> Mood:
-        return self.context.entry.mood
+        return self.playthrough.entry.mood
 
     @property
     def music(self) -> str:
         """The music of the level's column; other levels share one."""
-        if self.context.practice_mode and not self.app.settings.music_in_practice:
+        if self.playthrough.practice_mode and not self.app.settings.music_in_practice:
             return SILENCE
-        entry = self.context.entry
+        entry = self.playthrough.entry
         column = entry.mood.column if entry.episode else int(entry.digest[:8], 16)
         return COLUMN_MUSIC[column % len(COLUMN_MUSIC)]
 
@@ -110,9 +110,9 @@ class LevelScreen(Screen):
     def retry(self, *, ignored: int = 0) -> None:
         """Back to the level's start, at once; a level file that has changed is read again."""
         self.app.audio_output.quiet()
-        self.context.gave_up(self.attempt)
+        self.playthrough.gave_up(self.attempt)
         try:
-            if self.context.restart():
+            if self.playthrough.restart():
                 self._start_level()
                 self.app.notify("The level's file has changed: this is the new level")
                 return
@@ -131,14 +131,14 @@ class LevelScreen(Screen):
 
     def go_on(self) -> None:
         """Go on to the next level, after a pass or a skip."""
-        where = self.context.advance()
+        where = self.playthrough.advance()
         if where is Navigation.SAME_LEVEL:
             self.retry()
         elif where is Navigation.NEXT_LEVEL:
             self.app.wipe_from(self)
             self._start_level()
-        elif where is Navigation.BACK and isinstance(self.context, EpisodePlaythrough):
-            self._skip_the_last(self.context)
+        elif where is Navigation.BACK and isinstance(self.playthrough, EpisodePlaythrough):
+            self._skip_the_last(self.playthrough)
         else:
             self._leave_to(where)
 
@@ -155,9 +155,9 @@ class LevelScreen(Screen):
 
     def skip(self) -> None:
         """Skip the level in practice; else show the menu of help."""
-        if self.context.practice_mode:
+        if self.playthrough.practice_mode:
             self.go_on()
-            self.app.notify("    ".join(self.context.notices))
+            self.app.notify("    ".join(self.playthrough.notices))
         else:
             self.ask_for_help()
 
@@ -166,9 +166,11 @@ class LevelScreen(Screen):
 
         ``paused``: opened from the pause panel, to which Esc leads back, as it does from play.
         """
-        context, app = self.context, self.app
-        run = context.data.catalogue.author_run(context.entry)
-        seen = self.play.is_stuck or opens_author(context.entry, context.data.marks.of(context.entry.digest))
+        playthrough, app = self.playthrough, self.app
+        run = playthrough.data.catalogue.author_run(playthrough.entry)
+        seen = self.play.is_stuck or opens_author(
+            playthrough.entry, playthrough.data.marks.of(playthrough.entry.digest)
+        )
         back = partial(self.pause, HELP_ROW * paused) if paused or self.phase is Phase.PLAY else nothing
         if self.phase is Phase.PLAY:
             self.play.pause()
@@ -183,7 +185,7 @@ class LevelScreen(Screen):
             ("Try again", self.retry, ""),
             ("Watch how", *watch_it) if run and seen else (f"Watch how ({why})", None, ""),
             full if app.settings.game_speed < 100 else slow,
-            (_SKIP, *(skip_it if context.has_next else (None, "No level comes after this one"))),
+            (_SKIP, *(skip_it if playthrough.has_next else (None, "No level comes after this one"))),
         ]
         app.push(Menu(app, _HELP, rows, back))
 
@@ -200,14 +202,14 @@ class LevelScreen(Screen):
         self.retry()
 
     def quit(self) -> None:
-        self.context.gave_up(self.attempt)
-        self.context.data.store.flush()
-        self._leave_to(self.context.next_screen)
+        self.playthrough.gave_up(self.attempt)
+        self.playthrough.data.store.flush()
+        self._leave_to(self.playthrough.next_screen)
 
     def _leave_to(self, where: Navigation) -> None:
         app = self.app
-        if where is Navigation.EPISODE_END and isinstance(self.context, EpisodePlaythrough):
-            app.replace(EpisodePassed(app, self.context, lambda run: app.replace(LevelScreen(app, run))))
+        if where is Navigation.EPISODE_END and isinstance(self.playthrough, EpisodePlaythrough):
+            app.replace(EpisodePassed(app, self.playthrough, lambda run: app.replace(LevelScreen(app, run))))
         else:
             app.pop()
 
@@ -221,25 +223,25 @@ class LevelScreen(Screen):
 
     def watch_replay(self) -> None:
         if self.play.may_watch:
-            context = self.context
+            playthrough = self.playthrough
             replay = Replay.of_inputs(
                 bytes(self.attempt.inputs),
-                context.level,
-                name=context.title,
+                playthrough.level,
+                name=playthrough.title,
                 author=self.app.settings.name,
-                body=context.body,
+                body=playthrough.body,
                 made=self.attempt.made,
             )
-            self.app.push(ReplayScreen(self.app, [Recording(context.level, replay)]))
+            self.app.push(ReplayScreen(self.app, [Recording(playthrough.level, replay)]))
 
     def _replay(self) -> Replay:
-        return self.attempt.replay(self.context.title, self.app.settings.name)
+        return self.attempt.replay(self.playthrough.title, self.app.settings.name)
 
     def keep_replay(self) -> None:
         """Save this run among the player's replays, even if it is not the best."""
         if self._is_spared():
             return
-        self.app.notify(keep_replay(self.context.data, self._replay()))
+        self.app.notify(keep_replay(self.playthrough.data, self._replay()))
 
     def _is_spared(self) -> bool:
         """Whether only invincibility saved the run: then its keys alone are no replay, and a notice says so."""
@@ -250,14 +252,14 @@ class LevelScreen(Screen):
     def copy_link(self) -> None:
         if self._is_spared():
             return
-        copy_link(self.app, lambda: replay_link([self._replay()]), title=self.context.title)
+        copy_link(self.app, lambda: replay_link([self._replay()]), title=self.playthrough.title)
 
     # --- events ---
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type == pygame.WINDOWFOCUSLOST and self.phase is Phase.PLAY:
             self.pause()
-        if self.context.practice_mode and self.phase in {Phase.PLAY, Phase.DEAD, Phase.PASSED}:
+        if self.playthrough.practice_mode and self.phase in {Phase.PLAY, Phase.DEAD, Phase.PASSED}:
             self._dispatch_practice(event)
         pressed = event.pressed
         if event.raw.type == pygame.MOUSEBUTTONDOWN and event.raw.button == pygame.BUTTON_RIGHT:
@@ -371,7 +373,7 @@ class PausePanel(Panel):
 
     def rows(self) -> list[MenuRow]:
         playing = self.playing
-        practice = playing.context.practice_mode
+        practice = playing.playthrough.practice_mode
         skip, helped = (_SKIP, playing.skip) if practice else (_HELP, partial(playing.ask_for_help, paused=True))
         return [
             ("Resume", self.back, ""),
@@ -384,7 +386,7 @@ class PausePanel(Panel):
         ]
 
     def _copy_link(self) -> None:
-        entry = self.playing.context.entry
+        entry = self.playing.playthrough.entry
         copy_level_link(self.app, entry.named, entry.title)
 
     def handle(self, event: InputEvent) -> None:

@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import FormatError
 
-Values = NDArray[np.float64]
+FormulaValues = NDArray[np.float64]
 """One number per world; 1 and 0 are true and false."""
 
-Scope = Mapping[str, Callable[..., Values]]
+Scope = Mapping[str, Callable[..., FormulaValues]]
 """The meaning of a formula's names in some worlds: functions of their arguments, which are numbers."""
 
 UNTRUE = -1000.0

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
-from ninja_game.search.formula.language import FAR, Values
+from ninja_game.search.formula.language import FAR, FormulaValues
 from ninja_game.search.heuristics import FARTHEST, DistanceField, Heuristics, open_masks, points_at
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, LAUNCHER, MINE, TURRET
 from ninja_game.sim.level import Level
@@ -32,7 +32,7 @@ FACTS = ("dead", "won", "in_air", "near_wall", "taken", "opened")
 """The names that are true or false."""
 
 
-def ninja_view(of: Callable[[str], Values]) -> dict[str, Callable[..., Values]]:
+def ninja_view(of: Callable[[str], FormulaValues]) -> dict[str, Callable[..., FormulaValues]]:
     """Functions for the names of the ninja and the run. ``of``: gives fields and "outcome", as float64."""
     plain = ("x", "y", "vx", "vy", "tick", "gold", "state", "jump_timer", "in_air", "near_wall")
     return {
@@ -52,8 +52,8 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
     ninja = batch.records["ninja"]
     place, before = batch.positions, batch.previous
 
-    def of(name: str) -> Values:
-        value: Values = values[name]().astype(float, copy=False)
+    def of(name: str) -> FormulaValues:
+        value: FormulaValues = values[name]().astype(float, copy=False)
         return value
 
     def flag(what: str) -> Callable[..., Any]:
@@ -188,17 +188,17 @@ class Distances:
         alone = open_worlds(self._batch.memory, self._level, box=False)
         return Heuristics(alone.maps, alone.records)
 
-    def to_exit(self) -> Values:
+    def to_exit(self) -> FormulaValues:
         """Minus the distance to the exit, by way of its switch, in px roughly."""
         return self._margins("exit", self._heuristics.field)
 
-    def to_object(self, record: Any) -> Values:
+    def to_object(self, record: Any) -> FormulaValues:
         """Minus the distance to an object, or to the switch of an exit, in px roughly."""
         target = self._batch.objects[:, int(record["partner"][0])] if int(record["kind"][0]) == EXIT else record
         place = float(target["x"][0]), float(target["y"][0])
         return self._margins(place, lambda state, x, y: self._heuristics.field_to(place, state, x, y))
 
-    def _margins(self, key: object, target: Target) -> Values:
+    def _margins(self, key: object, target: Target) -> FormulaValues:
         batch = self._batch
         places, states = batch.positions, open_masks(batch.objects, self._heuristics.slots)
         points = points_at(places)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ninja_game.batch.batch import Batch, Keys
 from ninja_game.errors import ArgumentError
 from ninja_game.search.certificate import without_idle_keys
-from ninja_game.search.formula.language import UNTRUE, Formula, FormulaError, Values, parse_measure, parse_truth
+from ninja_game.search.formula.language import UNTRUE, Formula, FormulaError, FormulaValues, parse_measure, parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES, UNREACHABLE, difference_from, distance_views, view_of
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Body, Level
@@ -183,10 +183,10 @@ class Trials:
     ``ends``: x, y (px), vx, vy (px/tick) at the goal.
     """
 
-    scores: Values
+    scores: FormulaValues
     ticks: NDArray[np.int64]
-    margins: Values
-    ends: Values
+    margins: FormulaValues
+    ends: FormulaValues
 
     @property
     def order(self) -> NDArray[np.intp]:
@@ -221,7 +221,7 @@ class SpanWorlds:
             task.inputs[task.first + own if own else task.behind or task.last :], np.uint8
         ) & np.uint8(KEYS_DOWN)
 
-    def measured(self) -> tuple[NDArray[np.bool_], Values, Values]:
+    def measured(self) -> tuple[NDArray[np.bool_], FormulaValues, FormulaValues]:
         """For all worlds as they are now: whether they are at the goal, their margin, their score."""
         with np.errstate(all="ignore"):
             at_goal = np.broadcast_to(self.goal.value(self.view) > 0, (self.batch.count,))
@@ -246,7 +246,7 @@ class SpanWorlds:
             score, ticks, keys.copy(), run, int(self.batch.gold[index]), tuple(end), True, missed_by, path
         )
 
-    def note_miss(self, margins: Values, keys: Keys, ticks: int) -> None:
+    def note_miss(self, margins: FormulaValues, keys: Keys, ticks: int) -> None:
         """Keep the living world nearest to the goal after ``ticks`` ticks of the span, if none was nearer before.
 
         It must be nearer than the start of the span, which is not a result.
@@ -264,7 +264,7 @@ class SpanWorlds:
     def _missing(self, index: int) -> tuple[str, ...]:
         """The parts of the goal that are not true in a world, and how far it is to each."""
 
-        def there(values: Values) -> float:
+        def there(values: FormulaValues) -> float:
             return float(np.broadcast_to(values, (self.batch.count,))[index])
 
         with np.errstate(all="ignore"):

@@ -54,7 +54,7 @@ ROLL_COLUMNS = (
 )
 
 
-class Place(NamedTuple):
+class _Place(NamedTuple):
     """A column in the window: its first px, and its width in px."""
 
     column: Column
@@ -71,7 +71,7 @@ class RollLayout:
     bar: pygame.Rect
     row: int
     rows: int
-    places: tuple[Place, ...]
+    places: tuple[_Place, ...]
 
     def row_at(self, y: int) -> int:
         """The number of the row at a px, from the first visible one: negative above it."""
@@ -94,7 +94,7 @@ def layout_of(canvas: Canvas, area: Area, hidden: Collection[str]) -> RollLayout
     for column in shown:
         left, x = x, x + (column.width or free)
         first, behind = round(left * canvas.scale), min(round(x * canvas.scale), body.width)
-        places.append(Place(column, whole.left + first, behind - first))
+        places.append(_Place(column, whole.left + first, behind - first))
     heads = pygame.Rect(whole.left, whole.top, whole.width, head)
     side = pygame.Rect(body.right, body.top, whole.right - body.right, whole.height - head)
     return RollLayout(heads, body, side, row, rows, tuple(places))
@@ -263,7 +263,7 @@ class RowSheet:
             self._grounds[kind] = ground, ink, line
         return self._grounds[kind]
 
-    def _key(self, row: RowFacts, place: Place, left: int, y: int, line: pygame.Color) -> None:
+    def _key(self, row: RowFacts, place: _Place, left: int, y: int, line: pygame.Color) -> None:
         key, palette, height = place.column.key, self.theme.palette, self.layout.row
         if not row.keys & key:
             return
@@ -281,7 +281,7 @@ class RowSheet:
             middle = left + 1 + (place.width - picture.get_width()) // 2
             self._blits.append((picture, (middle, y + self._lift)))
 
-    def _difference(self, row: RowFacts, place: Place, left: int, y: int) -> None:
+    def _difference(self, row: RowFacts, place: _Place, left: int, y: int) -> None:
         """At the right of a key's cell: a bar if the key is down only in the other run, hollow if only in ours."""
         px, height, fill = self.theme.canvas.px, self.layout.row, self._picture.fill
         wide = px(4)
@@ -291,7 +291,7 @@ class RowSheet:
             edge = max(1, px(1))
             fill(self.theme.palette.panel, (x + edge, y, wide - 2 * edge, height))
 
-    def _value(self, values: Values, place: Place, left: int, y: int, ink: pygame.Color) -> None:
+    def _value(self, values: Values, place: _Place, left: int, y: int, ink: pygame.Color) -> None:
         name, theme = place.column.name, self.theme
         if name == "state":
             word = theme.lettering.rendered(STATES[values.state], _SIZE, ink)
@@ -306,7 +306,7 @@ class RowSheet:
                 text = shortened(value, place.column.decimals)
             self._blits += self._digits.blits(text, left + place.width - self._margin, y + self._lift, ink)
 
-    def _contacts(self, contacts: int, place: Place, left: int, y: int, ink: pygame.Color) -> None:
+    def _contacts(self, contacts: int, place: _Place, left: int, y: int, ink: pygame.Color) -> None:
         thick, height = max(2, self.theme.canvas.px(2)), self.layout.row
         x, width, fill = left + 1 + thick, place.width - 2 * thick - 1, self._picture.fill
         if contacts & FLOOR:

@@ -22,10 +22,10 @@ _COLUMNS = (256, 200, 144, 58)  # places of ticks, lead and its change, px from 
 _HEADS = ("Tick here", "Tick there", "Ahead + or behind -", "Since above")
 
 Pair = tuple[InputTrack, InputTrack]
-Job = tuple[Pair, Recording, Recording, tuple[Marker, ...]]
+_Job = tuple[Pair, Recording, Recording, tuple[Marker, ...]]
 
 
-def compared_pair(job: Job) -> tuple[Pair, LeadTable | str]:
+def compared_pair(job: _Job) -> tuple[Pair, LeadTable | str]:
     """The table, or a sentence why there is none."""
     pair, ours, theirs, markers = job
     try:
@@ -42,7 +42,7 @@ class LeadTab(Tab):
         self._opened = editor.track
         self._asked: Pair | None = None
         self._still_ms = 0
-        self._job: NewestJob[Job, tuple[Pair, LeadTable | str]] = NewestJob(compared_pair)
+        self._job: NewestJob[_Job, tuple[Pair, LeadTable | str]] = NewestJob(compared_pair)
         self._choice = Choice(
             UNPLACED, "", self._options(), self._against, self._put, hint="The run that this one is compared to"
         )

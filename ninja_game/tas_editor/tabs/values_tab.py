@@ -14,7 +14,7 @@ from ninja_game.play.app import App
 from ninja_game.play.menu_screen import MenuScreen, ask_text
 from ninja_game.play.workspace import Commands
 from ninja_game.runs.compare import SPLIT_EVENTS
-from ninja_game.search.formula.language import Values
+from ninja_game.search.formula.language import FormulaValues
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, MINE
 from ninja_game.tas.timeline import Watch, parse_watch
 from ninja_game.tas_editor.editor import TasEditor
@@ -86,7 +86,7 @@ def colour_of(number: int, palette: Palette) -> pygame.Color:
 
 
 def draw_lane(
-    surface: pygame.Surface, theme: Theme, area: Area, window: TickRange, values: Values, colour: pygame.Color
+    surface: pygame.Surface, theme: Theme, area: Area, window: TickRange, values: FormulaValues, colour: pygame.Color
 ) -> None:
     """A value over ticks, float64 (ticks,), in the window; NaN leaves a gap. Its bounds are at the left."""
     canvas, palette = theme.canvas, theme.palette
@@ -120,14 +120,14 @@ def draw_lane(
         theme.text(surface, f"{value:.4g}", x - 3, at, size=8, colour=colour, align="right")
 
 
-def _thinned(ticks: Values, values: Values, columns: int) -> tuple[Values, Values]:
+def _thinned(ticks: FormulaValues, values: FormulaValues, columns: int) -> tuple[FormulaValues, FormulaValues]:
     """The least and the greatest value in each column of px."""
     starts = np.arange(columns) * len(values) // columns
     pairs = np.column_stack([np.fmin.reduceat(values, starts), np.fmax.reduceat(values, starts)])
     return np.repeat(ticks[starts], 2), pairs.ravel()
 
 
-def _draw_line(surface: pygame.Surface, colour: pygame.Color, points: Values, width: int) -> None:
+def _draw_line(surface: pygame.Surface, colour: pygame.Color, points: FormulaValues, width: int) -> None:
     """A line through points, float64 (n, 2), px; NaN leaves a gap."""
     known = np.isfinite(points[:, 1])
     for piece in np.split(points, np.flatnonzero(np.diff(known)) + 1):
@@ -198,7 +198,7 @@ class Watched:
     watch: Watch
     number: int
     plotted: bool = True
-    values: Values = field(default_factory=lambda: np.zeros(0))
+    values: FormulaValues = field(default_factory=lambda: np.zeros(0))
 
 
 def watched_values(texts: Sequence[str]) -> Iterator[Watched]:

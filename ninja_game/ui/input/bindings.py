@@ -18,7 +18,7 @@ from ninja_game.ui.input.keys import key_label, key_name, learn_label, scancode_
 TAP_SECONDS = 0.15
 """A move pressed and released between two ticks counts in the next one, up to this age: longer than any tick."""
 
-Inputs = Mapping[str, tuple[str, ...]]  # names of inputs by action
+_Inputs = Mapping[str, tuple[str, ...]]  # names of inputs by action
 
 TOUCH_LABELS = {
     "left": "Left", "right": "Right", "jump": "Jump", "confirm": "Jump", "back": "Back", "pause": "Pause",
@@ -41,7 +41,7 @@ class Bindings:
         self._running = self._jumps_down = 0
         self.bind({}, {})
 
-    def bind(self, keys: Inputs, pad: Inputs) -> None:
+    def bind(self, keys: _Inputs, pad: _Inputs) -> None:
         """Apply the player's changes, by action; the other actions have their defaults.
 
         Unknown names are ignored and listed in ``unknown``; an action with only unknown keys keeps its defaults.
@@ -163,7 +163,7 @@ class Bindings:
         return ", ".join(map(key_label, self.keys[action])), ", ".join(map(pad_label, buttons))
 
 
-def _jumps_and_chooses(inputs: Inputs, menu: Mapping[str, str]) -> set[str]:
+def _jumps_and_chooses(inputs: _Inputs, menu: Mapping[str, str]) -> set[str]:
     """The names of inputs that both jump and confirm, in play or in a menu."""
     chosen = {*inputs["confirm"], *(name for name, meaning in menu.items() if meaning == "confirm")}
     return {*inputs["jump"]} & chosen

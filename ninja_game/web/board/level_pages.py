@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ninja_game.board.categories import FASTEST, HIGHEST, Category
 from ninja_game.board.ranking import Leaderboard, Ranked
-from ninja_game.board.runs import PLAYED, Key, Run
+from ninja_game.board.runs import PLAYED, Run, RunKey
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.recording import Recording
@@ -58,8 +58,8 @@ class LevelPages:
 
     def __init__(self, parts: Parts) -> None:
         self.parts, self.ranking = parts, parts.ranking
-        self._ghosts: dict[Key, RunSplits] = {}
-        self._compared: dict[tuple[Key, Key], list[int | None]] = {}
+        self._ghosts: dict[RunKey, RunSplits] = {}
+        self._compared: dict[tuple[RunKey, RunKey], list[int | None]] = {}
 
     def write_run_page(self, run: Run, beside: Sequence[Run]) -> None:
         """``beside``: the runs of the level that are shown side by side."""
@@ -210,7 +210,7 @@ class LevelPages:
         about = tag("p", parts.player_link(run.player, UP), parts.watch_link([run], UP), run.day, class_="facts")
         return tag("li", link, result, about, class_="card leader")
 
-    def _table(self, same: Sequence[_Ranks], marks: Mapping[Key, Content], anchor: str) -> Markup:
+    def _table(self, same: Sequence[_Ranks], marks: Mapping[RunKey, Content], anchor: str) -> Markup:
         """A table of categories with the same runs in order. ``marks``: colours of the runs in the picture."""
         rows, categories = [], [ranks.leaderboard[1] for ranks in same]
         several = len(same) > 1

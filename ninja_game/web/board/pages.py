@@ -18,7 +18,7 @@ from ninja_game.board.collect import is_in
 from ninja_game.board.memo import Memo
 from ninja_game.board.ranking import Ranked, Ranking, Record, Standing
 from ninja_game.board.report import counts, unnamed
-from ninja_game.board.runs import REJECTED_KINDS, Key, Run
+from ninja_game.board.runs import REJECTED_KINDS, Run, RunKey
 from ninja_game.errors import FileError
 from ninja_game.files.reading import SUFFIXES
 from ninja_game.files.shown_text import counted, shown_text
@@ -457,7 +457,7 @@ class BoardPages:
             for item in sorted(rejected, key=lambda item: order.index(item.kind))
         ]
         lead = f"None of them is ranked; {kinds}." if kinds else "Every file of the folder is a run that counts."
-        runs: dict[Key | None, Run] = {run.key: run for run in self.ranking.judged.runs}
+        runs: dict[RunKey | None, Run] = {run.key: run for run in self.ranking.judged.runs}
         near = [
             (
                 parts.watch_link([run], ""),
@@ -493,7 +493,7 @@ class BoardPages:
         """A player's name, a link if some of the player's runs count."""
         return self.parts.player_link(player) if player in self._players_with_runs else self.parts.shown_name(player)
 
-    def _first_run(self, key: Key | None) -> Content:
+    def _first_run(self, key: RunKey | None) -> Content:
         """A link to the page of a run that others have copied."""
         return tag("a", "The first run", href=f"../{REPLAYS}/{self.parts.stems[key]}.html") if key else ""
 

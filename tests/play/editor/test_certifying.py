@@ -112,7 +112,7 @@ def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
     certifier = room.editor.session.certifier
     room.chord("s", pygame.KMOD_LCTRL)
     room.press("f7")
-    failed = certifier.search
+    failed = certifier.certification
     room.chord("n", pygame.KMOD_LCTRL)
     room.choose("A room")
     room.press("f7")
@@ -133,11 +133,11 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(
         (Progress(seconds=3.0), run, "Stopped. Certified: 0.975 s"),
         (Progress(seconds=122.2), None, "Stopped: no exit found in 122 s"),
     ):
-        session.certifier.search = Certification(room.draft.level, seconds=20.0, run=best, progress=progress)
+        session.certifier.certification = Certification(room.draft.level, seconds=20.0, run=best, progress=progress)
         assert f"text 'Stop {progress.seconds:.0f}{' s' * (progress.seconds < 100)}'" in drawn(room.app), "it fits"
         room.mouse(*next(each for each in room.editor.widgets if getattr(each, "name", "") == "certify").centre)
         assert (room.app.notice, session.certify_text) == (said, "Certify")
-    session.certifier.search = Certification(room.draft.level, seconds=20.0, progress=Progress(seconds=1.0))
+    session.certifier.certification = Certification(room.draft.level, seconds=20.0, progress=Progress(seconds=1.0))
     room.drag((300, 300))
     assert session.certify_text == "Certify", "it would search the level as it is now"
     assert "The level has changed" in drawn(room.app), "and so says the card"
@@ -151,14 +151,14 @@ def test_while_the_solver_is_compiled_its_seconds_are_shown_and_nothing_stops(
     session = room.editor.session
     monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
     monkeypatch.setattr(session.certifier.solver.job, "ask", lambda _: None)
-    session.certifier.search = Certification(room.draft.level, began=monotonic() - 300)
+    session.certifier.certification = Certification(room.draft.level, began=monotonic() - 300)
     shown = drawn(room.app)
     assert "text '30" in shown
     assert re.search("a minute or more: 30[0-9] s", " ".join(re.findall("text '(.*)'", shown)))
     room.press("f7")
     assert (session.certifier.busy, room.app.notice) == (True, "Still compiling: F7 stops the search that follows")
     room.drag((300, 300))
-    assert session.certifier.search.level == room.draft.level
+    assert session.certifier.certification.level == room.draft.level
     assert session.certify_text[0] == "3", "it goes on with the level as it is now, and counts on"
 
 
@@ -169,7 +169,9 @@ def test_a_search_goes_on_with_the_changed_level_once_that_has_rested(
     monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
     monkeypatch.setattr("ninja_game.play.editor.session.monotonic", lambda: clock[0])
     monkeypatch.setattr(session.certifier.solver.job, "ask", asked.append)
-    search = session.certifier.search = Certification(room.draft.level, seconds=20.0, progress=Progress(seconds=5.0))
+    search = session.certifier.certification = Certification(
+        room.draft.level, seconds=20.0, progress=Progress(seconds=5.0)
+    )
     for place in ((300, 300), (400, 300)):
         room.drag(place)
         clock[0] += 0.9
@@ -179,7 +181,7 @@ def test_a_search_goes_on_with_the_changed_level_once_that_has_rested(
     clock[0] += 0.2
     room.frames()
     assert ([each.level for each in asked], search.end) == ([room.draft.level], "Stopped")
-    session.certifier.search.progress = Progress(seconds=5.0)
+    session.certifier.certification.progress = Progress(seconds=5.0)
     session.tools.history.change(room.draft.with_objects(room.draft.objects[:1]))
     for _ in range(2):
         room.frames()
@@ -242,7 +244,7 @@ def test_a_door_that_the_certified_run_passes_by_is_told_of() -> None:
 
 def test_a_search_of_what_no_file_holds_ends_with_the_level(room: Maker) -> None:
     certifier = room.editor.session.certifier
-    search = certifier.search = type(certifier.search)(room.draft.level)
+    search = certifier.certification = type(certifier.certification)(room.draft.level)
     with pytest.MonkeyPatch.context() as busy:
         busy.setattr(type(certifier.solver.job), "idle", False)
         room.chord("n", pygame.KMOD_LCTRL)
@@ -274,7 +276,7 @@ def test_a_pass_of_ones_own_certifies_the_level_as_it_is(room: Maker, tmp_path: 
     assert text.startswith("Certified: 1.")
     assert passed(room) < text, "a faster one"
     faster = session.certifier.text
-    session.certifier.search.take(verified_run(ROOM.level, with_press_bits(bytes(30) + bytes([2]) * 100)))
+    session.certifier.certification.take(verified_run(ROOM.level, with_press_bits(bytes(30) + bytes([2]) * 100)))
     assert session.certifier.text == faster, "a slower one of the solver"
     room.chord("s", pygame.KMOD_LCTRL)
     room.frames()

@@ -372,7 +372,7 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
     room.wait(lambda: certifier.text.startswith("Certified: 0.") or not certifier.busy, "run of the solver")
     certifier.stop()
     assert certifier.text.startswith("Certified: 0."), certifier.text
-    assert certifier.search.route[0] == (60.0, 542.0)
+    assert certifier.certification.route[0] == (60.0, 542.0)
     assert not certifier.is_stale(room.draft.level)
     room.drag((300, 300))
     assert certifier.is_stale(room.draft.level)
@@ -386,7 +386,7 @@ def certified(room: Maker, late: int) -> None:
     """Have the solver found a run that begins so many ticks late."""
     session = room.editor.session
     inputs = with_press_bits(bytes(late) + bytes([2]) * 100)
-    session.certifier.search = Certification(
+    session.certifier.certification = Certification(
         session.draft.level, run=verified_run(session.draft.level, inputs), end="Done"
     )
     room.frames()
@@ -425,7 +425,7 @@ def test_a_run_found_while_another_version_was_saved_is_kept_once_its_level_is_s
     searched = session.draft.level
     room.drag((300, 300))
     room.chord("s", pygame.KMOD_LCTRL)
-    session.certifier.search = Certification(
+    session.certifier.certification = Certification(
         searched, run=verified_run(searched, with_press_bits(bytes([2]) * 100)), end="Done"
     )
     before = room.app.notice
@@ -444,7 +444,7 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
     session, level = room.editor.session, room.draft.level
     exit_ = next(number for number, record in enumerate(level.objects) if record.kind == EXIT)
     why = obstacle(level, 0, Progress(untouched=(exit_,)))
-    session.certifier.search = Certification(level, seconds=20.0, obstacles=(why,), end="No run in 20 s")
+    session.certifier.certification = Certification(level, seconds=20.0, obstacles=(why,), end="No run in 20 s")
     room.wait(lambda: session.findings[:1] == [why], "the problem")
     room.press("f4")
     assert room.editor.view.hint.endswith("Make the way there easier, or give the solver more time.")
@@ -700,7 +700,7 @@ def test_slopes_and_spacing_are_set_in_the_panel_and_the_wheel_bends_a_line(room
 def test_a_new_level_knows_nothing_of_the_one_before(room: Maker) -> None:
     session = room.editor.session
     level, route = session.draft.level, ((60.0, 542.0), (61.0, 542.0))
-    session.certifier.search = Certification(level, route=route, end="Done")
+    session.certifier.certification = Certification(level, route=route, end="Done")
     session.tried(level, bytes([2] * 20), over=True)
     room.frames(2)
     assert sum(key[0] == "route" and bool(mark.rects) for key, mark in room.editor.view.sheet.marks.items()) == 2  # type: ignore[index]
@@ -1094,8 +1094,8 @@ def test_what_a_search_has_found_is_kept_when_its_level_is_left(room: Maker, tmp
     room.chord("s", pygame.KMOD_LCTRL)
     kept = tmp_path / "levels" / "certificates" / "room.exit.replay.txt"
     with patch.object(type(certifier.solver.job), "idle", False):
-        certifier.search = Certification(session.draft.level)
-        certifier.search.run = verified_run(session.draft.level, with_press_bits(bytes([2]) * 100))
+        certifier.certification = Certification(session.draft.level)
+        certifier.certification.run = verified_run(session.draft.level, with_press_bits(bytes([2]) * 100))
         room.frames()
         assert certifier.text.endswith(", shortening")
         assert not kept.exists(), "a better one may come"

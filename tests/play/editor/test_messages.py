@@ -19,7 +19,7 @@ from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_message
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
 from ninja_game.play.editor.commands import TryScreen
-from ninja_game.play.editor.messages import _PICTURE, _TEXT, _WHEN, TIME, Message, MessagesScreen, messages_of
+from ninja_game.play.editor.messages import _PICTURE, _TEXT, _WHEN, TIME, MessageRow, MessagesScreen, messages_of
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.level.hud_view import hud_view
@@ -71,7 +71,7 @@ def add(maker: Maker, *texts: str) -> None:
         maker.type(text)
 
 
-def show(screen: MessagesScreen, *messages: Message) -> None:
+def show(screen: MessagesScreen, *messages: MessageRow) -> None:
     """Other messages on the page."""
     screen.messages = [*messages]
     screen.enter()
@@ -251,19 +251,21 @@ def test_every_message_comes_back_as_it_was(room: Maker) -> None:
 @pytest.mark.parametrize(
     "message, in_detail, said",
     [
-        (Message("start", "", " "), False, "Type what is said"),
-        (Message("start", "", "a | b"), False, "no |"),
-        (Message("start", "", "{fly} flies"), False, "{fly} is not one of {left}"),
-        (Message("at", "32,1", "x"), True, "31,23"),
-        (Message("at", "", "x"), True, "31,23"),
-        (Message("death", "0", "x"), True, "1 to 99"),
-        (Message("after", "0", "x"), True, "How many seconds"),
-        (Message("death", "3: x | start", "x"), True, "1 to 99"),
+        (MessageRow("start", "", " "), False, "Type what is said"),
+        (MessageRow("start", "", "a | b"), False, "no |"),
+        (MessageRow("start", "", "{fly} flies"), False, "{fly} is not one of {left}"),
+        (MessageRow("at", "32,1", "x"), True, "31,23"),
+        (MessageRow("at", "", "x"), True, "31,23"),
+        (MessageRow("death", "0", "x"), True, "1 to 99"),
+        (MessageRow("after", "0", "x"), True, "How many seconds"),
+        (MessageRow("death", "3: x | start", "x"), True, "1 to 99"),
     ],
 )
-def test_what_is_wrong_keeps_the_focus_and_is_said(room: Maker, message: Message, in_detail: bool, said: str) -> None:
+def test_what_is_wrong_keeps_the_focus_and_is_said(
+    room: Maker, message: MessageRow, in_detail: bool, said: str
+) -> None:
     screen = opened(room)
-    show(screen, Message("start", "", "fine"), message)
+    show(screen, MessageRow("start", "", "fine"), message)
     room.choose("OK")
     assert room.top() is screen
     words = said if message.unknown == "" else "There is no {fly}"
@@ -414,7 +416,7 @@ def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Mak
     session = room.editor.session
     session.tools.history.change(replace(room.draft, says="at 21,19: A text that lies beside the place"))
     run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
-    session.certifier.search = search_of(room.draft.level, run)
+    session.certifier.certification = search_of(room.draft.level, run)
     screen = opened(room)
     drawn(room.app)
     (shown,) = screen._things.values()
@@ -741,7 +743,7 @@ def test_a_message_of_any_moment_lies_where_the_preview_shows_it(
 
 def test_a_message_that_waits_for_another_is_a_problem_with_its_place(doors: Maker) -> None:
     session = doors.editor.session
-    session.certifier.search = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
+    session.certifier.certification = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
     said(doors, "gold: One | gold: Two | lock 11,22: Three | at 20,20: Four | death 1: Five | trap for 9 s: Six")
     late = [finding for finding in session.examine() if finding.code == "late-message"]
     assert [(finding.text, finding.cells) for finding in late] == [
@@ -755,7 +757,7 @@ def test_a_message_that_waits_for_another_is_a_problem_with_its_place(doors: Mak
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
     fixed = [widget.area for widget in screen.widgets[-8:]]
-    show(screen, *[Message("at", "8,21", "x")] * count)
+    show(screen, *[MessageRow("at", "8,21", "x")] * count)
     assert [widget.area for widget in screen.widgets[-8:]] == fixed
     areas = [pygame.Rect(*map(round, area)) for area in (_PICTURE, *(widget.area for widget in screen.widgets))]
     assert all(area.collidelistall(areas) == [place] for place, area in enumerate(areas))
@@ -765,7 +767,7 @@ def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: M
 def test_each_moment_is_explained_by_its_row(room: Maker) -> None:
     screen = opened(room)
     for when, (name, text) in _WHEN.items():
-        show(screen, Message(when, "", "x"))
+        show(screen, MessageRow(when, "", "x"))
         shown = " ".join(line.split("'")[1] for line in drawn(room.app).splitlines() if line.startswith("text '"))
         assert f"{name}: {text[0].lower()}{text[1:]}." in shown
 
@@ -784,7 +786,7 @@ def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Mak
     assert "text 'switch'" in shown
     assert "text 'exit'" in shown
     assert len(painted) == 1
-    screen.messages.append(Message("start", "", "Now the {exit}"))
+    screen.messages.append(MessageRow("start", "", "Now the {exit}"))
     screen._select(1)
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "only what the selected one names"
@@ -876,10 +878,10 @@ def test_gold_is_counted_and_all_of_it_has_a_moment_of_its_own(room: Maker) -> N
 def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
     screen = opened(room)
     for when, never in (("lock", True), ("start", False), ("gold", True)):
-        show(screen, Message(when, "", "x"))
+        show(screen, MessageRow(when, "", "x"))
         assert ("is never shown: there is no" in drawn(room.app)) is never
         assert ("Never shown: there is no" in drawn(room.app)) is never
-    show(screen, Message("start", "", "x"), Message("trap", "", "y: z"))
+    show(screen, MessageRow("start", "", "x"), MessageRow("trap", "", "y: z"))
     assert "text 'Never shown: there is no trap door'" in drawn(room.app), "also under one that is not selected"
 
 
@@ -899,7 +901,7 @@ def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, mo
 def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:
     text = "This text has many words and all of them are seen, since the field has three lines for its 110 letters"
     screen = opened(room)
-    show(screen, Message("start", "", text), Message("start", "", "y"))
+    show(screen, MessageRow("start", "", text), MessageRow("start", "", "y"))
     field = screen._row_widgets[0][-1]
     assert isinstance(field, TextArea)
     screen.redraw = True

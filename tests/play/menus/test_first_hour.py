@@ -64,7 +64,7 @@ def test_first_level_says_its_goal_with_the_keys_of_whoever_plays(driver: MenuDr
     driver.app.controls.pad_used = True
     assert said(level).startswith("D-pad left and ")
     driver.app.change_settings(level_texts=False)
-    level.play.messages = MessageQueue(level.context.messages())
+    level.play.messages = MessageQueue(level.playthrough.messages())
     assert said(level) == ""
 
 
@@ -92,7 +92,7 @@ def test_what_a_text_names_is_pointed_at_while_it_is_shown_and_until_it_is_done(
     level.play.phase = Phase.PASSED
     assert not hud_view(level.play).named
     driver.app.change_settings(level_texts=False)
-    level.play.messages = MessageQueue(level.context.messages())
+    level.play.messages = MessageQueue(level.playthrough.messages())
     assert not hud_view(level.play).named
 
 
@@ -156,7 +156,7 @@ def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -
     level.begin()
     driver.play_replay(1)
     assert level.phase is Phase.PASSED
-    assert not level.context.messages()
+    assert not level.playthrough.messages()
 
 
 def test_each_text_has_its_moment(driver: MenuDriver) -> None:
@@ -410,8 +410,8 @@ def test_a_text_under_which_the_ninja_comes_fades_while_it_is_there(driver: Menu
 
 def test_texts_of_a_level_come_back_after_its_author_was_watched(driver: MenuDriver) -> None:
     level = stuck_level(driver)
-    first = next(message.text for message in level.context.messages() if message.when == "start")
-    level.play.messages._shown.update(level.context.messages())
+    first = next(message.text for message in level.playthrough.messages() if message.when == "start")
+    level.play.messages._shown.update(level.playthrough.messages())
     driver.press("n")
     driver.choose("Watch how")
     driver.shown(ReplayScreen)
@@ -425,7 +425,7 @@ def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuD
     level = LevelScreen(driver.app, LevelPlaythrough(driver.player, entry(deadly_level())))
     level.play.killer = SELF
     assert cause_of_death(level.play) == ("You hit the ground too hard", FALL_HELP)
-    driver.player.marks.passed(level.context.entry.digest, 100, 0)
+    driver.player.marks.passed(level.playthrough.entry.digest, 100, 0)
     level = LevelScreen(driver.app, LevelPlaythrough(driver.player, entry(deadly_level())))
     level.play.killer = SELF
     assert cause_of_death(level.play) == ("You hit the ground too hard", "")
@@ -463,7 +463,7 @@ def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     assert isinstance(menu.focus, Button)
     assert (menu.focus.detail, menu.focus.hint) == ("Go on with Mind the Gap", "Go on where you left off")
     driver.press("return")
-    assert driver.shown(LevelScreen).context.lifetime > 3000, "with the time that was left"
+    assert driver.shown(LevelScreen).playthrough.lifetime > 3000, "with the time that was left"
 
 
 @pytest.mark.parametrize("rows, title", [(0, "level 2: Mind the Gap"), (1, "level 1: First Steps")])
@@ -474,7 +474,7 @@ def test_episode_left_half_way_goes_on_or_begins_again(driver: MenuDriver, rows:
     driver.press("q")
     driver.open("Episodes")
     driver.press("return", *["down"] * rows, "return")
-    assert driver.shown(LevelScreen).context.title == f"Episode 1.1, {title}"
+    assert driver.shown(LevelScreen).playthrough.title == f"Episode 1.1, {title}"
 
 
 @pytest.mark.parametrize("wanted, medal", [("silver", "silver"), ("author", "author"), ("next", "silver")])
@@ -539,14 +539,14 @@ def test_nobody_is_stopped_by_one_level(driver: MenuDriver) -> None:
         "Try again", "Watch how", "Slow down to 70%", "Skip this level",
     ]  # fmt: skip
     driver.choose("Skip this level")
-    run = level.context
+    run = level.playthrough
     assert isinstance(run, EpisodePlaythrough)
     assert driver.top() is level
     assert run.position == 1
     assert not run.whole
     driver.press("q")
     driver.press("return")
-    assert driver.shown(LevelScreen).context.title.endswith("Mind the Gap"), "play goes on behind it"
+    assert driver.shown(LevelScreen).playthrough.title.endswith("Mind the Gap"), "play goes on behind it"
 
 
 def test_slower_play_opens_what_follows_without_a_record(driver: MenuDriver) -> None:
@@ -558,9 +558,9 @@ def test_slower_play_opens_what_follows_without_a_record(driver: MenuDriver) -> 
     driver.choose("Full speed")
     assert driver.player.settings.game_speed == 100
     level.attempt.assists.add("slow motion")
-    level.context.passed(level.attempt)
+    level.playthrough.passed(level.attempt)
     assert driver.player.progress.columns[0].beaten == (0, 1)
-    assert driver.player.marks.of(level.context.entry.digest) is None
+    assert driver.player.marks.of(level.playthrough.entry.digest) is None
 
 
 def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible(driver: MenuDriver) -> None:
@@ -602,7 +602,7 @@ def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) 
         level.begin()
         driver.play_replay(number)
         assert level.phase is Phase.PASSED
-        titles.append(level.context.title)
+        titles.append(level.playthrough.title)
         end = hud_view(level.play).end
         assert end
         assert end.lines[-1].startswith("Space: next level    R: play again")
@@ -611,8 +611,8 @@ def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) 
     driver.press("q")
     last = next(k for k, each in enumerate(browser.shown) if each.place == "Episode 1.1, level 5")
     browser.play(last)
-    context = driver.shown(LevelScreen).context
-    assert context.has_next == any(not driver.player.lock_of(each) for each in browser.shown[last + 1 :])
+    playthrough = driver.shown(LevelScreen).playthrough
+    assert playthrough.has_next == any(not driver.player.lock_of(each) for each in browser.shown[last + 1 :])
 
 
 def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver: MenuDriver) -> None:
@@ -756,7 +756,7 @@ def test_text_of_the_start_covers_no_name_of_a_thing(driver: MenuDriver) -> None
 
 def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: MenuDriver) -> None:
     level = driver.open_level()
-    run = level.context
+    run = level.playthrough
     assert isinstance(run, EpisodePlaythrough)
     count = len(run.episode.levels)
     for _ in range(count):
@@ -764,7 +764,7 @@ def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: Men
         driver.choose("Skip this level")
     following = driver.player.catalogue.following(run.episode)
     assert following
-    after = driver.shown(LevelScreen).context
+    after = driver.shown(LevelScreen).playthrough
     assert isinstance(after, EpisodePlaythrough)
     assert (after.episode.key, after.position) == (following.key, 0)
     assert driver.app.notice == f"Skipped. Now episode {following.code}: {following.name}"

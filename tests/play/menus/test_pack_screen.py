@@ -1244,7 +1244,7 @@ def test_a_pack_is_previewed_as_somebody_who_has_played_nothing(driver: MenuDriv
     assert "Not passed yet" in text
     assert grid._look_of(1) == "locked"
     driver.choose("Play")
-    run = driver.shown(LevelScreen).context
+    run = driver.shown(LevelScreen).playthrough
     assert run.data is grid.player is not driver.player
     assert save_work(run.data, lambda: ["New best"]) == ["New best", "Not saved yet: this is a preview"]
     driver.shown(LevelScreen).attempt.tick(0)

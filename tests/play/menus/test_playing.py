@@ -26,8 +26,8 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     driver.press("return")
     for number in range(1, 6):
         level = driver.shown(LevelScreen)
-        assert level.context.title.startswith(f"Episode 1.1, level {number}: ")
-        assert level.context.show_tutorial == (number == 1)
+        assert level.playthrough.title.startswith(f"Episode 1.1, level {number}: ")
+        assert level.playthrough.show_tutorial == (number == 1)
         level.begin()
         driver.play_replay(number)
         assert level.phase is Phase.PASSED
@@ -55,7 +55,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     assert isinstance(driver.top(), ReplayScreen)
     driver.press("escape", "up", "return")
     following = driver.shown(LevelScreen)
-    assert following.context.title.startswith("Episode 1.2, level 1: ")
+    assert following.playthrough.title.startswith("Episode 1.2, level 1: ")
     driver.press("q")
     assert isinstance(driver.top(), EpisodeGrid)
     driver.press("escape")

@@ -83,8 +83,8 @@ def test_medal_comes_down_and_is_heard_when_it_lands(driver: MenuDriver, heard: 
 
 def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDriver) -> None:
     level = passed_level(driver)
-    assert level.context.pars
-    par = level.context.pars.par("gold")
+    assert level.playthrough.pars
+    par = level.playthrough.pars.par("gold")
     level.attempt.ended_tick = par + 1
     title, (medal, following, rest, clock, _), *_ = hud_view(level.play).end or EndPanel("", [""], (), ())
     assert title == f"Time {seconds_text(level.attempt.ended_tick)} s"
