@@ -7,8 +7,10 @@ import os
 import signal
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -60,6 +62,21 @@ def pytest_handlecrashitem(crashitem: str, report: pytest.TestReport) -> None:
     code = worker.gateway._io.popen.poll()
     told = "passed" if again.returncode == 0 else f"did NOT pass:\n{again.stdout}{again.stderr}"
     report.longrepr = f"{report.longrepr} (exit code {code}; Python's trace of it stands above). Alone it {told}"
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_terminal_summary(terminalreporter: Any) -> Iterator[None]:
+    """At the end, how many tests were skipped, for which reasons, and where: hosts differ, so nothing fails for it."""
+    yield
+    families: dict[str, Counter[str]] = {}
+    for report in terminalreporter.stats.get("skipped", ()):
+        reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else str(report.longrepr)
+        families.setdefault(reason.removeprefix("Skipped: "), Counter())[report.nodeid.split("::")[0]] += 1
+    if families:
+        number = sum(sum(files.values()) for files in families.values())
+        terminalreporter.section(f"NOT RUN HERE: {number} tests or files of tests", sep="!", yellow=True, bold=True)
+    for reason, files in families.items():
+        terminalreporter.line(f"{sum(files.values())} skipped, {reason!r}: {', '.join(sorted(files))}")
 
 
 @pytest.fixture

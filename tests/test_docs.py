@@ -85,6 +85,12 @@ def test_links_lead_somewhere(page: Path) -> None:
     assert not dead
 
 
+@pytest.mark.parametrize("page", PAGES, ids=named)
+def test_a_label_that_is_a_file_names_the_file_it_links_to(page: Path) -> None:
+    links = re.findall(r"\[`?([^\]`]*\.md)`?\]\(([^)#\s]*)", text_of(page))
+    assert not [(label, target) for label, target in links if Path(label).name != Path(target).name]
+
+
 def test_every_page_is_linked_from_the_index() -> None:
     index = ROOT / "docs" / "README.md"
     linked = {(index.parent / target).resolve() for target in re.findall(r"\]\(([^)#]+)\)", index.read_text("utf-8"))}

@@ -26,18 +26,29 @@ N = TypeVar("N", "NamedLevel", "Recording")
 
 JOBS = click.IntRange(1, 1024)
 SEED = click.IntRange(0, 10**9)
-OLD_FILE = click.Path(exists=True, dir_okay=False, path_type=Path)  # must exist
+
+
+class OldPath(click.Path):
+    """A path of something that exists."""
+
+    def __init__(self, *, file_okay: bool = True, dir_okay: bool = True) -> None:
+        super().__init__(exists=True, file_okay=file_okay, dir_okay=dir_okay, path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if not Path(value).exists():
+            raise click.UsageError(f"{value}: there is no such {'file' if self.file_okay else 'folder'}", ctx)
+        return super().convert(value, param, ctx)
+
+
+OLD_FILE = OldPath(dir_okay=False)  # must exist
 NEW_FILE = click.Path(dir_okay=False, path_type=Path)  # may be missing
-OLD_FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
+OLD_FOLDER = OldPath(file_okay=False)
 NEW_FOLDER = click.Path(file_okay=False, path_type=Path)
-OLD_PATH = click.Path(exists=True, path_type=Path)  # a file or a folder
+OLD_PATH = OldPath()  # a file or a folder
 
 
-class InputPath(click.Path):
+class InputPath(OldPath):
     """An existing file or folder; or a link, which is kept unchanged as a path."""
-
-    def __init__(self, *, dir_okay: bool = True) -> None:
-        super().__init__(exists=True, dir_okay=dir_okay, path_type=Path)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         from ninja_game.formats.links import is_link

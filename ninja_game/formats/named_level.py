@@ -112,7 +112,7 @@ def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
     if len(lines) > 1 and not all(len(line.partition("|")[0]) >= TILES for _, line in lines):
         lines = [(lines[0][0], tidy_level_string(text))]
     for number, line in lines:
-        if not _is_level_string(line):
+        if not is_level_string(line):
             expected = "an ASCII level, a level file of N or an in-game string"
             hint = "'ninja-game convert 00-0-first-steps - --to ascii --legend' shows how to write a level"
             raise LevelError(
@@ -123,7 +123,7 @@ def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
         raise LevelError("an empty file", file, expected="a level")
 
 
-def _is_level_string(text: str) -> bool:
+def is_level_string(text: str) -> bool:
     """Whether a line may be an in-game string: tiles make up most of its first half, objects its second half."""
     tiles, bar, objects = text.partition("|")
     if not bar or 2 * len(_TILE.findall(tiles[:TILES])) < min(len(tiles), TILES):

@@ -13,7 +13,7 @@ from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
-from ninja_game.formats.named_level import TextFormat, format_of, level_of_replay
+from ninja_game.formats.named_level import TextFormat, format_of, is_level_string, level_of_replay
 from ninja_game.formats.replay.input_text import include_reader, read_inputs
 from ninja_game.formats.replay.notations import in_our_notation
 from ninja_game.formats.replay.provenance import with_provenance, without_provenance
@@ -208,7 +208,9 @@ def demo_recording(record: LevelRecord, file: str, level: Level | None) -> Recor
     """Read the demo of a record, on its level. Raises ReplayError or DemoError with ``file`` and the record."""
     if not record.demo:
         found = repr(record.note[:40]) if record.note else ""
-        what, expected = f"record {record.number} has no demo", "$name#author#comment#level#demo#"
+        other = record.level and not is_level_string(record.level)
+        what = "not a recording" if other else f"record {record.number} has no demo"
+        expected = "$name#author#comment#level#demo#"
         raise ReplayError(what, file, record.line, 0, found, expected)
     if level is None:
         raise ReplayError(

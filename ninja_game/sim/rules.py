@@ -1,8 +1,9 @@
 """Every constant of the game, with its unit and its source - and nothing else.
 
-Lengths in px, speeds in px/tick, y downwards. "W", "O", "N", "G" name the pages world, objects, ninja, game of the
-specification. A product such as 12 * 0.35714285714285715 is written as the double it gives: positions are compared to
-the last bit, so a "nicer" literal would be another game.
+Lengths in px, speeds in px/tick, accelerations in px/tick², y downwards; factors, shares and directions have no unit.
+"W", "O", "N", "G" name the pages world, objects, ninja, game of the specification. A product such as
+12 * 0.35714285714285715 is written as the double it gives: positions are compared to the last bit, so a "nicer" literal
+would be another game.
 
 Rules copy these names when they are imported: assigning ``rules.GRAVITY`` later changes nothing. To try another number,
 edit it here.
@@ -46,7 +47,7 @@ STAND_FRICTION = 0.8
 STAND_SPEED = 0.1
 JUMP_VERTICAL = 3.0  # a jump's vertical factor; the horizontal one is 1, N 7.4
 UPHILL_JUMP_Y = -0.7  # direction of a jump off a slope with the key against its normal, N 7.2
-UPHILL_HELP = 0.5
+UPHILL_HELP = 0.5  # factor, no unit, N 7.2.1
 WALL_HOP_Y = -0.5  # direction of a hop up the wall that the ninja holds on to; its x is the wall's normal, N 7.1
 WALL_JUMP_X, WALL_JUMP_Y = 1.5, -0.7  # direction of a jump off a wall; x times the wall's normal, N 7.1
 MAX_JUMP_TICKS = 30  # ticks
@@ -54,7 +55,7 @@ FATAL_IMPACT = 9.0  # px/tick against the floor's normal, N 6
 FLOOR_ALLOWANCE = 2.0  # px/tick that a level floor subtracts from an impact; a slope subtracts less, by its normal, N 6
 PARALLEL_FLOORS = 0.9  # two floor normals whose product is greater count as one, N 6.1
 CRUSH = 80.0  # px², squared push
-WALL_PROBE = 10.1
+WALL_PROBE = 10.1  # px from the middle, N 1
 
 # Kill impulses: the velocity that a death gives to the corpse, px/tick, O 8.8 to 8.19.
 ZAP_IMPULSE = 10.0
@@ -80,8 +81,8 @@ DOOR_SWITCH_RADIUS = 5.0
 
 # Bounce block, O 8.3.
 BLOCK_HALF = 9.600000000000001  # 12 * 0.8
-BLOCK_SPRING = 0.05
-BLOCK_DRAG = 0.99
+BLOCK_SPRING = 0.05  # share of the way home that it moves in a tick, no unit
+BLOCK_DRAG = 0.99  # factor per tick, no unit
 BLOCK_SHARE = 0.8  # share of the overlap that moves the block
 NINJA_SHARE = 0.2  # share of the overlap that moves the ninja
 BLOCK_SLEEP = 40  # ticks without contact
@@ -102,9 +103,9 @@ GUARD_SPEED = 5.142857142857142  # O 8.10
 ROCKET_HEADING_X, ROCKET_HEADING_Y = 7.0, 6.0  # before the first shot, not normalised
 ROCKET_PREPARE = 10  # ticks
 ROCKET_SPEED = 3.4285714285714284  # 12 * 0.2857142857142857
-ROCKET_ACCELERATION = 0.1
-ROCKET_GROWTH = 1.1
-ROCKET_TURN = 0.1
+ROCKET_ACCELERATION = 0.1  # px/tick²
+ROCKET_GROWTH = 1.1  # factor of the acceleration per tick, no unit
+ROCKET_TURN = 0.1  # factor of the sideways part added to the heading, no unit
 
 # Gauss turret, O 8.12.
 TURRET_DELAY = 10  # ticks
@@ -112,7 +113,7 @@ TURRET_SHOT = 60.0  # counted down to the shot, by the crosshair's distance:
 NEAR_STEP, NEAR_CYCLE = 2.0, 4  # near: 2 + tick mod 4
 MID_STEP, MID_CYCLE = 1.0, 2  # middle: 1 + tick mod 2
 FAR_STEP = 0.5  # farther, up to AIM_FAR_SQUARED; beyond it the count stands
-AIM_FAR, AIM_MID, AIM_NEAR = 0.03, 0.035, 0.05
+AIM_FAR, AIM_MID, AIM_NEAR = 0.03, 0.035, 0.05  # share of the distance that the crosshair moves in a tick, no unit
 AIM_FAR_SQUARED, AIM_MID_SQUARED, AIM_NEAR_SQUARED = 9216.0, 1764.0, 576.0  # px²
 
 # Drones, O 8.13, 8.18, 8.19.

@@ -287,7 +287,7 @@ def test_check_gives_every_certificate_a_name_of_its_own(tmp_path: Path) -> None
         (["solve", "two.txt", "-o", "x"], "holds 2 levels; choose one with --record, 0 to 1"),
         (["solve", "two.txt", "--record", "9", "-o", "x"], "there is no record 9"),
         (["solve", "empty.txt", "-o", "x"], "no ninja"),
-        (["solve", "missing.txt", "-o", "x"], "does not exist"),
+        (["solve", "missing.txt", "-o", "x"], "missing.txt: there is no such file"),
         (["solve", "noise.txt", "-o", "x"], "not a level in any format"),
         (["improve", "level.txt", "-o", "x"], "no recording"),
         (["improve", "two.txt", "-o", "x"], "holds 2 recordings; choose one with --record, 0 to 1"),

@@ -253,6 +253,7 @@ def test_a_given_level_serves_a_replay_that_has_only_a_digest(tmp_path: Path) ->
     [
         (f"$a###{TEXT}#\n$b###{TEXT}#{DEMO}#", ReplayError, ":1: record 0 has no demo; expected"),
         (f"$a###{TEXT}#34x:1|2#", ReplayError, ":1: record 0 has no demo; found '34x:1"),
+        ("# Tidy\n\n$ tidy # all # of it # in order # at once\n", ReplayError, ":3: not a recording; found 'at once'"),
         (f"\n$a###{TEXT}#Aaaa!#", ReplayError, ":2: record 0 has no demo"),
         (f'\n$a###{TEXT}#A"""\x67#', DemoError, r":2: a character .* has here \(character 6 of the demo\)"),
         (TEXT, ReplayError, "no recording; found '0000"),

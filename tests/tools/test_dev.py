@@ -167,3 +167,19 @@ def test_a_test_whose_worker_crashed_has_failed_and_is_run_again_alone(tmp_path:
     assert f"::test_dies_beside_others' (exit code 9{trace} passed" in ended.stdout
     assert f"::test_dies' (exit code 8{trace} did NOT pass" in ended.stdout
     assert "3 failed in" in ended.stdout
+
+
+def test_the_end_of_the_tests_says_which_were_skipped_and_why(tmp_path: Path) -> None:
+    (tmp_path / "conftest.py").write_text("from tests.conftest import pytest_terminal_summary\n", "utf-8")
+    (tmp_path / "pytest.ini").write_text("[pytest]\n", "utf-8")
+    skips = "import pytest\n@pytest.mark.parametrize('n', [1, 2])\ndef test_page(n): pytest.skip('no Chromium')\n"
+    (tmp_path / "test_a.py").write_text(skips, "utf-8")
+    (tmp_path / "test_b.py").write_text("import pytest\npytest.skip('no Node', allow_module_level=True)\n", "utf-8")
+    words = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-ra"]
+    alone = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
+    alone["PYTHONPATH"] = str(ROOT)
+    ended = subprocess.run(words, cwd=tmp_path, env=alone, capture_output=True, text=True, check=False)
+    assert ended.returncode == 0
+    *_, heading, node, chromium, _ = ended.stdout.splitlines()
+    assert "! NOT RUN HERE: 3 tests or files of tests !" in heading
+    assert [node, chromium] == ["1 skipped, 'no Node': test_b.py", "2 skipped, 'no Chromium': test_a.py"]

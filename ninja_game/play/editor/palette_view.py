@@ -267,7 +267,7 @@ class PaletteView(Widget):
         canvas, palette = theme.canvas, theme.palette
         x, y, w, _ = self.area
         objects = self.tools.draws_objects
-        for text, top, high, lit in (("Tiles", y, 89, not objects), ("Objects: Shift and", y + 89, 126, objects)):
+        for text, top, high, lit in (("Tiles", y, 89, not objects), ("Objects: Shift+letter", y + 89, 126, objects)):
             if lit:
                 lit_area = x - 3, top - 2, w + 5, high
                 canvas.fill_rect(surface, mixed(palette.panel, palette.accent, 0.2), *lit_area, 3)

@@ -886,7 +886,7 @@ def test_a_key_beside_an_entry_of_the_palette_takes_it_whatever_was_used_before(
         assert sorted(re.findall(r"text '(\w)' at \S+ size 8 ", picture)) == sorted(
             [*digits, *(each.key.upper() for each in OBJECT_TYPES)]
         )
-        assert "text 'Objects: Shift and'" in picture
+        assert "text 'Objects: Shift+letter'" in picture
     assert len(set(re.findall(r"text '(?:Tiles|Objects).*", "".join(shown)))) == 4, "the part in use is lit"
 
 
