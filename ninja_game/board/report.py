@@ -155,7 +155,7 @@ def moderate(
     if len(reason) > MAX_REASON or (not reason and any(what == REJECTED for _, what in decisions)):
         raise ArgumentError(f"--reject: say why with --reason, in at most {MAX_REASON} characters")
     for name, what in decisions:
-        for row in _rows_of(name, _decidable(ledger, runs, files, what), what, "in that file"):
+        for row in _rows_of(name, _decidable(ledger, runs, files, what), what):
             run = row["level"], row["way"], row["file"], row["player"]
             decision = Decision(*run, what, reason, now.strftime(DATE))
             ledger.decisions[decision.key] = decision
@@ -163,8 +163,8 @@ def moderate(
 
 def check_confirmed(judged: ValidatedRuns, confirm: Collection[str]) -> None:
     """Raise ArgumentError for a file to confirm without runs that waited."""
-    for name in {*confirm} - {run.file for run in judged.runs if run.confirmed}:
-        _rows_of(name, [_run_data(run) for run in judged.runs if run.waits], "--confirm", "that waits")
+    if unknown := {*confirm} - {run.file for run in judged.runs if run.confirmed}:
+        raise _no_run(min(unknown), [run.file for run in judged.runs if run.waits], "--confirm", "that waits")
 
 
 def _decidable(ledger: Ledger, runs: Sequence[Run], files: Collection[str], what: str) -> list[dict[str, Any]]:
@@ -177,13 +177,18 @@ def _decidable(ledger: Ledger, runs: Sequence[Run], files: Collection[str], what
     return present + [row for row in earlier if row["file"] not in files]
 
 
-def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -> list[dict[str, Any]]:
-    """The rows of a file or folder, else of a player. Raises ArgumentError, with the files that have some, for none."""
+def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str) -> list[dict[str, Any]]:
+    """The rows of a file or folder, else of a player. Raises ArgumentError for none."""
     in_it = [row for row in rows if row["file"] == name or (name.endswith("/") and row["file"].startswith(name))]
     if chosen := in_it or [row for row in rows if folded(row["player"]) == folded(name)]:
         return chosen
-    files = ", ".join(dict.fromkeys(plain(row["file"]) for row in rows[:10])) or "none"
-    raise ArgumentError(f"{what} {name!a}: no run of the ledger {which}; there are: {files}")
+    raise _no_run(name, [row["file"] for row in rows], what, "in that file")
+
+
+def _no_run(name: str, files: Sequence[str], what: str, which: str) -> ArgumentError:
+    """The error for a name without runs, with the files that have some."""
+    some = ", ".join(dict.fromkeys(map(plain, files[:10]))) or "none"
+    return ArgumentError(f"{what} {name!a}: no run of the ledger {which}; there are: {some}")
 
 
 def read_dates(path: Path, now: datetime) -> dict[str, str]:

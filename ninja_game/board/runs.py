@@ -51,7 +51,7 @@ class Judged:
     """The result of a recording, as plain values that can be cached; where nothing is said, as of Verdict."""
 
     record: int
-    kind: str  #: "" for a run that counts, else one of KINDS
+    kind: str  #: "" for a run that counts, else one of REJECTED_KINDS
     why: str = ""  #: the reason if it does not count
     author: str = ""
     level: str = ""  #: its digest
@@ -239,7 +239,7 @@ class Rejected:
 
     file: str
     record: int
-    kind: str  #: one of KINDS
+    kind: str  #: one of REJECTED_KINDS, or OWN
     why: str
     player: str = ""
     level: str = ""  #: its title

@@ -124,7 +124,7 @@ class EnvState:
     levels: Indices
     states: Any = field(repr=False)
     starts: NDArray[np.float64] = field(repr=False)
-    facts: NDArray[np.int64] = field(repr=False)
+    facts: NDArray[np.int64] = field(repr=False)  #: its rows are those of ``EnvWorlds``, a column per world
     owner: tuple[Any, ...] = field(repr=False)
 
 

@@ -834,6 +834,17 @@ def test_two_runs_are_aligned_once_for_all_pages_of_their_level(
     assert counting.call_count == 1
 
 
+def test_runs_too_long_to_align_have_no_heading_of_where_time_goes(
+    runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(runs, "a.txt", replay(author="Ann"))
+    put(runs, "b.txt", slow_walk(author="Bea"))
+    monkeypatch.setattr("ninja_game.web.board.level_pages.MAX_ALIGNED_TICKS", WALK_END)
+    board = board_of(runs, levels, tmp_path / "site")
+    pages = [path.read_text("utf-8") for path in board.parent.rglob("*.html")]
+    assert [sum(f"<h2>{title}</h2>" in page for page in pages) for title in ("Splits", "Where time goes")] == [3, 0]
+
+
 def test_the_page_of_a_run_shows_its_speed_keys_and_splits(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", replay(author="Ann"))
     put(runs, "b.txt", slow_walk(author="Bea"))

@@ -116,6 +116,14 @@ def test_a_confirmation_takes_in_a_new_run(ledger: Path, runs: Path, levels: Pat
     assert ledger.read_bytes() == before
 
 
+@pytest.mark.parametrize("name", ["Ann", "mallory/"])
+def test_only_a_file_is_confirmed(name: str, ledger: Path, runs: Path, levels: Path) -> None:
+    put(runs, "mallory/b.txt", replay(author="Ann"))
+    command = ["board", str(runs), "--levels", str(levels), "--json", str(ledger), "--confirm", name]
+    told = CliRunner().invoke(cli, command)
+    assert (told.exit_code, "that waits; there are: mallory/b.txt" in told.stderr) == (2, True)
+
+
 def test_a_run_by_somebody_else_is_not_the_players_any_more(
     ledger: Path, runs: Path, levels: Path, tmp_path: Path
 ) -> None:

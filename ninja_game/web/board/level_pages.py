@@ -112,7 +112,7 @@ class LevelPages:
             heads = "No.", "Split", "Time", "Speed", f"Later than {first}"
             splits = section("Splits", table(SPLITS_OF, heads, lines), anchor=SPLITS)
         if len(ghosts) > 1:
-            where = section("Where time goes", *self._where_time_goes([(first, beside[1], 1), (name, run, 0)]))
+            where = self._where_time_goes([(first, beside[1], 1), (name, run, 0)])
         best = int(speeds.argmax())
         fast = f"Fastest at {seconds_text(best)} s: {speeds[best]:.2f} px per tick; {speeds.mean():.2f} on average."
         chart = speed_and_keys(speeds, run.inputs, ticks)
@@ -282,10 +282,8 @@ class LevelPages:
         splits = table(note, ("No.", "Split", first, "Fastest segment", *others), lines, ("No.",))
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
         where = self._where_time_goes(by_time, tabled=len(rows) < ENOUGH_SPLITS)
-        return joined(drawn, together), joined(
-            section("Any two of the first", races, anchor=RACES), section("Splits", splits, best, anchor=SPLITS),
-            section("Where time goes", *where) if where else None,
-        )  # fmt: skip
+        of_two = section("Any two of the first", races, anchor=RACES)
+        return joined(drawn, together), joined(of_two, section("Splits", splits, best, anchor=SPLITS), where)
 
     def _ghost(self, run: Run) -> RunSplits:
         """A run with its splits, simulated once for all pages of its level."""
@@ -298,14 +296,15 @@ class LevelPages:
         both = [runs[at], runs[other]]
         return self.parts.watch_link(both, UP, signed(both[0].tick - both[1].tick), (at, other)) if at != other else ""
 
-    def _where_time_goes(self, runs: Sequence[tuple[str, Run, int]], *, tabled: bool = False) -> list[Markup]:
+    def _where_time_goes(self, runs: Sequence[tuple[str, Run, int]], *, tabled: bool = False) -> Content:
         """Where each named run loses most on the first, the fastest, and a chart of how much later it is on the way.
 
-        The number of a run is that of its colour. ``tabled``: also as a table, at each second of the first.
+        None for runs too long to align. The number of a run is that of its colour. ``tabled``: also as a table, at each
+        second of the first.
         """
         (fastest, first, _), *others = runs
         if max(run.tick for _, run, _ in runs) >= MAX_ALIGNED_TICKS:
-            return []
+            return None
         length = first.tick + 1
         seconds = range(step := TICKS_PER_SECOND * (1 + length // _MAX_SECONDS), length, step)
         ticks = sorted({*range(0, length, 1 + length // MAX_LEADS), *seconds, first.tick})
@@ -326,7 +325,8 @@ class LevelPages:
         ]
         rows = [row for row in rows if tabled and any(row[1:])]
         heads = [name for name, *_ in runs]
-        return [*shown, tag("details", tag("summary", "As a table"), table(caption, heads, rows))] if rows else shown
+        folded = tag("details", tag("summary", "As a table"), table(caption, heads, rows)) if rows else None
+        return section("Where time goes", *shown, folded)
 
     def _late(self, first: Run, other: Run, ticks: Sequence[int]) -> list[int | None]:
         """As ``_leads``, compared once for all pages of the level. ``ticks``: always the same of a first run."""
