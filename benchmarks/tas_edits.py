@@ -31,7 +31,7 @@ from ninja_game.ui.audio.player import AudioOutput
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.view.overlays import OVERLAY_ACTIONS
 
-OBJECTS = 61  # of the busy level: drones, thwumps, floor guards, bounce blocks, turrets, launchers
+OBJECTS = 61  # of the busy level: ninja, exit, drones, thwumps, floor guards, bounce blocks, turrets, two mines
 KEYS = ("a", "d", "z", "delete", "i", "backspace", "ctrl+z")
 
 

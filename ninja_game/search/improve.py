@@ -87,7 +87,7 @@ def improve(
     played = run_level(task.level, task.first, body=task.body)
     if played.outcome != "exit":
         known = next(iter(earlier), None)
-        first = known or _led_to_exit(task, played.ticks, theirs)
+        first = known or _led_to_exit(task, played.ticks)
         if first is None:
             ends = ending_text(played.outcome, played.ticks - 1, played.death)
             raise NoWayError(f"{ends}; no way to the exit found from there")
@@ -108,11 +108,11 @@ def improve(
     return Improvement(run, begun[0] - run.end_tick, not theirs and _is_same_route(task, run))
 
 
-def _led_to_exit(task: Task, ticks: int, theirs: Sequence[bytes]) -> bytes | None:
-    """A run to the exit that begins like the task's, which ends after so many ticks; else one of others, or None."""
+def _led_to_exit(task: Task, ticks: int) -> bytes | None:
+    """A run to the exit that begins like the task's, which ends after so many ticks; else another's, or None."""
     begin, half = task.first[:ticks], task.seconds / 2
     way = to_exit(task.level, begin, half, body=task.body, seed=task.seed, threads=task.jobs)
-    passing = (keys for keys in theirs if run_level(task.level, keys, body=task.body).outcome == "exit")
+    passing = (keys for keys in task.others if run_level(task.level, keys, body=task.body).outcome == "exit")
     return way or next(passing, None)
 
 

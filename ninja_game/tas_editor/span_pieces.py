@@ -8,7 +8,7 @@ from ninja_game.runtime import NewestJob
 from ninja_game.search.formula.task import SpanTask
 from ninja_game.tas.goals import GOALS, RunPiece, SearchedSpan, SpanGoal, span_pieces
 from ninja_game.tas.tracks import InputTrack
-from ninja_game.tas_editor.editor import Span, TasEditor
+from ninja_game.tas_editor.editor import TasEditor
 
 WITHOUT_REST = "End at the goal, not then the rest"
 
@@ -22,8 +22,8 @@ class SpanPieces:
     ``task``: the search of the span that found nothing.
     """
 
-    def __init__(self, editor: TasEditor, span: Span, task: SpanTask) -> None:
-        self._editor, self._span = editor, span
+    def __init__(self, editor: TasEditor, task: SpanTask) -> None:
+        self._editor, self._span = editor, (task.first, task.last)
         self._goal_alone = task.goal if task.rest else ""
         self.pieces: tuple[RunPiece, ...] = ()
         self._cut_track: InputTrack | None = None  #: the run that was cut into these pieces

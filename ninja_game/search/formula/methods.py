@@ -66,7 +66,7 @@ def _kernel_rng(seed: int) -> list[RandomState]:
 
 
 class Results:
-    """The best keys so far, and for ``report`` their distinct ``ways``; until there are any, the miss."""
+    """The best keys so far, and for ``report`` the best of each route; until there are any, the miss."""
 
     def __init__(self, worlds: SpanWorlds, report: ReportResults, report_miss: ReportMiss) -> None:
         self.worlds = worlds
@@ -121,14 +121,15 @@ def search_span(
     threads: int | None = None,
     report_miss: ReportMiss = lambda _: None,
 ) -> tuple[SpanResult, ...]:
-    """Find the best keys of each way, best first, at most KEPT; none if nothing reached the goal.
+    """Find the best keys of each route, best first, at most KEPT; none if nothing reached the goal.
 
-    ``method``: one of METHODS, or "auto": a beam, then small changes of its results, again and again. While nothing is
-    found, "auto" also uses the solver (LegSearch), on the compiled memory only. ``every``: how many ticks a choice of
-    keys holds in "exhaustive". ``report`` is called first when everything is compiled; the search continues until it
-    returns False, "exhaustive" only until all is tried. ``report_miss`` gets, with each report, the nearest result as
-    long as nothing reaches the goal. The same seed does the same work in the same order. Raises ArgumentError for a
-    span with too many ways through it, and the errors of SpanTask.
+    ``method``: one of METHODS, or "auto": a beam, then small changes of its results, again and again. On the compiled
+    memory "auto" also searches along the task's other runs (OtherRoutes) and, while nothing is found, uses the solver
+    (LegSearch). ``every``: how many ticks a choice of keys holds in "exhaustive". ``report`` is called first when
+    everything is compiled; the search continues until it returns False, "exhaustive" only until all is tried.
+    ``report_miss`` gets, with each report, the nearest result as long as nothing reaches the goal. The same seed does
+    the same work in the same order. Raises ArgumentError for a span with too many ways through it, and the errors of
+    SpanTask.
     """
     if method == "exhaustive":
         count_ways(task, every)

@@ -274,7 +274,7 @@ class SearchTab(Tab):
                 results.stop()
             results.refresh()
             if self.proposed is None and results.in_vain:
-                self.proposed = SpanPieces(self.editor, self.span, results.task)
+                self.proposed = SpanPieces(self.editor, results.task)
             if self.proposed is not None:
                 self.proposed.refresh()
         self._forget.enabled, self._forget.text = bool(self.earlier), FORGET if self.earlier else ""

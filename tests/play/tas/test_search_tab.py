@@ -409,6 +409,22 @@ def test_old_pieces_are_no_rows_after_an_edit(at: TasDriver, tab: SearchTab, mon
 
 
 @pytest.mark.usefixtures("nothing_found")
+def test_pieces_are_of_the_searched_span_whatever_is_selected_meanwhile(
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    held = Event()
+    monkeypatch.setattr(background, "search_span", lambda task, report, **_: (held.wait(LONGEST), report(1, ()), ())[2])
+    wish(at, "Same end, sooner")
+    at.editor.select(40, 70)
+    at.choose("Use the selection")
+    assert (tab.span, results_of(tab).running) == ((40, 70), True)
+    held.set()
+    at.wait(lambda: bool(tab.pieces), "pieces")
+    expected = [(100, 130, span_pieces.WITHOUT_REST), (100, 115, "To tick 114"), (115, 130, "To tick 129")]
+    assert [piece[:3] for piece in tab.pieces[1:]] == expected
+
+
+@pytest.mark.usefixtures("nothing_found")
 def test_no_pieces_are_proposed_for_what_is_not_to_be_sooner(at: TasDriver, tab: SearchTab) -> None:
     for goal in ("taken(3)", "speed > 90"):
         tab.goal.show(goal)
