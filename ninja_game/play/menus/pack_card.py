@@ -33,7 +33,7 @@ class PackCard(Menu):
         super().draw_widgets(surface)
         (x, y, w, _), theme, index = self._box, self.theme, self._index
         middle, faint = x + w / 2, theme.palette.faint
-        by = shown_text(index.title.removeprefix(index.name).strip(" ,")) if index else ""
+        by = shown_text(index.byline) if index else ""
         theme.text(surface, by, middle, y + 41, size=11, align="centre", width=w - 24)
         self._thumbnails.draw_pack(surface, self._pack.levels, middle - _PICTURE / 2, y + 62, _PICTURE)
         size = f"{counted(len(self._pack.levels), 'level')} in {counted(len(self._pack.episodes), 'episode')}"
