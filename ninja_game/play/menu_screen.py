@@ -282,7 +282,6 @@ def _aside(start: Widget, goal: Widget, dx: int) -> float:
 
 
 PANEL_WIDTH = 300
-_ROW = 40
 
 Action = Callable[[], object]
 MenuRow = tuple[str, Action | None, str]
@@ -304,7 +303,7 @@ class Panel(MenuScreen):
 
     see_through = True
     offers_back = False
-    row_height = _ROW
+    row_height = 40
     veil = 130
     head, side, size = 48, 30, 12.0
 
@@ -480,10 +479,11 @@ class FormPanel(Menu):
         return [("", nothing, "")] * len(self._fields) + self._rows
 
     def build(self) -> Sequence[Widget]:
-        x, y, w, _ = self._box
+        (x, y, w, _), high, side = self._box, self.row_height, self.side
         entries = []
         for k, ((prompt, text, longest), now) in enumerate(zip(self._fields, self.texts, strict=True)):
-            area, put = (x + 30, y + 48 + _ROW * k, w - 60, 30), partial(self.texts.__setitem__, k)
+            area = x + side, y + self.head + high * k, w - 2 * side, 30
+            put = partial(self.texts.__setitem__, k)
             entries.append(TextEntry(area, prompt, now, put, longest=longest, proposed=k == 0 and now == text))
         return [*entries, *list(super().build())[len(entries) :]]
 

@@ -86,6 +86,15 @@ class PackIndex:
         by = f" by {self.author}" if self.author else ""
         return f"{self.name}{by}{', ' if self.version else ''}{self.version}"
 
+    @property
+    def byline(self) -> str:
+        """What the title has beside the name.
+
+        >>> PackIndex("Walls", "Ann", "", (), (), "2").byline, PackIndex("Walls", "", "", (), (), "2").byline
+        ('by Ann, 2', '2')
+        """
+        return self.title.removeprefix(self.name).strip(" ,")
+
 
 def parse_index(text: str, *, file: str = "") -> PackIndex:
     """Read the index in a TOML text. Raises PackError with the line of the error."""

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 import pygame
 
-from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.shown_text import shown_text
 from ninja_game.levels.episodes import EpisodeSet
 from ninja_game.play.app import App
 from ninja_game.play.menu_screen import Menu, MenuRow
+from ninja_game.play.menus.pack_list import pack_size
 from ninja_game.play.thumbnails import Thumbnails
 
 _PICTURE = 240.0
@@ -33,10 +34,9 @@ class PackCard(Menu):
         super().draw_widgets(surface)
         (x, y, w, _), theme, index = self._box, self.theme, self._index
         middle, faint = x + w / 2, theme.palette.faint
-        by = shown_text(index.title.removeprefix(index.name).strip(" ,")) if index else ""
+        by = shown_text(index.byline) if index else ""
         theme.text(surface, by, middle, y + 41, size=11, align="centre", width=w - 24)
         self._thumbnails.draw_pack(surface, self._pack.levels, middle - _PICTURE / 2, y + 62, _PICTURE)
-        size = f"{counted(len(self._pack.levels), 'level')} in {counted(len(self._pack.episodes), 'episode')}"
-        theme.text(surface, size, middle, y + 250, size=10, align="centre", colour=faint)
+        theme.text(surface, pack_size(self._pack), middle, y + 250, size=10, align="centre", colour=faint)
         comment = shown_text(index.comment, 200) if index else ""
         theme.paragraph(surface, [comment], (x + 24, y + 266, w - 48, 28), 10, 13, align="centre")

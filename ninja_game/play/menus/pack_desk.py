@@ -112,16 +112,22 @@ class PackDesk(ThumbnailScreen):
         self.enter()
         return self.pack.pack if self.pack and self.pack.path == path else None
 
-    def run_step(self, action: Callable[[], object], name: str = "") -> None:
-        """Change something on the disk, and show the result. ``name``: for undo; "": it cannot be undone."""
+    def run_step(self, action: Callable[[], object], name: str = "") -> bool:
+        """Change something on the disk, and show the result; whether it was changed, without an error.
+
+        ``name``: for undo; "": it cannot be undone.
+        """
+        done = True
         try:
             if name and not self.packer.steps.run(name, action):
-                return
+                return False
             if not name:
                 action()
         except (NinjaGameError, OSError) as error:
             self.app.notify(reason(error))
+            done = False
         self.app.top.enter()
+        return done
 
     def change_pack(self, action: Callable[[], object], step: str) -> None:
         """Change the shown pack; for a received one ask first whether to change a copy."""

@@ -62,9 +62,12 @@ class PackList(ThumbnailScreen):
         left, room = x + _PICTURE + 20, w - _PICTURE - 30
         theme.text(surface, shown_text(pack.name), left, y + 16, size=13, bold=chosen, width=room)
         theme.text(surface, _description(pack), left, y + 38, size=10, colour=faint, width=room)
-        number = counted(len(pack.levels), "level"), counted(len(pack.episodes), "episode")
-        text = f"{' in '.join(number)}{', received' if pack.received else ''}"
+        text = f"{pack_size(pack)}{', received' if pack.received else ''}"
         theme.text(surface, text, left, y + 58, size=10, colour=faint, width=room)
+
+
+def pack_size(pack: EpisodeSet) -> str:
+    return f"{counted(len(pack.levels), 'level')} in {counted(len(pack.episodes), 'episode')}"
 
 
 def _description(pack: EpisodeSet) -> str:

@@ -164,10 +164,9 @@ def install_received(desk: PackDesk, read: Callable[[], Pack]) -> None:
             desk.new_path = packs.copy_pack(pack, desk.folder, pack.name, received=True, over=over)
             desk.app.notify(f"{shown_text(pack.name)}{news}")
 
-        before = desk.pack
-        desk.run_step(copy, f"Update {pack.name}" if over else "Paste link")
+        done = desk.run_step(copy, f"Update {pack.name}" if over else "Paste link")
         desk.focus_on(desk.play_button)
-        if desk.pack and desk.pack is not before:
+        if desk.pack and done:
             show_card(desk, desk.pack)
 
     name, author = shown_text(pack.name), pack.index.author

@@ -18,6 +18,7 @@ import pytest
 from ninja_game.editor import packs, ready_pack
 from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.files import ascii_text
+from ninja_game.editor.pack_steps import write_file
 from ninja_game.editor.ready_pack import Obstacles, ReadyPack, Say
 from ninja_game.files.user_folder import DAILY, short_path
 from ninja_game.formats.links import write_link
@@ -1040,6 +1041,33 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
     drop()
     driver.choose("Keep both")
     assert [each.name for each in screen.own_packs] == ["Laundry", "Laundry, 1.1"]
+
+
+def test_an_update_that_fails_half_way_shows_no_card_and_is_undone(
+    driver: MenuDriver, path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, screen: PackScreen
+) -> None:
+    (path / "received").touch()
+    screen.enter()
+    made, zipped = tmp_path / "made", tmp_path / "laundry.zip"
+    shutil.copytree(PACK, made)
+    packs.describe(made, {"name": "Laundry", "version": "2"})
+    packs.new_level(made, "Fresh", "me")
+    zipped.write_bytes(Pack(made).files.zipped())
+    before = folder_texts(path)
+
+    def full(folder: Path, name: str, content: str | bytes | None) -> None:
+        if name == "received":
+            raise OSError(28, "No space left on device")
+        write_file(folder, name, content)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(packs, "write_file", full)
+        driver.drop_file(zipped)
+        driver.choose("Update it")
+    assert "No space left" in driver.app.notice
+    assert driver.top() is screen
+    driver.choose("Undo")
+    assert folder_texts(path) == before
 
 
 def test_what_is_received_is_shown_on_a_card_before_the_desk(driver: MenuDriver, path: Path, tmp_path: Path) -> None:

@@ -282,11 +282,9 @@ def test_file_dropped_on_the_window_is_taken_in(driver: MenuDriver, tmp_path: Pa
     browser = driver.opened("Levels", Browser)
     file = tmp_path / "dropped.txt"
     file.write_text("0" * 713 + "|5^100,566!11^160,564,130,564")
-    pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(file)))
-    driver.frames(2)
+    driver.drop_file(file)
     assert "dropped" in [entry.title for entry in browser.shown]
-    pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(tmp_path / "settings.toml")))
-    driver.frames(2)
+    driver.drop_file(tmp_path / "settings.toml")
     assert browser.message
 
 
@@ -297,8 +295,7 @@ def test_a_dropped_file_gets_no_name_that_is_odd_and_follows_no_link(driver: Men
     (tmp_path / "dropped").mkdir()
     for name, said in (("aux.txt", "Give it another name"), ("\u202ea.txt", "Give it"), ("LINK.txt", "already")):
         (tmp_path / "dropped" / name).write_text("0" * 713 + "|5^100,566!11^160,564,130,564")
-        pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(tmp_path / "dropped" / name)))
-        driver.frames(2)
+        driver.drop_file(tmp_path / "dropped" / name)
         assert said in browser.message
     assert [path.name for path in levels.iterdir()] == ["link.txt"]
     assert not outside.exists()
