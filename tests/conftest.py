@@ -42,7 +42,8 @@ COSTLY = ("chromium", "site", "screens", "warm_start")
 """Fixtures that take seconds to make, once for each worker that needs them."""
 
 
-def pytest_collection_finish() -> None:
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtestloop() -> None:
     """What was imported stays: the garbage collector does not look through it again and again."""
     gc.freeze()
     gc.enable()

@@ -19,7 +19,7 @@ import numpy as np
 from ninja_game.backend.memories import open_worlds
 from ninja_game.files.bundled import data_folder
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.learn.levels.bench import _TABLE, _TRIES, COUNTS, BenchLevel, bench_level
+from ninja_game.learn.levels.bench import BENCH_TABLE, BENCH_TRIES, COUNTS, BenchLevel, bench_level
 from ninja_game.sim.states import OUTCOME_EXIT
 
 MIN_TICKS = 20
@@ -35,7 +35,7 @@ def passes(found: BenchLevel) -> bool:
 
 def chosen(split: str, number: int) -> tuple[int, str]:
     """The first try that passes, and the digest of its level."""
-    for attempt in range(_TRIES):
+    for attempt in range(BENCH_TRIES):
         found = bench_level(split, number, attempt)
         if passes(found):
             return attempt, level_digest(found.level)
@@ -66,7 +66,7 @@ def main() -> None:
             print(split, count, "levels,", len(set(digests[split])), "different; tries:", sorted(tries.items()))
     both = set(digests["train"]) & set(digests["test"])
     print(len(both), "levels in both")
-    (data_folder("assets") / _TABLE).write_bytes(table)
+    (data_folder("assets") / BENCH_TABLE).write_bytes(table)
 
 
 if __name__ == "__main__":

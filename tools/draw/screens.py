@@ -16,7 +16,7 @@ import pygame
 
 from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_replays
-from ninja_game.play.menus.good_levels import _PICTURE, GoodLevel, GoodLevelsScreen
+from ninja_game.play.menus.good_levels import LEVEL_AREA, GoodLevel, GoodLevelsScreen
 from ninja_game.play.replay.paths import paths_picture
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.compare import run_splits
@@ -140,7 +140,7 @@ def good_levels(folder: Path) -> None:
         screen.list.index = number
         screen.redraw = True
         driver.frames(3)
-        picture = driver.app.surface.subsurface(driver.app.canvas.rect(*_PICTURE))
+        picture = driver.app.surface.subsurface(driver.app.canvas.rect(*LEVEL_AREA))
         pygame.image.save(picture, str(PICTURES / "good-levels" / f"{name_of(level)}.png"))
     driver.close()
     PAGE.write_text(written(PAGE.read_text("utf-8"), screen.levels), "utf-8")

@@ -3,7 +3,7 @@
 A level is a variation of one of a thousand levels of an earlier generator (``generator/packed.py``): mirrored, with
 less gold and fewer hazards, and, except in the hard ones, with a shorter task, for which start, switch and exit are put
 on the way of the known run. That run, shortened in the same way, passes every level: it was played to test this. Of the
-first ``_TRIES`` variations of a number ``_TABLE`` has the one with which it passed (tools/bench_levels.py).
+first ``BENCH_TRIES`` variations of a number ``BENCH_TABLE`` has the one with which it passed (tools/bench_levels.py).
 
 >>> level = bench_level("test", 0)
 >>> level.grade, level.name, len(level.inputs) <= 120
@@ -45,9 +45,9 @@ _AWAY = 36.0  # least px between a new start and the old one
 _KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}  # least share of hazards that is kept, by grade
 BASES = 1000  # number of levels that are varied
 LARGEST = 306  # number of a level with the most objects
-_TRIES = 32
+BENCH_TRIES = 32
 """The last variation only removes gold, is not mirrored and has the run's own start, so that the run passes it."""
-_TABLE = "bench.bin"  # an asset of the game: the variation of each level, one byte each, `train` before `test`
+BENCH_TABLE = "bench.bin"  # an asset of the game: the variation of each level, one byte each, `train` before `test`
 
 
 class BenchLevel(NamedTuple):
@@ -81,8 +81,8 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
     place = number if split == "train" else COUNTS["train"] + number
     attempt = _table()[place] if attempt is None else attempt
     grade = list(BENCH_GRADES)[number % len(BENCH_GRADES)]
-    drawn = draws(np.full(256, place * _TRIES + attempt, np.uint64), np.arange(256, dtype=np.uint64)) / 2.0**64
-    sure = attempt == _TRIES - 1
+    drawn = draws(np.full(256, place * BENCH_TRIES + attempt, np.uint64), np.arange(256, dtype=np.uint64)) / 2.0**64
+    sure = attempt == BENCH_TRIES - 1
     bases = _bases(split)
     base = _base(bases[number // len(BENCH_GRADES) % len(bases)], bool(drawn[0] < 0.5 and not sure))
     gold, killers = drawn[1], _KEPT[grade] + (1.0 - _KEPT[grade]) * drawn[2]
@@ -129,7 +129,7 @@ def _bases(split: str) -> list[int]:
 
 @cache
 def _table() -> bytes:
-    return read_bytes(data_folder("assets") / _TABLE, sum(COUNTS.values()))
+    return read_bytes(data_folder("assets") / BENCH_TABLE, sum(COUNTS.values()))
 
 
 _SIDES = KEY_LEFT | KEY_RIGHT
@@ -184,7 +184,7 @@ class BenchSource(LevelSource):
     @property
     def digest(self) -> str:
         """Sha256 (hex) of the data that determine the levels."""
-        assets = [read_bytes(data_folder("assets") / name, MAX_PACKED_BYTES) for name in (FROZEN, _TABLE)]
+        assets = [read_bytes(data_folder("assets") / name, MAX_PACKED_BYTES) for name in (FROZEN, BENCH_TABLE)]
         return sha256(f"{self.levels.split} {self.levels.numbers}".encode() + b"".join(assets)).hexdigest()
 
 

@@ -20,7 +20,7 @@ from ninja_game.ui.widgets import Button, Widget
 
 FILE = "good-levels.toml"
 
-_PICTURE: Area = (212, 66, 540, 540 * 25 / 33)  # where the level is shown
+LEVEL_AREA: Area = (212, 66, 540, 540 * 25 / 33)  # where the level is shown
 _AWAY = 24  # distance of a number from its place, across and down, px
 
 
@@ -72,7 +72,7 @@ class GoodLevelsScreen(ThumbnailScreen):
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
-        theme, palette, (left, top, width, height) = self.theme, self.theme.palette, _PICTURE
+        theme, palette, (left, top, width, height) = self.theme, self.theme.palette, LEVEL_AREA
         self.thumbnails.draw(surface, self.level.entry, left, top, width)
         for number, (column, row, _) in enumerate(self.level.notes, 1):
             # Beside its place, so that the place is visible.
