@@ -304,12 +304,12 @@ class Certifier:
 
     def stop(self) -> None:
         """Cancel the search; its results stay. It does not wait: kernels being compiled are finished first."""
+        certification = self.certification
         if self.busy:
-            self.certification.end = "Stopped"
-            self.solver.stopped |= (
-                {self.certification.level} if self.certification.level and not self.certification.run else set()
-            )
-            self.certification.stopping.set()
+            certification.end = "Stopped"
+            if certification.level and not certification.run:
+                self.solver.stopped.add(certification.level)
+            certification.stopping.set()
 
     def leave(self, then: Callable[[Certification], object] | None) -> None:
         """The level is closed. ``then``: called when its search, which continues, has ended; None: cancel it."""

@@ -120,7 +120,8 @@ def news(old: Pack, pack: Pack) -> str:
         "gone": [level.name for file, level in old.levels.items() if file not in both],
     }
     texts = [
-        f"{counted(len(names), 'level')} {what}" + f": {shown_text(', '.join(sorted(names)))}" * (len(names) < 3)
+        f"{counted(len(names), 'level')} {what}"
+        + (f": {shown_text(', '.join(sorted(names)))}" if len(names) < 3 else "")
         for what, names in kinds.items()
         if names
     ]

@@ -61,6 +61,12 @@ def area_between(a: Cell, b: Cell) -> CellArea:
     return column, row, abs(a[0] - b[0]) + 1, abs(a[1] - b[1]) + 1
 
 
+def area_around(cells: Iterable[Cell]) -> CellArea:
+    """The smallest area with all these cells, of which there is one at least."""
+    columns, rows = zip(*cells, strict=True)
+    return area_between((min(columns), min(rows)), (max(columns), max(rows)))
+
+
 def area_cells(area: CellArea) -> list[Cell]:
     column, row, columns, rows = area
     return [(i, j) for j in range(row, row + rows) for i in range(column, column + columns)]
@@ -130,10 +136,8 @@ def copied(draft: Draft, selection: Selection) -> Stamp:
 
 def level_stamp(draft: Draft) -> Stamp:
     """All of a level, from its first to its last column and row with a tile."""
-    parts, tiles = everything(draft).parts, [cell for cell in area_cells((1, 1, COLUMNS, ROWS)) if draft.tile(cell)]
-    columns, rows = zip(*tiles, strict=True) if tiles else ((), ())
-    area = area_between((min(columns), min(rows)), (max(columns), max(rows))) if tiles else None
-    return copied(draft, Selection(area, parts))
+    tiles = [cell for cell in area_cells((1, 1, COLUMNS, ROWS)) if draft.tile(cell)]
+    return copied(draft, Selection(area_around(tiles) if tiles else None, everything(draft).parts))
 
 
 def removed(draft: Draft, selection: Selection) -> Draft:
@@ -194,9 +198,7 @@ def pasted(draft: Draft, stamp: Stamp, *, empty: bool = False) -> tuple[Draft, S
     after, stamped = with_stamp(draft, stamp if empty else stamp.solid), set(stamp.objects)
     new = {number for number, spec in enumerate(after.objects) if spec in stamped}
     parts = {(number, part) for number in new for part in points(after.objects[number])}
-    cells = list(stamp.tiles)
-    area = area_between(min(cells), max(cells)) if cells else None
-    return after, Selection(area, frozenset(parts))
+    return after, Selection(area_around(stamp.tiles) if stamp.tiles else None, frozenset(parts))
 
 
 def turning_centre(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[float, float]:
@@ -316,9 +318,9 @@ def covered(shape: str, a: Cell, b: Cell, bend: float) -> list[Cell]:
 
 def ramp_cells(cells: list[Cell]) -> list[Cell]:
     """A line of cells with those beside slanted parts, so that consecutive cells share a side: two make a ramp."""
-    (left, right), (top, bottom) = ((min(along), max(along)) for along in zip(*cells, strict=True))
-    dx, dy = (0, 1) if right - left >= bottom - top else (1, 0)
-    return cells if left == right or top == bottom else [*cells, *((x + dx, y + dy) for x, y in cells)]
+    _, _, columns, rows = area_around(cells)
+    dx, dy = (0, 1) if columns >= rows else (1, 0)
+    return cells if 1 in (columns, rows) else [*cells, *((x + dx, y + dy) for x, y in cells)]
 
 
 def ramp(a: Cell, b: Cell) -> Tiles:

@@ -482,7 +482,8 @@ class StatusLine(EditorPart):
         number = message_near(tools.draft, *tools.pointer) if self.view.hovering else None
         if number is not None:
             message = parse_messages(tools.draft.says)[number]
-            return f"Double click opens the message{', Select drags it' * bool(message.place)}: {message.one_line}"
+            drag = ", Select drags it" if message.place else ""
+            return f"Double click opens the message{drag}: {message.one_line}"
         slopes = "Slopes by themselves. " if tools.sets_slopes else ""
         if tools.slopes and tools.tool == "rectangle" and not tools.draws_objects:
             slopes = "No slopes: a box keeps its corners. "

@@ -6,7 +6,7 @@ Marks are grids, lines to switches, routes, signs of findings.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from itertools import pairwise
 from math import ceil, hypot
 from typing import NamedTuple
@@ -279,10 +279,11 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
     return LevelMark(draw, (canvas.rect(x - 12, y - 11, 24, 24),))
 
 
-def said_places(draft: Draft) -> dict[Point, int]:
+@lru_cache(maxsize=4)
+def said_places(draft: Draft) -> Mapping[Point, int]:
     """The centres of the cells with messages, and beside the ninja or the object of other moments, px.
 
-    Each with the number of its first message.
+    Each with the number of its first message. Cached: the status line asks in every frame.
     """
     places: dict[Point, int] = {}
     for number, message in enumerate(parse_messages(draft.says)):

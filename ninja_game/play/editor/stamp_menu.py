@@ -9,7 +9,7 @@ import pygame
 
 from ninja_game.editor.files import open_source
 from ninja_game.editor.specs import points
-from ninja_game.editor.stamp import area_between, level_stamp
+from ninja_game.editor.stamp import area_around, level_stamp
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
 from ninja_game.play.menu_screen import Menu, MenuRow
@@ -51,8 +51,7 @@ class StampMenu(Menu):
         parts = [cell_of(*place) for spec in stamp.objects for place in points(spec).values()]
         if not (cells := [*stamp.tiles, *parts]):
             return None
-        columns, rows = zip(*cells, strict=True)
-        left, top, wide, high = area_between((min(columns), min(rows)), (max(columns), max(rows)))
+        left, top, wide, high = area_around(cells)
         # A far ninja, since no level is played without one; the stamp's own comes later, and is shown.
         level = Level(draft.level.tiles, (ObjectSpec(NINJA, (-400.0, -400.0)), *draft.level.objects))
         side = self.theme.canvas.px(min(_CELL, _WIDE / wide, _HIGH / high))

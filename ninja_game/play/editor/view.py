@@ -11,7 +11,7 @@ from ninja_game.editor.certify import SQUARE, PathPoints, Reach, TestMap
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, carried, points
-from ninja_game.editor.stamp import Stamp, area_between, nearest_part
+from ninja_game.editor.stamp import Stamp, area_around, area_between, nearest_part
 from ninja_game.editor.tools import PICK_REACH, EditorTools
 from ninja_game.formats.messages import messages_at
 from ninja_game.play.app import App
@@ -142,7 +142,7 @@ class Overlay:
         for sprites in self.sheet.pictures.sprites_of(stamp.objects).values():
             sprites.draw(self.target, alpha=GHOST)
         if stamp.tiles:
-            self._frame(area_between(min(stamp.tiles), max(stamp.tiles)), self.sheet.palette.accent)
+            self._frame(area_around(stamp.tiles), self.sheet.palette.accent)
 
     def _hover(self, tools: EditorTools) -> None:
         """What a press would do here, and at the mirrored places of a symmetry."""

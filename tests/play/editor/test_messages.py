@@ -87,6 +87,15 @@ def select(maker: Maker, row: int, column: int = -1) -> None:
     maker.frames()
 
 
+def with_time_in_hand(maker: Maker) -> MessagesScreen:
+    """The page with one message, whose time is still automatic, and has the focus."""
+    screen = opened(maker)
+    add(maker, "on")
+    assert "text 'auto (12 s)'" in drawn(maker.app)
+    select(maker, 0, TIME)
+    return screen
+
+
 @pytest.fixture
 def painted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Palettes of the pictures that previews have had painted."""
@@ -173,10 +182,7 @@ def test_those_of_one_moment_are_numbered_with_their_seconds(room: Maker) -> Non
 
 
 def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usual(room: Maker) -> None:
-    screen = opened(room)
-    add(room, "on")
-    assert "text 'auto (12 s)'" in drawn(room.app)
-    select(room, 0, TIME)
+    screen = with_time_in_hand(room)
     room.type("0")
     room.choose("OK")
     assert screen._refused
@@ -687,10 +693,7 @@ def test_messages_are_copied_and_moved_by_buttons_and_keys(room: Maker) -> None:
 
 
 def test_seconds_are_called_automatic_until_they_are_set(room: Maker) -> None:
-    screen = opened(room)
-    add(room, "on")
-    assert "text 'auto (12 s)'" in drawn(room.app)
-    select(room, 0, TIME)
+    screen = with_time_in_hand(room)
     room.type("7")
     screen.messages[0].text = "long " * 24
     screen.enter()
