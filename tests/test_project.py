@@ -123,3 +123,43 @@ def test_the_formatter_is_skipped_only_where_that_saves_lines(tmp_path: Path) ->
     assert not [
         name for name, count in before.items() if (tmp_path / f"{name}.py").read_text("utf-8").count("\n") <= count
     ]
+
+
+def hides_a_decision(node: ast.AST) -> bool:
+    """Whether an expression has a decision where a reader does not look for one."""
+    if isinstance(node, ast.IfExp):
+        last = node.orelse
+        parts = [node.test, node.body]
+        parts += [last.test, last.body, last.orelse] if isinstance(last, ast.IfExp) else [last]
+        return any(isinstance(inner, ast.IfExp) for part in parts for inner in ast.walk(part))
+    if isinstance(node, ast.FormattedValue):
+        return any(isinstance(inner, ast.JoinedStr) for inner in ast.walk(node.value))
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+        texts = [isinstance(side, ast.JoinedStr | ast.List) or is_text(side) for side in (node.left, node.right)]
+        return any(texts) and any(map(is_truth, (node.left, node.right)))
+    return False
+
+
+def is_text(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str | bytes)
+
+
+def is_truth(node: ast.expr) -> bool:
+    called = node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else ""
+    return isinstance(node, ast.Compare | ast.BoolOp) or called == "bool"
+
+
+@pytest.mark.parametrize("code", ["f'{a + f\"{b}\"}'", '"s" * (n > 1)', "[a] * bool(b)", "(a if b else c) if d else e"])
+def test_a_hidden_decision_is_seen(code: str) -> None:
+    assert any(map(hides_a_decision, ast.walk(ast.parse(code))))
+
+
+def test_expressions_hide_no_decisions() -> None:
+    """No f-string in an f-string, no text times a truth value, no conditional in another but as its ``else``, once."""
+    hidden = [
+        f"{path.relative_to(ROOT)}:{node.lineno}"
+        for path in (ROOT / "ninja_game").rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.expr) and hides_a_decision(node)
+    ]
+    assert not hidden

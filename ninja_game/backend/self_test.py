@@ -39,7 +39,8 @@ _OBJECTS = (
 @cache
 def known_level() -> Level:
     """The level of the known runs."""
-    return Level(tuple(n % 34 * (n % 7 == 0) for n in range(TILES)), tuple(ObjectSpec(k, (*v,)) for k, *v in _OBJECTS))
+    tiles = tuple(n % 34 if n % 7 == 0 else 0 for n in range(TILES))
+    return Level(tiles, tuple(ObjectSpec(kind, tuple(values)) for kind, *values in _OBJECTS))
 
 
 class SelfTestError(NinjaGameError):

@@ -104,7 +104,7 @@ class Category:
         ('same time, less gold', 'same value, by presses + jumps')
         """
         rank = next(rank.strip() for rank, ours, theirs in zip(self.rank, values, best, strict=True) if ours != theirs)
-        return f"same {self.unit.lower()}, {_WORSE.get(rank, f'by {rank}')}"
+        return f"same {self.unit.lower()}, " + _WORSE.get(rank, f"by {rank}")
 
     def difference(self, amount: float) -> str:
         """The improvement of a first number, for people."""

@@ -117,10 +117,9 @@ def check(
 def _summary(levels: int, broken: int, without: Mapping[str, Sequence[str]]) -> str:
     """The count in a line, and a line for each goal that some levels lack. ``without``: the names of those."""
     failed = len(next(iter(without.values())))
-    unplayable = f", {broken} cannot be played" * bool(broken)
-    count = (
-        f"{counted(levels, 'level')}, {levels - failed - broken} solvable, {failed} not solved in the time{unplayable}"
-    )
+    count = f"{counted(levels, 'level')}, {levels - failed - broken} solvable, {failed} not solved in the time"
+    if broken:
+        count += f", {broken} cannot be played"
     goals = (("exit", "to the exit"), ("gold", "with the gold")) if levels > 1 else ()
     lacking = [f"no run {words}: {', '.join(without[goal])}" for goal, words in goals if without.get(goal)]
     return "\n".join([count, *lacking])

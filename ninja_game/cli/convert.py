@@ -177,7 +177,8 @@ def _file_names(items: Sequence[NamedLevel | Recording], suffix: str) -> Iterato
     several = len({item.file for item in items}) > 1
     for number, (item, own) in enumerate(zip(items, names, strict=True)):
         name = file_stem(f"{stems[number]} {item.name}" if several else item.name)
-        yield own if alone else f"{number:0{digits}d}{'-' * bool(name)}{name}{suffix}"
+        numbered = f"{number:0{digits}d}-{name}".rstrip("-")
+        yield own if alone else numbered + suffix
 
 
 @click.command()

@@ -100,5 +100,6 @@ def demonstrations(
     else:
         learn.write_minari(str(dataset), episodes, **settings)
     steps, passed = sum(len(run.rewards) for run in episodes), sum(run.outcome == "exit" for run in episodes)
-    left = f", {len(recordings) - len(episodes)} left out" * (len(episodes) < len(recordings))
-    click.echo(f"{output or dataset}: {len(episodes)} demonstrations, {steps:,} steps, {passed} to the exit{left}")
+    left_out = len(recordings) - len(episodes)
+    text = f"{output or dataset}: {len(episodes)} demonstrations, {steps:,} steps, {passed} to the exit"
+    click.echo(f"{text}, {left_out} left out" if left_out else text)

@@ -124,7 +124,7 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
 
     name, author, comment, file = map(shown_text, (level.name, level.author, level.comment, level.file))
     by = f" by {author}" if author else ""
-    console.print(Text.assemble((name or "(no name)", "bold"), by, f"  {comment}" * bool(comment)))
+    console.print(Text.assemble((name or "(no name)", "bold"), by, f"  {comment}" if comment else ""))
     if level.teaches:
         console.print(Text(f"teaches: {shown_text(level.teaches)}"))
     if level.says:

@@ -149,7 +149,9 @@ def improve(
         click.echo(str(error))
         return FAILED
     gain, run = made.gain, made.run
-    change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
+    change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}"
+    if not gain:
+        change = "no shorter run was found"
     route = SAME_ROUTE if made.same_route else ""
     click.echo(f"{output}: {time_text(run.end_tick)}, {change}, {run.gold} gold{route}")
     return 0
@@ -243,7 +245,9 @@ def search(
                 saved.append(best[0])
                 save(record_replay(task.level, best[0].inputs, body=task.body))
             known = best or misses[-1:]
-            standing = "best " * bool(best) + score_text(task, known[0]) if known else "nothing yet"
+            standing = score_text(task, known[0]) if known else "nothing yet"
+            if best:
+                standing = f"best {standing}"
             nonlocal start
             start = start or time.monotonic()
             spent = time.monotonic() - start

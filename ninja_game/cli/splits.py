@@ -181,12 +181,12 @@ def _show_comparison(comparison: Comparison, ours: Recording, theirs: Recording)
 
     both = zip("AB", titles([ours, theirs]), comparison.positions, comparison.deaths, strict=True)
     for letter, name, positions, death in both:
-        click.echo(f"{letter}: {name}, {len(positions)} ticks{f', dead: {death}' if death else ''}")
+        click.echo(f"{letter}: {name}, {len(positions)} ticks" + (f", dead: {death}" if death else ""))
     if comparison.first_keys is None and comparison.first_place is None:
         click.echo("the runs are equal")
         return
     for what, tick in (("keys", comparison.first_keys), ("place", comparison.first_place)):
-        click.echo(f"first other {what}: {'never' if tick is None else f'tick {tick}'}")
+        click.echo(f"first other {what}: " + ("never" if tick is None else f"tick {tick}"))
     _show_leads("at the splits of both", comparison.splits)
     _show_leads("at the place where A is, each second", each_second(comparison.places))
 

@@ -140,7 +140,7 @@ def _row(verdict: Verdict) -> str:
     score = seconds_text(verdict.score_ticks) if verdict.score_ticks is not None else ""
     where = f"{shown_text(verdict.file)}:{verdict.record}"
     name = shown_text(verdict.name)
-    made = f"  ({shown_text(verdict.made)})" * bool(verdict.made)
+    made = f"  ({shown_text(verdict.made)})" if verdict.made else ""
     if verdict.episode and verdict.score_ticks is not None:
         left = verdict.lifetime + verdict.score_ticks - LIFETIME
         made += f"  (episode: {seconds_text(verdict.lifetime)} s left at its start, {seconds_text(left)} s at the exit)"
@@ -151,7 +151,7 @@ def _row(verdict: Verdict) -> str:
 
 def _summary(totals: Totals) -> str:
     counts = ", ".join(f"{count} {outcome}" for outcome, count in sorted(totals.outcomes.items()))
-    total = totals.recordings
-    runs = f"{counted(total, 'run')} of {totals.ticks} ticks{': ' * bool(counts)}{counts}"
-    text = f"{runs}; {totals.failed or 'none'} failed"
-    return text + (f"; {totals.unreadable} unreadable" if totals.unreadable else "")
+    runs = f"{counted(totals.recordings, 'run')} of {totals.ticks} ticks"
+    text = f"{runs}: {counts}" if counts else runs
+    text += f"; {totals.failed or 'none'} failed"
+    return f"{text}; {totals.unreadable} unreadable" if totals.unreadable else text

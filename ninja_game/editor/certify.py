@@ -236,8 +236,9 @@ class Certifier:
         if certification.end or certification.level is None:
             return certification.end
         if certification.progress is None:
-            waits = f"Another level's search comes first: {self.waited} in the queue"
-            return f"{f'{COMPILING}: {self.waited}' if self.compiling else waits}. Go on editing, or save and leave"
+            why = COMPILING if self.compiling else "Another level's search comes first"
+            waited = self.waited if self.compiling else f"{self.waited} in the queue"
+            return f"{why}: {waited}. Go on editing, or save and leave"
         ticks = certification.progress.ticks
         tried = f"{ticks / 1e6:.1f} million" if ticks >= 1e6 else f"{ticks // 1000} thousand"
         return f"Looking for a run: {tried} ticks tried"

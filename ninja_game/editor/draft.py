@@ -71,8 +71,9 @@ def change_text(before: Draft, after: Draft) -> str:
     old, new = Counter(before.objects), Counter(after.objects)
     gone, come = list((old - new).elements()), list((new - old).elements())
     if gone or come:
-        moved = [points(spec) for spec in gone] != [points(spec) for spec in come]
-        verb = ("moved" if moved else "changed") if len(gone) == len(come) else "deleted" if gone else "placed"
+        verb = "deleted" if gone else "placed"
+        if len(gone) == len(come):
+            verb = "moved" if [points(spec) for spec in gone] != [points(spec) for spec in come] else "changed"
         kinds = {object_type_name(spec) for spec in gone or come}
         parts.append(f"{verb} {counted(len(gone or come), kinds.pop() if len(kinds) == 1 else 'object')}")
     texts = {"teaches": "what it teaches", "says": "messages"}

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from itertools import count
+from itertools import chain, count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -258,7 +258,8 @@ def rename_level(file: Path, name: str) -> None:
 def duplicate(path: Path, level: NamedLevel) -> str:
     """A copy of a level in the folder, by a name that no level there has; its file's name."""
     names = {other.name for other in Pack(path).levels.values()}
-    copies = (f"{level.name} copy{f' {number}' if number > 1 else ''}" for number in count(1))
+    first = f"{level.name} copy"
+    copies = chain([first], (f"{first} {number}" for number in count(2)))
     return _write_level(path, replace(draft_of(level), name=next(name for name in copies if name not in names)))
 
 

@@ -337,8 +337,10 @@ def ramp(a: Cell, b: Cell) -> Tiles:
         return {}
     # It goes down as far as its last cell, or below that where slopes alone fill its length.
     drops = down + (long <= 2 * down or long == 2 * down + 2)
-    tiles = dict.fromkeys([end] * (drops == down), FULL)
-    long -= len(tiles)
+    tiles = {}
+    if drops == down:
+        tiles[end] = FULL
+        long -= 1
     for k in range(drops):
         run = long * (k + 1) // drops - long * k // drops
         keys = ("1",) if run == 1 else _STEEP if steep else _GENTLE

@@ -28,7 +28,7 @@ def counted(number: int, one: str, more: str = "") -> str:
     >>> counted(1, "try", "tries"), counted(2, "try", "tries"), counted(1200, "tick")
     ('1 try', '2 tries', '1,200 ticks')
     """
-    return f"{number:,} {one if number == 1 else more or f'{one}s'}"
+    return f"{number:,} {one if number == 1 else more or one + 's'}"
 
 
 def files_text(what: str, names: Sequence[str]) -> str:
@@ -78,7 +78,7 @@ def file_stem(text: str, otherwise: str = "") -> str:
     ('über-the-hill', 'replay', '_aux.1')
     """
     stem = _NOT_IN_NAMES.sub("-", normalize("NFC", text[:MAX_SHOWN].lower()))[:_MAX_STEM].strip("-.")
-    return "_" * (_RESERVED.fullmatch(stem) is not None) + stem or otherwise
+    return f"_{stem}" if _RESERVED.fullmatch(stem) else stem or otherwise
 
 
 def name_problem(name: str) -> str:

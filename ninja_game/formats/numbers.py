@@ -144,7 +144,10 @@ def _shortest_text(value: float, digits: int) -> str:
     while size not in sums and power > last:
         power -= 1
         sums = _longer_sums(sums, size, power, (power - last + 1) * unit)
-    return "-" * (value < 0) + _plain(Decimal(f"{sums[size]}e{power}")) if size in sums else ""
+    if size not in sums:
+        return ""
+    text = _plain(Decimal(f"{sums[size]}e{power}"))
+    return f"-{text}" if value < 0 else text
 
 
 def _first_sums(size: float, first: int) -> tuple[int, dict[float, str]]:

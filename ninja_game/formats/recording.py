@@ -83,7 +83,8 @@ class Recording:
     @property
     def place(self) -> str:
         """The name of its file, with the record's number if the file has several."""
-        return Path(self.file).name.removesuffix(REPLAY_SUFFIX) + f" {self.record}" * (self.record > 0)
+        name = Path(self.file).name.removesuffix(REPLAY_SUFFIX)
+        return f"{name} {self.record}" if self.record > 0 else name
 
     @property
     def whose(self) -> str:

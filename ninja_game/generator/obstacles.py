@@ -225,7 +225,8 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
     No mine is less than ``FROM_RUN`` px from the run. The caller must test whether the run still passes an enemy.
     """
     if scene.count(*ENEMIES) < MAX_ADDED and rng.random() < 0.4:
-        source = rng.choices(list(SOURCES), [often * (difficulty >= least) for least, often in SOURCES.values()])[0]
+        weights = [often if difficulty >= least else 0.0 for least, often in SOURCES.values()]
+        source = rng.choices(list(SOURCES), weights)[0]
         offered = list(source(scene, rng))
         rng.shuffle(offered)
         for spec in offered[:60]:
@@ -313,8 +314,9 @@ def blocks(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     x, y = rng.choice(((1, 0), (0, 1), (2, 1), (2, -1), (3, 0)))
     for c, r in rng.sample(air, min(len(air), 3)):
         steps = [(c + x * k, r + y * k) for k in range(2 + (x > 1))]
-        both = [*steps, *map(mirrored, steps * (rng.random() < 0.7))]
-        yield from (object_of(f"bounce block {c},{r}") for c, r in both if (c, r) in scene.steps)
+        if rng.random() < 0.7:
+            steps += [mirrored(step) for step in steps]
+        yield from (object_of(f"bounce block {c},{r}") for c, r in steps if (c, r) in scene.steps)
 
 
 def place_fixtures(scene: Scene, rng: Random) -> None:

@@ -15,7 +15,8 @@ from ninja_game.sim.schema.world_fields import TileMap
 
 SAMPLES = 8  # samples per cell, across and down
 _FULL = TILE_CHARS.index("#")
-COSTS = np.array([2 * (tile in '_]"[') + 3 * (tile in "jkiuJKIU") + 1 * (tile not in ".#") for tile in TILE_CHARS])
+_UNUSUAL_COSTS = {".": 0, "#": 0, **dict.fromkeys('_]"[', 3), **dict.fromkeys("jkiuJKIU", 4)}
+COSTS = np.array([_UNUSUAL_COSTS.get(tile, 1) for tile in TILE_CHARS])
 """Extra cost of each tile, in samples of a cell that it covers wrongly."""
 AGREE = 1  # cost of a sample of a side that differs from the tile beside it
 _ROUNDS = 12  # passes over all cells

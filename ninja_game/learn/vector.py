@@ -189,9 +189,10 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
             "events": worlds.events, "level": self._names,
         }  # fmt: skip
         infos: Infos = {}
+        mask = np.ones(self.num_envs, np.bool_) if mask is None else mask
         for name, value in values.items():
-            infos[name] = value.copy() if mask is None else np.where(mask, value, None if name == "level" else 0)
-            infos[f"_{name}"] = np.ones(self.num_envs, np.bool_) if mask is None else mask.copy()
+            infos[name] = np.where(mask, value, None if name == "level" else 0)
+            infos[f"_{name}"] = mask.copy()
         return infos
 
     def _refuse_closed(self) -> None:

@@ -250,8 +250,11 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
         lacks, places = named.get(message.when, ("", ()))
         if lacks and not any(message.is_about(*place) for place in places):
             cells = (message.cell,) if message.cell != ANY else ()
-            where = " with its switch" * (lacks != "gold") + " at {},{}".format(*message.cell) if cells else ""
-            yield level_finding("unseen-message", cells=cells, text=message.one_line, why=f"there is no {lacks}{where}")
+            why = f"there is no {lacks}"
+            if cells:
+                column, row = message.cell
+                why += f" at {column},{row}" if lacks == "gold" else f" with its switch at {column},{row}"
+            yield level_finding("unseen-message", cells=cells, text=message.one_line, why=why)
         elif message.when == "gold" and message.number > len(gold):
             why = f"the level has {counted(len(gold), 'piece')} of gold"
             yield level_finding("unseen-message", text=message.one_line, why=why)

@@ -6,6 +6,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ninja_game.errors import FileError, reason
+from ninja_game.files.shown_text import counted
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
 from ninja_game.formats.replay.text import Replay
@@ -120,8 +121,10 @@ class PlayerData:
         if self.episode_state(before) == LOCKED:
             return f"Finish episode {before.code} first"
         number, level = self.beaten_in(before)
-        left = len(before.levels) - level * (number == before.number)
-        return f"Finish {left} more level{'s' * (left != 1)} of episode {before.code} first"
+        left = len(before.levels)
+        if number == before.number:
+            left -= level
+        return f"Finish {counted(left, 'more level')} of episode {before.code} first"
 
     def reached(self, entry: Entry, mark: Mark | None) -> str:
         """A sentence: the player's results in a level with this mark; the same on every screen."""

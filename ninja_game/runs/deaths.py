@@ -60,4 +60,4 @@ def ending_text(outcome: str, tick: int, death: str = "") -> str:
     """
     if outcome == "running":
         return f"still running after {tick + 1} ticks"
-    return f"{outcome} in tick {tick}{f': {death}' if death else ''}"
+    return f"{outcome} in tick {tick}" + (f": {death}" if death else "")

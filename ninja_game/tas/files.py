@@ -71,8 +71,9 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
         return _begun_on(path, "".join(text for _, text in texts), record, level)
     recordings = [run for file, text in texts for run in parse_replays(text, file=file, level=level, changed=True)]
     if record is None and len(recordings) > 1:
-        again = "; `ninja-game convert` puts the episode together again" * (recordings[0].form == "episode")
-        hint = f"edit one with --record, 0 to {len(recordings) - 1}{again}"
+        hint = f"edit one with --record, 0 to {len(recordings) - 1}"
+        if recordings[0].form == "episode":
+            hint += "; `ninja-game convert` puts the episode together again"
         raise ReplayError(f"{len(recordings)} recordings", str(path), hint=hint)
     recording = next((other for other in recordings if other.record == (record or 0)), None)
     if recording is None:
@@ -141,7 +142,7 @@ def runs_of_level(path: Path, origin: Recording) -> list[Recording]:
     fitting = [each for each in recordings if same_level(each, origin)]
     others = [each for each in fitting if not same_place(each, origin)]
     if not others:
-        what = f"no {'other ' * bool(fitting)}run of {origin.name or 'this level'} with its body"
+        what = f"no {'other run' if fitting else 'run'} of {origin.name or 'this level'} with its body"
         raise ReplayError(what, str(path), found=f"{len(recordings)} others" if not fitting else "")
     return others
 

@@ -253,7 +253,7 @@ class Timeline:
         world = self.world(self.simulated_until - 1)
         exits = (obj for obj in world.objects[1 : world.slots_used] if obj.kind == EXIT)
         shut = ", ".join(str(obj.id) for obj in exits if not getattr(obj, KIND_OF[EXIT].used))
-        return "it goes on" + f", the switch of exit {shut} untouched" * bool(shut)
+        return f"it goes on, the switch of exit {shut} untouched" if shut else "it goes on"
 
     @property
     def death(self) -> str:
@@ -297,9 +297,12 @@ def apart_text(ours: World, theirs: World) -> str:
     fields = [name.partition(": ")[::2] for name, _, _ in differences(ours, theirs)]
     read = (name for name, field in fields if name not in ("ninja", "world") and field not in ("", "move_ticks"))
     other = [*dict.fromkeys(re.sub(r"object (\d+) \((.*)\)", r"\2 \1", name) for name in read)]
-    more = f" and {len(other) - NAMED_APART} more" * (len(other) > NAMED_APART)
-    objects = f"; other: {', '.join(other[:NAMED_APART])}{more}" * bool(other)
-    return f"not in the same state: {gap}{objects}"
+    text = f"not in the same state: {gap}"
+    if other:
+        text += f"; other: {', '.join(other[:NAMED_APART])}"
+    if len(other) > NAMED_APART:
+        text += f" and {len(other) - NAMED_APART} more"
+    return text
 
 
 WATCHABLE = {**NAMES, "status": 1, "exit_distance": 0}

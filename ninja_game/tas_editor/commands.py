@@ -41,6 +41,7 @@ SPLICES = {
     "splice_start": "Its beginning, then my rest", "splice_here": "My beginning, then its rest",
     "splice": "The selected ticks",
 }  # fmt: skip
+_SHOWN_OF_PATH = 38  # characters of the title
 _IN_MENU = {"save", "save_as", "open_other", "help"}
 
 
@@ -138,7 +139,9 @@ class RunCommands(DocumentCommands):
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 
         place = short_path(folder.absolute())
-        title = f"Save in {'...' * (len(place) > 38)}{place[-38:]}"  # the end of a long path says more
+        if len(place) > _SHOWN_OF_PATH:  # the end of a long path says more
+            place = f"...{place[-_SHOWN_OF_PATH:]}"
+        title = f"Save in {place}"
         fields = [("Name or path of the file", name, 300)]
         if self._asks_name:
             self._asked_name = True

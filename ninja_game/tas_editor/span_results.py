@@ -47,8 +47,8 @@ class SpanResults:
         timeline, jobs = editor.session.timeline, max(1, cores() - 1)
         self._to_exit = task.rest or task.goal == "won"
         timeline.simulate(len(timeline) if self._to_exit else 0)
-        end = timeline.end[0]
-        self._gold = int(timeline.column("gold")[end if end >= 0 else len(task.inputs) - 1]) if self._to_exit else 0
+        end = timeline.end[0] if timeline.end[0] >= 0 else len(task.inputs) - 1
+        self._gold = int(timeline.column("gold")[end]) if self._to_exit else 0
         self._others = tuple(editor.others) if every is None or method == "auto" else ()
         self.task = task = replace(task, others=tuple(other.track.inputs for other in self._others))
         self.search: RunSearch | SpanSearch

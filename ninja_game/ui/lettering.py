@@ -120,8 +120,9 @@ def glyph(character: str) -> Glyph | None:
     tall = base.isupper() or base in ASCENDERS
     if raised and tall:
         lines = tuple(tuple((x, CAP - (CAP - y) * _LOWERED) for x, y in line) for line in lines)
+    lift = 0.6 if tall else 1.1
     for mark in marks:
-        dy = (0.6 if tall else 1.1) if _stands_on_top(mark) else 0.0
+        dy = lift if _stands_on_top(mark) else 0.0
         drawn = _lines(MARKS[mark])
         lines += tuple(tuple((x + width / 2, y + dy) for x, y in line) for line in drawn)
     return Glyph(width, lines)

@@ -175,7 +175,8 @@ class Choice(Widget, Generic[T]):
         return bool(self.more) or self._step(1)
 
     def nudge(self, action: str) -> bool:
-        return self._step(-1 if action == "left" else 1) if action in ("left", "right") else False
+        by = {"left": -1, "right": 1}.get(action)
+        return by is not None and self._step(by)
 
     def click(self, x: float, y: float) -> bool:
         left, width = self._values()

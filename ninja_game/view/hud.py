@@ -154,7 +154,8 @@ class Hud:
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """Draw everything; the covered px rectangles."""
         top = [self.label(surface, view.label)] if view.label else self.time_bar(surface, view.lifetime, view.pars)
-        box = self.box(view.message, keys=_KEYS_WIDE if view.moves else 0) if view.message else None
+        keys = _KEYS_WIDE if view.moves else 0
+        box = self.box(view.message, keys=keys) if view.message else None
         in_border = box is not None and box.y == BORDER_MESSAGE_TOP
         written = top + self.foot(surface, "" if in_border else view.foot[0], view.foot[1])
         if box is not None and in_border:

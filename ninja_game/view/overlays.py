@@ -147,11 +147,11 @@ def touched_cells(x: float, y: float, cell: int) -> list[int]:
     """The cells whose tiles a circle at (x, y) can touch: its own, one up or down, one beside, one between."""
     cells = [cell]
     dx, dy = x - CENTRE_X[cell], y - CENTRE_Y[cell]
-    next_cell = cell + (1 if dx > 0 else -1) if abs(dx) + RADIUS > HALF else 0
-    above = cell + (STRIDE if dy > 0 else -STRIDE) if abs(dy) + RADIUS > HALF else 0
-    cells += [place for place in (above, next_cell) if place]
-    if above and next_cell:
-        cells.append(above + next_cell - cell)
+    if abs(dy) + RADIUS > HALF:
+        cells.append(cell + STRIDE if dy > 0 else cell - STRIDE)
+    if abs(dx) + RADIUS > HALF:
+        side = 1 if dx > 0 else -1
+        cells += [near + side for near in cells]
     return cells
 
 

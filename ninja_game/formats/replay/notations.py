@@ -55,8 +55,9 @@ def write_inputs(inputs: bytes, markers: Sequence[Marker] = ()) -> list[str]:
     for (start, name), (end, _) in pairwise(parts):
         lines.append(marker_word(name) if name else "")
         for run in _runs(ticks[start:end]):
-            if len(lines[-1]) + 1 + len(run) <= _WIDTH:
-                lines[-1] += " " * bool(lines[-1]) + run
+            longer = f"{lines[-1]} {run}"
+            if len(longer) <= _WIDTH:
+                lines[-1] = longer.lstrip()
             else:
                 lines.append(run)
     return [line for line in lines if line]

@@ -34,7 +34,9 @@ class Provenance(NamedTuple):
     @property
     def assisted(self) -> bool | None:
         """Whether more than a person's keys in the game made it; None: unknown."""
-        return True if self.assists or self.edits or self.searches else False if self.played else None
+        if self.assists or self.edits or self.searches:
+            return True
+        return False if self.played else None
 
     def __str__(self) -> str:
         """The text in replays.
@@ -42,8 +44,9 @@ class Provenance(NamedTuple):
         >>> str(Provenance(edits=34, searches=("improve", "search"), begun_by="Ann")), str(Provenance())
         ('edited 34, searched (improve, search) from a run by Ann', '')
         """
+        played = f"played ({', '.join(self.assists)})" if self.assists else "played"
         parts = [
-            "played" + f" ({', '.join(self.assists)})" * bool(self.assists) if self.played else "",
+            played if self.played else "",
             f"edited {self.edits}" if self.edits else "",
             f"searched ({', '.join(self.searches)})" if self.searches else "",
         ]
@@ -111,8 +114,8 @@ def with_provenance(comment: str, made: Provenance, co_authors: tuple[str, ...])
     """
     if not (made.assisted is not None or co_authors):
         return comment
-    mark = f"{_MARK}{made}" + f"{_WITH}{', '.join(co_authors)}" * bool(co_authors) + "]"
-    return f"{comment} {mark}".strip()
+    others = _WITH + ", ".join(co_authors) if co_authors else ""
+    return f"{comment} {_MARK}{made}{others}]".strip()
 
 
 def without_provenance(comment: str) -> tuple[str, Provenance, tuple[str, ...]]:

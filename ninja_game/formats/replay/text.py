@@ -94,7 +94,8 @@ class Replay:
     def how(self) -> str:
         """How it was made if not only by playing: ``(edited, searched)``."""
         made = self.made
-        how = ["assisted"] * bool(made.assists) + ["edited"] * bool(made.edits) + ["searched"] * bool(made.searches)
+        ways = (("assisted", made.assists), ("edited", made.edits), ("searched", made.searches))
+        how = [way for way, used in ways if used]
         return f"({', '.join(how)})" if how else ""
 
     @property

@@ -239,7 +239,11 @@ class EditorCommands(DocumentCommands):
         view, count = self.view, len(self.session.tries)
         view.tests = not view.tests
         what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"
-        view.hint = (what if count else "No tests yet: F5 plays the level") if view.tests else ""
+        if not view.tests:
+            what = ""
+        elif not count:
+            what = "No tests yet: F5 plays the level"
+        view.hint = what
 
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with the next of the speeds, or hide it after the last."""

@@ -85,8 +85,8 @@ _DETAILS = {
 """What some moments may need besides: an example, and a hint."""
 
 _HELP = (
-    f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
-    f"{' and '.join(f'{{{thing}}}' for thing in TARGETS)} have an arrow while their message is shown.",
+    "{" + "}, {".join(KEYS) + "} become the key or button of whoever plays;",
+    "{" + "} and {".join(TARGETS) + "} have an arrow while their message is shown.",
 )
 
 DETAIL, TIME, _TEXT = 1, -2, -1
@@ -119,7 +119,8 @@ class MessageRow:
 
     @property
     def source(self) -> str:
-        return f"{self.moment}{f' for {self.seconds} s' if self.seconds else ''}: {in_a_header(self.text)}"
+        shown_for = f" for {self.seconds} s" if self.seconds else ""
+        return f"{self.moment}{shown_for}: {in_a_header(self.text)}"
 
     @property
     def problem(self) -> tuple[int, str]:

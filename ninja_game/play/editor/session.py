@@ -371,8 +371,10 @@ class EditorSession:
             self.app.notify(f"{which}no certificate: {reason(error)}")
         else:
             if name:
-                time = f"certified, {seconds_text(search.run.end_tick)} s, kept with the level" if search.run else ""
-                self.app.notify(f"{name}: {time or f'no run in {search.seconds:.0f} s'}")
+                end = f"no run in {search.seconds:.0f} s"
+                if search.run:
+                    end = f"certified, {seconds_text(search.run.end_tick)} s, kept with the level"
+                self.app.notify(f"{name}: {end}")
 
     def _file_now(self, path: Path, search: Certification) -> NamedLevel | None:
         """The level of a search in its file, or in another of the player's files, as in a pack; None if it is gone."""

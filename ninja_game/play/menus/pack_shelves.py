@@ -89,7 +89,7 @@ class Rack(ListView):
     def shift(self, index: int) -> float:
         """How far a cell moves aside, px."""
         line, first = divmod(self.gap, self.columns)
-        return _GAP * (0 < first <= index % self.columns and index // self.columns == line)
+        return _GAP if 0 < first <= index % self.columns and index // self.columns == line else 0.0
 
     @property
     def clicked(self) -> PackCell:

@@ -224,7 +224,9 @@ class PackStatus:
         parts = parts or (["renew the medal times"] if to_do else [])
         running = self.packer.busy and self.pack is not None and self.packer.path == self.pack.path
         will = "Make ready is at work, and will" if running else "Make ready will"
-        return f"{will} {', '.join(parts[:-1])}{' and ' * (len(parts) > 1)}{parts[-1]}" if parts else ""
+        if len(parts) < 2:
+            return f"{will} {parts[0]}" if parts else ""
+        return f"{will} {', '.join(parts[:-1])} and {parts[-1]}"
 
     def state(self, level: Entry) -> str:
         """The state of a level in a word: its time if it is measured."""

@@ -58,7 +58,8 @@ class PackScreen(PackDesk):
         choice = self.pack_choice = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
         choice.more = lambda: app.push(PackList(app, self.own_packs, lambda pack: self._choose_pack(pack.key)))
         received = bool(self.pack and self.pack.received)
-        place = f"{pack.index.title}{', received' if received else ''}, in the folder {self.path.name}" if pack else ""
+        mark = ", received" if received else ""
+        place = f"{pack.index.title}{mark}, in the folder {self.path.name}" if pack else ""
         choice.hint = f"{place}. Enter, or a click on the name: all your packs"
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(pack.name if pack.key else "The game's own", pack.key) for pack in self.sets if pack is not self.pack]

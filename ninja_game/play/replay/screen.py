@@ -352,5 +352,5 @@ class ReplayBar:
     @staticmethod
     def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str, *, still: bool) -> pygame.Rect:
         at = min(tick, end)
-        text = f"{seconds_text(at)} / {seconds_text(end)} s    {speed}{f'    tick {at}' if still else ''}"
+        text = f"{seconds_text(at)} / {seconds_text(end)} s    {speed}" + (f"    tick {at}" if still else "")
         return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")

@@ -243,8 +243,9 @@ class LevelPart(TasPart):
         x, y, w, h = self.area
         palette, y = theme.palette, y + h - LINE
         theme.canvas.fill_rect(surface, palette.tile, x, y, w, LINE)
-        zoom = self.picture.camera.zoom
-        speed = f"{f'zoom {zoom:.1f}, ' if zoom > 1 else ''}speed x {SPEEDS[self.playing.speed]:g}"
+        speed = f"speed x {SPEEDS[self.playing.speed]:g}"
+        if self.picture.camera.zoom > 1:
+            speed = f"zoom {self.picture.camera.zoom:.1f}, {speed}"
         right = theme.text(surface, speed, x + w - 6, y + 1, size=paths.LETTERS, colour=palette.on_tile, align="right")
         room = right.left / theme.canvas.scale - x - 12
         theme.text(

@@ -238,5 +238,5 @@ def _change_text(before: InputTrack, after: InputTrack, first: int, edit_tick: i
     more = len(after) - len(before)
     short, long = sorted((before.inputs, after.inputs), key=len)
     tick = edit_tick if more and short == long[:edit_tick] + long[edit_tick + abs(more) :] else first
-    length = f", {counted(abs(more), 'tick', 'ticks')} {'more' if more > 0 else 'fewer'}" if more else ""
-    return f"keys from tick {tick} on{length}"
+    length = f", {counted(abs(more), 'tick')} {'more' if more > 0 else 'fewer'}"
+    return f"keys from tick {tick} on{length if more else ''}"

@@ -268,8 +268,9 @@ class ScrollBar:
             self._marks = [
                 *((tick, role) for tick, names in timeline.event_ticks for name, role in roles if name in names),
                 *((tick, "ghost") for tick, _ in track.markers),
-                *([(end, "good" if outcome == "exit" else "bad")] if end >= 0 else []),
             ]
+            if end >= 0:
+                self._marks.append((end, "good" if outcome == "exit" else "bad"))
         return self._marks
 
     def tick_at(self, y: int, layout: RollLayout) -> int:

@@ -152,4 +152,5 @@ class BranchesTab(Tab):
         if {branch.outcome, outcome} != {"exit"}:
             return "", 0
         ahead = end - branch.end
-        return ("as long" if not ahead else f"{abs(ahead)} {'shorter' if ahead > 0 else 'longer'}"), ahead
+        text = f"{abs(ahead)} {'shorter' if ahead > 0 else 'longer'}"
+        return text if ahead else "as long", ahead

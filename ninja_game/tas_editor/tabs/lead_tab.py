@@ -167,5 +167,5 @@ def lead_text(ahead: int) -> str:
     >>> lead_text(1), lead_text(-12), lead_text(0)
     ('1 tick ahead', '12 ticks behind', 'as early')
     """
-    ticks = counted(abs(ahead), "tick", "ticks")
-    return f"{ticks} {'ahead' if ahead > 0 else 'behind'}" if ahead else "as early"
+    text = f"{counted(abs(ahead), 'tick')} {'ahead' if ahead > 0 else 'behind'}"
+    return text if ahead else "as early"

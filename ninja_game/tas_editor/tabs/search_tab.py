@@ -114,8 +114,9 @@ class SearchTab(Tab):
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
         for widget, (left, top, wide, high) in self._placed:
-            left += w * (left < 0)  # noqa: PLW2901
-            widget.area = x + left, y + top, wide if wide > 0 else w + wide - left, high if high > 0 else h + high - top
+            begin = left if left >= 0 else w + left
+            width = wide if wide > 0 else w + wide - begin
+            widget.area = x + begin, y + top, width, high if high > 0 else h + high - top
 
     def commands(self) -> Commands:
         return {"search": self.focus_goal}
@@ -339,17 +340,20 @@ class SearchTab(Tab):
             if results.first_behind is None:
                 status, colour = "edited since: a click takes it as it was", palette.bad
         theme.text(surface, status, x + 222, y + 72, size=SMALL, colour=colour, width=w - 226)
-        note = PIECES if self.pieces else results.note if results else "" if self.earlier else _EXPLAINED
+        if self.pieces:
+            note = PIECES
+        elif results:
+            note = results.note
+        else:
+            note = "" if self.earlier else _EXPLAINED
         if self.better:
             for at, head in zip(self._cells(self.list.row_area(0)), _HEADS, strict=True):
                 theme.text(surface, head, at, y + 88, size=8, colour=palette.faint)
         elif self.list.count:
             theme.text(surface, note, x + _LEFT + 4, y + 88, size=8, colour=palette.faint, width=w - 104)
-        text, top = (
-            (results.advice if results else "") if self.list.count else note,
-            y + 97 + (TAB_ROW + 4) * self.list.count,
-        )
-        lines = wrapped(theme, text, w - 28, 10)
+        advice = results.advice if results else ""
+        top = y + 97 + (TAB_ROW + 4) * self.list.count
+        lines = wrapped(theme, advice if self.list.count else note, w - 28, 10)
         for k, line in enumerate(lines if top + 15 * len(lines) <= y + h else ()):
             theme.text(surface, line, x + 10, top + 15 * k, size=10, colour=palette.faint)
 

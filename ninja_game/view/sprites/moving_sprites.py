@@ -106,8 +106,10 @@ def barrel(s: Sketch, p: Palette, spin: int, heat: int) -> None:
     s.box(p.outline, 1, -2.9, 11.4, 5.8)
     metal = mixed(p.middle, p.ember, heat / 8)
     for k in (-1, 0, 1):
-        y = k * 1.7 + (0.55 if spin % 2 else -0.55) * (k == 0)
-        s.box(mixed(metal, p.outline, 0.15 if k == 0 else 0.35), 1.6, y - 0.65, 10.2, 1.3)
+        y, shade = k * 1.7, 0.35
+        if k == 0:
+            y, shade = 0.55 if spin % 2 else -0.55, 0.15
+        s.box(mixed(metal, p.outline, shade), 1.6, y - 0.65, 10.2, 1.3)
     s.disc(p.outline, 0, 0, 3.6)
 
 

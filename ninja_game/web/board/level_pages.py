@@ -96,7 +96,9 @@ class LevelPages:
 
         They would take most of the time of a large board.
         """
-        beside = [run, *([rival] if rival.key != run.key else [])] if rival else []
+        beside = [run] if rival else []
+        if rival and rival.key != run.key:
+            beside.append(rival)
         ghosts, name = [*map(self._ghost, beside)], self.parts.shown_name(run.player)
         positions = ghosts[0].positions if ghosts else run.positions
         speeds = np.hypot(*np.diff(positions, axis=0, prepend=positions[:1]).T)

@@ -391,7 +391,8 @@ class BoardPages:
 
     def _places(self, run: Run) -> list[str]:
         """Its place in each category, and its distance from the first; whether it waits."""
-        return ["waits for confirmation"] * bool(run.waits) + [
+        waits = ["waits for confirmation"] if run.waits else []
+        return waits + [
             f"{self.ranking.leaderboard_name(part)}: {place}"
             for part, rows, number in self.ranking.places.get(run.key, ())
             if (place := self.parts.place(part[1], rows[number], rows[0]))
@@ -529,6 +530,6 @@ def _sums(ladder: str, category: str, standing: Standing) -> Markup:
 
 def _about(element: ET.Element, title: str, name: str, date: str) -> None:
     """The elements that Atom demands of a feed and of its entries."""
-    ET.SubElement(element, "id").text = f"urn:uuid:{uuid5(NAMESPACE_OID, f'ninja-game board {name}')}"
+    ET.SubElement(element, "id").text = uuid5(NAMESPACE_OID, f"ninja-game board {name}").urn
     ET.SubElement(element, "title").text = shown_text(title)
     ET.SubElement(element, "updated").text = date or "1970-01-01T00:00:00Z"

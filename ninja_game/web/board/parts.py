@@ -89,7 +89,7 @@ class Parts:
         up, links = (UP, self.deeper) if "/" in name else ("", self.top)
         current = f"{name}.html"
         parts = [rows[first : first + PER_PAGE] for first in range(0, len(rows), PER_PAGE)] or [()]
-        names = [f"{name}{f'-{number}' if number > 1 else ''}.html" for number in range(1, len(parts) + 1)]
+        names = [current, *(f"{name}-{number}.html" for number in range(2, len(parts) + 1))]
         turns = [
             tag("a", f"Page {number}", href=up + file, aria_label=f"{title}, page {number} of {len(names)}")
             for number, file in enumerate(names, 1)

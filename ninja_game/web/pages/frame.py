@@ -263,7 +263,8 @@ def _root(palette: Palette) -> str:
     inks["frame"] = mixed(palette.tile, palette.outline, _FRAME)
     candidates = palette.background, palette.text, palette.on_tile
     inks["on-accent"] = max(candidates, key=lambda ink: abs(sum(ink[:3]) - sum(palette.accent[:3])))
-    return f":root {{ {' '.join(f'--{role}: {css_colour(ink)};' for role, ink in inks.items())} }}"
+    variables = " ".join(f"--{role}: {css_colour(ink)};" for role, ink in inks.items())
+    return f":root {{ {variables} }}"
 
 
 def css_colour(ink: Color) -> str:

@@ -190,9 +190,12 @@ def _play(entry: Entry, game: str) -> Content:
     return tag("p", tag("a", "Play this level", href=game + link, class_="button"))
 
 
+_PLURALS = {"gold": "gold"}
+
+
 def objects_text(entry: Entry) -> str:
     counts = Counter(KIND_NAMES[spec.kind] for spec in entry.named.level.objects if makes_object(spec))
-    texts = [counted(count, kind, "gold" * (kind == "gold")) for kind, count in counts.most_common()]
+    texts = [counted(count, kind, _PLURALS.get(kind, "")) for kind, count in counts.most_common()]
     return ", ".join(texts) or "none"
 
 
@@ -250,7 +253,8 @@ def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Pa
 def _list(shown: PublishedLevels) -> list[Content]:
     """The list of levels with its search, which a script makes visible."""
     count = len(shown.entries)
-    lead = f"{shown.name}{f' by {shown.author}' if shown.author else ''}: {counted(count, 'level')}."
+    by = f" by {shown.author}" if shown.author else ""
+    lead = f"{shown.name}{by}: {counted(count, 'level')}."
     cards = tag("ul", *(_card(entry, place) for place, entry in enumerate(shown.entries.values())), class_="cards")
     comment = tag("p", shown.comment) if shown.comment else None
     return [tag("p", lead, class_="lead"), comment, search_field(_episodes(shown)), cards]

@@ -21,7 +21,10 @@ def without_lines(code: CodeType) -> CodeType:
     """Code without line numbers: entries without a line, each for up to eight units of code."""
     inner = tuple(without_lines(item) if isinstance(item, CodeType) else item for item in code.co_consts)
     eights, rest = divmod(len(code.co_code) // 2, 8)
-    return code.replace(co_consts=inner, co_linetable=b"\xff" * eights + bytes([0xF7 + rest] * (rest > 0)))
+    table = b"\xff" * eights
+    if rest:
+        table += bytes([0xF7 + rest])
+    return code.replace(co_consts=inner, co_linetable=table)
 
 
 def bytecode(path: Path, folder: str) -> bytes:

@@ -35,7 +35,8 @@ def _color(first: str | int, *rest: int) -> Color:
             channels = tuple(bytes.fromhex(first.removeprefix("#")))
         except ValueError:
             channels = ()
-        channels += (255,) * (len(channels) == 3)
+        if len(channels) == 3:
+            channels += (255,)
     if len(channels) != 4 or not all(0 <= channel <= 255 for channel in channels):
         raise ValueError("invalid color argument")
     return _of(channels)
