@@ -62,9 +62,10 @@ def prepare_pack(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: 
     ``seconds``: for each search; ``jobs``: levels at a time; ``say`` may raise to end it. ``obstacles``: of earlier
     searches, which are not repeated; those of new ones are added. Raises NinjaGameError, OSError.
     """
-    pack, notes, obstacles = Pack(path), list[str](), {} if obstacles is None else obstacles
+    obstacles = {} if obstacles is None else obstacles
+    notes = list[str]()
     if compiled_available():
-        _certify(pack, path, seconds, jobs, say, obstacles)
+        _certify(Pack(path), path, seconds, jobs, say, obstacles)
     else:
         notes.append(f"Certifying needs Numba: {install_hint('fast')}")
     pack, pars = Pack(path), {}

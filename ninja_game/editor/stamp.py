@@ -182,7 +182,8 @@ def arranged(draft: Draft, selection: Selection, axis: int, share: float | None)
     """
     places = {part: points(draft.objects[part[0]])[part[1]][axis] for part in selection.parts}
     order = sorted(places, key=lambda part: (places[part], part))
-    low, high, objects = places[order[0]], places[order[-1]], list(draft.objects)
+    low, high = places[order[0]], places[order[-1]]
+    objects = list(draft.objects)
     for k, part in enumerate(order):
         goal = low + (high - low) * (k / (len(order) - 1) if share is None else share)
         by = (goal if goal in (low, high) else round(goal)) - places[part]
@@ -332,7 +333,8 @@ def ramp(a: Cell, b: Cell) -> Tiles:
         return (cell[1], cell[0]) if steep else cell
 
     (x, y), end = sorted((turned(a), turned(b)), key=lambda cell: cell[1])
-    down, side, long = end[1] - y, 1 if end[0] > x else -1, abs(end[0] - x) + 1
+    down, long = end[1] - y, abs(end[0] - x) + 1
+    side = 1 if end[0] > x else -1
     if not down:
         return {}
     # It goes down as far as its last cell, or below that where slopes alone fill its length.

@@ -401,12 +401,13 @@ class EditorTools:
     def _drag(self) -> None:
         snap = "cell" if self._chosen_before.area else self.snap
         (ax, ay), (bx, by) = brush.snapped(*self._pressed_at, snap), brush.snapped(*self.pointer, snap)
-        began, chosen, motion = self.history.began, self._chosen_before, Motion(dx=bx - ax, dy=by - ay)
+        began = self.history.began
+        motion = Motion(dx=bx - ax, dy=by - ay)
         if self._copies:
-            copy = stamps.copied(began, chosen).carried(motion)
+            copy = stamps.copied(began, self._chosen_before).carried(motion)
             draft, self.selection = stamps.pasted(began, copy, empty=self.pastes_empty)
         else:
-            draft, self.selection = stamps.moved(began, chosen, motion)
+            draft, self.selection = stamps.moved(began, self._chosen_before, motion)
         self.history.change(draft)
 
     def choose(self, parts: frozenset[stamps.ObjectPart]) -> None:
@@ -507,7 +508,9 @@ class EditorTools:
     def paste(self) -> bool:
         """Begin to paste the copy with the next press; whether there is one."""
         self.finish()
-        self._chosen_before, self.selection, self.ghost = self.selection, stamps.Selection(), self.clipboard
+        self._chosen_before = self.selection
+        self.selection = stamps.Selection()
+        self.ghost = self.clipboard
         return self.ghost is not None
 
     @property
@@ -521,9 +524,11 @@ class EditorTools:
         ends = [(x + d, y + d) for spec, rim in rims for x, y in points(spec).values() for d in (-rim, rim)]
         if not (cells or ends):
             return self.ghost
-        moves, sides = [], zip(*cells, *ends, strict=True)
+        step = CELL if cells else brush.SNAPS[self.snap]
+        moves = []
+        sides = zip(*cells, *ends, strict=True)
         for along, at, end in zip(sides, self.pointer, (WORLD_WIDTH, WORLD_HEIGHT), strict=True):
-            low, high, step = min(along), max(along), CELL if cells else brush.SNAPS[self.snap]
+            low, high = min(along), max(along)
             by = step * round((at - (low + high) / 2) / step)
             # The border stays free, by whole steps.
             by += step * max(0, ceil((CELL - low - by) / step))

@@ -290,10 +290,10 @@ class Scene:
         """The rock's surface in reach: chains of neighbouring faces."""
         faces = list[Face]()
         for cell in sorted(self.steps):
-            for neighbour in neighbours(cell):
-                (x, y), dx, dy = middle_of(cell), neighbour[0] - cell[0], neighbour[1] - cell[1]
-                if self.full(neighbour):
-                    faces.append(Face(x + CELL / 2 * dx, y + CELL / 2 * dy, -dx, -dy))
+            x, y = middle_of(cell)
+            for neighbour in filter(self.full, neighbours(cell)):
+                dx, dy = neighbour[0] - cell[0], neighbour[1] - cell[1]
+                faces.append(Face(x + CELL / 2 * dx, y + CELL / 2 * dy, -dx, -dy))
         for cell, tile in sorted(self.tiles.items()):
             if tile in _LEANS and any(neighbour in self.steps for neighbour in neighbours(cell)):
                 dx, dy = _LEANS[tile]

@@ -27,7 +27,9 @@ Ink = NDArray[np.bool_]  # painted rock, one value per sample: (rows * SAMPLES, 
 @cache
 def masks() -> Ink:
     """The samples of a cell that each tile covers: (tile, row, column)."""
-    at, tiles, grids = [(k + 0.5) * CELL / SAMPLES for k in range(SAMPLES)], TileMap(), []
+    at = [(k + 0.5) * CELL / SAMPLES for k in range(SAMPLES)]
+    tiles = TileMap()
+    grids = []
     for tiles.tiles[STRIDE + 1] in range(len(TILE_CHARS)):
         grids.append([[solid_at(tiles, x, y) for x in at] for y in at])
     return np.array(grids)

@@ -162,10 +162,10 @@ def play_episodes(worlds: EnvWorlds, actions: ActionStream) -> EpisodeEnds:
 
 
 def _result(name: str, ends: EpisodeEnds) -> LevelResult:
-    count, passed, dead = len(ends.ticks), ends.outcomes == OUTCOME_EXIT, ends.outcomes == OUTCOME_DEAD
+    passed, dead = ends.outcomes == OUTCOME_EXIT, ends.outcomes == OUTCOME_DEAD
     return LevelResult(
         name,
-        count,
+        len(ends.ticks),
         int(passed.sum()),
         int(dead.sum()),
         int((~passed & ~dead).sum()),

@@ -136,7 +136,8 @@ class Attempt:
     def replay(self, name: str = "", author: str = "") -> Replay:
         """The recording as our replay: run again from its inputs, so that its claims are true."""
         ticks = max(1, len(self.inputs) + (self.outcome != "running"))
-        level, body, inputs = self.simulation.level, self.simulation.body, bytes(self.inputs)
+        level, body = self.simulation.level, self.simulation.body
+        inputs = bytes(self.inputs)
         replay = record_replay(level, inputs, ticks=ticks, body=body, name=name, author=author, budget=NO_LIMIT)
         return replace(replay, made=self.made)
 

@@ -223,7 +223,8 @@ class LevelPlaythrough(Playthrough):
             # Files may hold levels without a ninja.
             with suppress(LevelError):
                 Simulation(entry.named.level, body=self.body)
-                self.entry, self._following, self._stamp = entry, ahead[number:], file_stamp(Path(entry.named.file))
+                self.entry, self._following = entry, ahead[number:]
+                self._stamp = file_stamp(Path(entry.named.file))
                 return Navigation.NEXT_LEVEL
         return Navigation.SAME_LEVEL
 

@@ -296,7 +296,8 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
         raise ArgumentError(f"runs of {n} and {m} ticks are too long to be compared place by place")
     came_from = np.zeros((n, m), np.uint8)
     # Each diagonal is a slice: of these cells in steps of m - 1, and of the other run backwards.
-    cells, (x, y), (other_x, other_y) = came_from.reshape(-1), ours.T.copy(), theirs[::-1].T.copy()
+    cells = came_from.reshape(-1)
+    (x, y), (other_x, other_y) = ours.T.copy(), theirs[::-1].T.copy()
     # Costs of the last two diagonals, by the tick of ours plus one; all paths begin in front of both first ticks.
     costs, last, before = (np.full(n + 1, np.inf) for _ in range(3))
     before[0] = 0.0

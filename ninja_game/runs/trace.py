@@ -118,12 +118,12 @@ def trace_level(
     """
     inputs = inputs_of(inputs)
     check_inputs(inputs)
-    world = open_worlds(
-        memory, level, box=is_box(body), at_once=True, ticks=min(len(inputs), affordable_ticks(level, budget))
-    )
+    end = len(inputs)
+    most = affordable_ticks(level, budget)
+    world = open_worlds(memory, level, box=is_box(body), at_once=True, ticks=min(end, most))
     kinds = [world.observe(id_ + 1)[0] for id_ in range(world.number("id_count"))] if with_objects else []
     ids = tuple(id_ for id_, kind in enumerate(kinds) if KIND_OF[kind].traced)
-    end, most, at_once = len(inputs), affordable_ticks(level, budget), _BLOCK if after is not None else MAX_TICKS
+    at_once = _BLOCK if after is not None else MAX_TICKS
     if world.name == "plain":
         at_once = min(at_once, affordable_ticks(level, PLAIN_WORK))
     blocks: list[TraceArrays] = []

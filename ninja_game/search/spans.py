@@ -23,9 +23,14 @@ NODES = 300_000
 PART = 500_000
 """Ticks between two looks at the clock."""
 
-CELLS, _SPEEDS, MACROS, JITTERS = (3.0, 4.0, 6.0, 8.0), (0.2, 0.35, 0.5), (1, 2, 3, 4), (3, 5, 8)
-DELAYS, DISTANCES = (4.0, 8.0, 16.0, 30.0), (48.0, 64.0, 96.0, 160.0)
-PLACE_PRICES, SPEED_PRICES = (0.6, 0.9, 1.2), (0.5, 1.0, 2.0, 4.0)
+CELLS = (3.0, 4.0, 6.0, 8.0)
+_SPEEDS = (0.2, 0.35, 0.5)
+MACROS = (1, 2, 3, 4)
+JITTERS = (3, 5, 8)
+DELAYS = (4.0, 8.0, 16.0, 30.0)
+DISTANCES = (48.0, 64.0, 96.0, 160.0)
+PLACE_PRICES = (0.6, 0.9, 1.2)
+SPEED_PRICES = (0.5, 1.0, 2.0, 4.0)
 ENEMY_CELLS = (0.0, 24.0)
 LENGTHS = (40, 60, 90, 150)
 """Values that are drawn for a search: see Resolution and KnownRun; ticks of a span. Not tuned, but widely spread."""

@@ -165,7 +165,9 @@ class Timeline:
         """Simulate from the nearest save-state up to tick ``stop``, and record those ticks; keep save-states."""
         first, state = self._states.nearest(self.simulated_until)
         self._worlds.restore(state)
-        end, slots, records = first, [id_ + 1 for id_ in self.watched], []
+        end = first
+        slots = [id_ + 1 for id_ in self.watched]
+        records = []
         while end < stop:
             start, end = end, min(stop, end - end % self._states.spacing + self._states.spacing)
             inputs = fit_inputs(self.inputs[start:end], end - start)

@@ -174,7 +174,8 @@ class Head(TasPart):
         return *run, session.file.path, session.is_run_saved, session.is_saved, session.journal.problem
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        session, palette, right = self.editor.session, theme.palette, self.area[2] - 8
+        session, palette = self.editor.session, theme.palette
+        right = self.area[2] - 8
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         end = session.timeline.end[0]
         opened = Path(session.origin.file).name

@@ -99,10 +99,12 @@ class SpanResults:
         selection keep their ticks; behind the span they move with the ticks that follow it.
         """
         editor, end = self.editor, self.task.first + result.ticks
-        behind, track, contributions = self.first_behind, editor.track, self._contributions(result)
+        behind = self.first_behind
+        contributions = self._contributions(result)
         old = behind is None
+        track = self._searched_track if old else editor.track
         if behind is None:
-            track, behind = self._searched_track, self._fitting[0][1]
+            behind = self._fitting[0][1]
             contributions = track.made + contributions
         cursor, anchor = editor.cursor, editor.anchor
         new_track = self._track_with(track, result, behind)

@@ -72,7 +72,8 @@ class TextEntry(Widget):
 
     def _press(self, event: pygame.Event) -> bool:
         *modifiers, key = chord(event).split("+")
-        select, ctrl, edited = "shift" in modifiers, "ctrl" in modifiers, self.edited
+        select, ctrl = "shift" in modifiers, "ctrl" in modifiers
+        edited = self.edited
         if key in ("left", "right"):
             edited.step(1 if key == "right" else -1, word=ctrl, select=select)
         elif key in ("home", "end"):
@@ -139,7 +140,8 @@ class TextEntry(Widget):
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         self.draw_base(surface, theme, focused=focused)
         x, y, w, h = self.area
-        left, text, palette, fill = x + PAD, self.text, theme.palette, theme.canvas.fill_rect
+        left, text = x + PAD, self.text
+        palette, fill = theme.palette, theme.canvas.fill_rect
         self._high, room = self._lay_out(theme, left, w - 2 * PAD - 4)
         high, cursor = self._high, self._cursor_row
         self._top = max(0, min(max(self._top, cursor - room + 1), cursor, len(self._rows) - room))

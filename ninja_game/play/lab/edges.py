@@ -80,9 +80,10 @@ class EdgeStates(Figure):
         return cell_at(self.x, self.y)
 
     def numbers(self) -> list[tuple[str, str]]:
-        column, row, tile = tiles.COLUMN[self.cell], tiles.ROW[self.cell], self.tiles.tiles[self.cell]
+        column, row = tiles.COLUMN[self.cell], tiles.ROW[self.cell]
+        tile = self.tiles.tiles[self.cell]
         neighbour = self.cell + tiles.NEIGHBOUR_OFFSET[self.side]
-        face = tiles.FACE[4 * self.tiles.tiles[self.cell] + self.side]
+        face = tiles.FACE[4 * tile + self.side]
         other = tiles.FACE[4 * self.tiles.tiles[neighbour] + (self.side ^ 2)]
         states = [
             self.world.edges[4 * cell + side]

@@ -191,9 +191,10 @@ class MessageQueue:
         if ninja.in_air:
             self._wall = ninja.wall_x if ninja.state == SLIDING else wall
             return 0.0
-        height, self._jumped_at, self._wall = abs(ninja.y - self._jumped_at), ninja.y, 0.0
         if wall:
-            self._slips = self._slips % SLIPS + 1 if height < CELL else 0
+            self._slips = self._slips % SLIPS + 1 if abs(ninja.y - self._jumped_at) < CELL else 0
+        self._jumped_at = ninja.y
+        self._wall = 0.0
         return wall if self._slips == SLIPS else 0.0
 
     def _is_stuck(self, world: World) -> bool:
@@ -246,7 +247,8 @@ _Comings = dict[str, tuple[int, Point]]
 @lru_cache(maxsize=8)
 def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[_Comings, _Comings]:
     """When texts first come in a run: beside each other, and each as if it were the only one."""
-    run, together, alone = Simulation(level), _Comings(), _Comings()
+    run = Simulation(level)
+    together, alone = _Comings(), _Comings()
     queues = [(MessageQueue([message], run.tiles), alone) for message in messages]
     queues.append((MessageQueue(messages, run.tiles), together))
     for tick, keys in enumerate(inputs):

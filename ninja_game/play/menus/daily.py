@@ -152,13 +152,15 @@ class DailyScreen(ThumbnailScreen):
         theme, palette, entry = self.app.theme, self.app.theme.palette, self.entry
         theme.text(surface, f"{self.day:%A}, {self.day.isoformat()}", _SIDE, _TOP, size=12, colour=palette.faint)
         if entry is None:
-            canvas, middle, cell = self.app.canvas, _LEFT + _WIDE / 2, _WIDE / (COLUMNS + 2)
+            canvas = self.app.canvas
+            cell = _WIDE / (COLUMNS + 2)
             canvas.fill_rect(surface, palette.tile, _LEFT, _TOP, _WIDE, _WIDE * 25 / 33, 4)
             for column, row in set(self._dug):
                 canvas.fill_rect(surface, palette.background, _LEFT + cell * column, _TOP + cell * row, cell, cell)
             if self._maker:
                 theme.panel(surface, _LEFT + 20, _TOP + 140, _WIDE - 40, 64)
                 for down, size, text in ((150, 16, "Building today's level"), (180, 11, self._maker.progress)):
+                    middle = _LEFT + _WIDE / 2
                     theme.text(surface, text, middle, _TOP + down, size=size, align="centre", width=_WIDE - 60)
         else:
             self._draw_entry(surface, entry)

@@ -69,9 +69,10 @@ class PackDesk(ThumbnailScreen):
 
     def read_packs(self, shown: Path | None = None, *, news: bool = False) -> None:
         """Read all packs from the disk; show this one, or the one before. ``news``: only if that has changed."""
-        before, catalogue, self.new_path = shown or self.new_path or self.path, self.player.catalogue, None
-        catalogue.problems.clear()
-        self.sets = catalogue.packs()
+        before = shown or self.new_path or self.path
+        self.new_path = None
+        self.player.catalogue.problems.clear()
+        self.sets = self.player.catalogue.packs()
         self.own_packs = [pack for pack in self.sets if pack.changeable]
         pack = next((pack for pack in self.own_packs if pack.path == before), None)
         if not (news and pack is self.pack):
@@ -244,11 +245,11 @@ class PackDesk(ThumbnailScreen):
         over = self.shelves.at(*self.pointer) if self.pointer else self.shelves.index
         if over is None or not (self.moving and self.moving.level):
             return None
-        cells, index, after = self.shelves.cells, over, self._is_after(over)
-        if not cells[over].level:
-            row = [k for k, cell in enumerate(cells) if cell.episode is cells[over].episode]
-            index, after = next((k for k in row if not (cells[k].head or cells[k].level)), row[-1]), False
-        return index, after
+        cells = self.shelves.cells
+        if cells[over].level:
+            return over, self._is_after(over)
+        row = [k for k, cell in enumerate(cells) if cell.episode is cells[over].episode]
+        return next((k for k in row if not (cells[k].head or cells[k].level)), row[-1]), False
 
     def _move_levels(self, levels: Sequence[Entry], goal: PackCell | None, *, after: bool, copy: bool) -> None:
         target = self.path

@@ -56,7 +56,9 @@ class PackList(ThumbnailScreen):
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area
-        pack, chosen, faint = self.shown[index], index == self.list.index, theme.palette.faint
+        pack = self.shown[index]
+        chosen = index == self.list.index
+        faint = theme.palette.faint
         theme.row(surface, (x, y + 1, w, h - 2), chosen=chosen, focused=focused)
         self.thumbnails.draw_pack(surface, pack.levels, x + 6, y + 4, _PICTURE)
         left, room = x + _PICTURE + 20, w - _PICTURE - 30

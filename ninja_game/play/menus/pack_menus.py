@@ -158,7 +158,8 @@ def ask_for_new_level(desk: PackDesk, number: int) -> None:
 
 
 def episode_menu(desk: PackDesk, episode: EpisodeIndex) -> None:
-    number, path, title = episode.number, desk.path, episode.name or f"Episode {episode.number + 1}"
+    number, path = episode.number, desk.path
+    title = episode.name or f"Episode {number + 1}"
     column = number // EPISODES_PER_COLUMN
     columns = list(desk.pack.columns if desk.pack else ())
     columns += [""] * (column + 1 - len(columns))

@@ -42,13 +42,18 @@ def problems(desk: PackDesk) -> list[Problem] | None:
     if status.present is None:
         return [Problem(status.failure)] if status.failure else None
     rows = [_problem(desk, pack, finding) for finding in status.present.findings]
-    to_do, verdict = status.to_do(), "" if status.present.problems else "Nothing is wrong"
-    step, go, hint = "Make ready", partial(prepare_shown, desk), _STOPS if to_do else "It writes the zip and the link."
+    to_do = status.to_do()
+    verdict = "" if status.present.problems else "Nothing is wrong"
+    if not (verdict or to_do):
+        return rows
+    text = ". ".join(filter(None, (verdict, to_do)))
     if desk.zipped and desk.packer.fresh and not to_do:
-        step, go, hint = "Copy the link", partial(copy_the_link, desk), f"Or send the zip: {short_path(desk.zipped)}"
-    if text := ". ".join(filter(None, (verdict, to_do))):
-        rows.append(Problem(text, hint, None if desk.packer.busy else go, step=step))
-    return rows
+        hint = f"Or send the zip: {short_path(desk.zipped)}"
+        last = Problem(text, hint, partial(copy_the_link, desk), step="Copy the link")
+    else:
+        hint = _STOPS if to_do else "It writes the zip and the link."
+        last = Problem(text, hint, partial(prepare_shown, desk), step="Make ready")
+    return [*rows, last._replace(go=None) if desk.packer.busy else last]
 
 
 def _problem(desk: PackDesk, pack: Pack, finding: PackFinding) -> Problem:

@@ -100,7 +100,9 @@ class Rack(ListView):
         return self._index_at(x, y) if self.contains(x, y) else None
 
     def _draw_cell(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        cell, chosen, (x, y, w, h) = self.cells[index], index == self.index, area
+        cell = self.cells[index]
+        chosen = index == self.index
+        x, y, w, h = area
         x += self.shift(index)
         inner = (x + 2, y + 2, w - 4, h - 4)
         lifted = cell.level is not None and cell.level.named.file in self.lifted
@@ -123,7 +125,7 @@ class Rack(ListView):
             theme.paragraph(surface, [text], place, 9, 12, colour=faint, align="centre")
 
     def _draw_level(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
-        canvas, palette, state, right = theme.canvas, theme.palette, self.status.state(level), x + WIDE - 12
+        palette, state = theme.palette, self.status.state(level)
         self.thumbnails.draw(surface, level, x, y, WIDE - 12)
         pars = level.pars if state not in (*NOT_CERTIFIED, NOT_FOUND) else None
         gold = pars is not None and pars.gold is not None and level.all_gold > 0
@@ -137,8 +139,9 @@ class Rack(ListView):
         if pars:
             theme.text(surface, pars.grade, x + w, y + 86, size=8.5, align="right", width=40)
         if self.status.checked and level.named.file in self.status.checked.places:
-            canvas.circle(surface, palette.panel, (right - 9, y + 9), 8)
-            theme.text(surface, "!", right - 9, y + 3, size=11, bold=True, colour=palette.bad, align="centre")
+            middle = x + WIDE - 21
+            theme.canvas.circle(surface, palette.panel, (middle, y + 9), 8)
+            theme.text(surface, "!", middle, y + 3, size=11, bold=True, colour=palette.bad, align="centre")
 
     def _draw_head(self, surface: pygame.Surface, theme: Theme, cell: PackCell, area: Area) -> None:
         x, y, w, h = area
@@ -167,7 +170,8 @@ class Marks(set[str]):
 
     def click(self, rack: Rack, index: int) -> bool:
         """Mark levels where Ctrl or Shift is down; whether it was. A click on another than those marked ends that."""
-        mods, level, clicked = pygame.key.get_mods(), rack.cells[index].level, rack.clicked.level
+        mods = pygame.key.get_mods()
+        level = rack.cells[index].level
         if not (level and mods & (pygame.KMOD_CTRL | pygame.KMOD_META | pygame.KMOD_SHIFT)):
             if not (level and level.named.file in self):
                 self.clear()
@@ -176,8 +180,8 @@ class Marks(set[str]):
             first, last = sorted((rack.index, index))
             self.update(cell.level.named.file for cell in rack.cells[first : last + 1] if cell.level)
             return True
-        if clicked and not self:
-            self.add(clicked.named.file)
+        if rack.clicked.level and not self:
+            self.add(rack.clicked.level.named.file)
         if self != {level.named.file}:
             self.symmetric_difference_update({level.named.file})
         return True

@@ -79,8 +79,9 @@ class ProblemsScreen(MenuScreen):
     def _offer(self) -> None:
         for what, button in self.buttons.items():
             button.enabled = bool(getattr(self.selected, what)) and not self._looks
-        step, go, accept = self.selected.step, self.buttons["go"], self.buttons["accept"]
-        go.text = step or "Go there"
+        step = self.selected.step
+        self.buttons["go"].text = step or "Go there"
+        accept = self.buttons["accept"]
         accept.text = "Take it back" if self.selected.accepted else "Accept it..."
         accept.hint = "It is a problem again" if self.selected.accepted else "With a reason, kept in the pack"
         self.list.hint = f"Enter or a second click: {step or 'go there'}" if self.selected.go else ""

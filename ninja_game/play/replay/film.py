@@ -174,7 +174,9 @@ def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, 
 
 def film_pictures(film: Film) -> Iterator[pygame.Surface]:
     """One picture per tick, always on the same surface. Raises as ``Film.moments`` does."""
-    moments, (w, h), runs = film.moments, film.size, (film.run, *film.beside)
+    moments = film.moments
+    w, h = film.size
+    runs = (film.run, *film.beside)
     splits: list[list[tuple[int, str]]] = [[]] * len(runs)
     if film.splits:
         from ninja_game.runs.compare import SPLIT_EVENTS, run_splits

@@ -153,7 +153,8 @@ class _Reader:
                 case ast.Compare(first, signs, rest):
                     return self.comparison(node, [first, *rest], signs)
                 case ast.BinOp(left, sign, right) if type(sign) in ARITHMETIC:
-                    do, a, b = ARITHMETIC[type(sign)], self.number(left), self.number(right)
+                    a, b = self.number(left), self.number(right)
+                    do = ARITHMETIC[type(sign)]
                     return _number(lambda view: do(a(view), b(view)))
                 case ast.Constant(int() | float() as value) if not isinstance(value, bool):
                     constant = np.float64(value if value < 10**308 else np.inf)

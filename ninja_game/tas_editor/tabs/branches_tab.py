@@ -93,12 +93,12 @@ class BranchesTab(Tab):
         number = self.chosen
         if number is None:
             return
-        app, session, old = self.editor.app, self.editor.session, self.branches.all[number].name
+        old = self.branches.all[number].name
 
         def renamed(text: str) -> None:
-            session.rename_branch(number, text.strip() or old)
+            self.editor.session.rename_branch(number, text.strip() or old)
 
-        ask_text(app, "Rename the branch", "its name", old, "Rename", renamed, _MAX_NAME)
+        ask_text(self.editor.app, "Rename the branch", "its name", old, "Rename", renamed, _MAX_NAME)
 
     def drop(self) -> None:
         number = self.chosen

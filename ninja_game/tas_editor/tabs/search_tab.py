@@ -40,8 +40,9 @@ _METHODS = (
 _ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST))
 _RESTS = (("end at the goal", False), ("then the rest", True))
 _NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
-_LEFT, _COLUMNS, _WIDTHS = 14, (228, 180, 120), (44, 58, 36)
-"""Starts of a result's cells, px: the first from the left of a row, others from its right; their widths."""
+_LEFT = 14  # start of a result's first cell from the left of its row, px
+_COLUMNS = (228, 180, 120)  # starts of the others from its right
+_WIDTHS = (44, 58, 36)
 _HEADS = ("Result", "Other from", "Ends at x, y", "Speed")
 _EXPLAINED = (
     "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "

@@ -98,7 +98,9 @@ class TileSheet:
     def on_tiles(self, areas: Iterable[pygame.Rect]) -> list[pygame.Rect]:
         """The areas with at least one px of a tile."""
         # Inlined, since a picture has a hundred of them.
-        (left, top), size, rows, rects = self._shift, 24 * self.canvas.scale, self._rows, []
+        left, top = self._shift
+        size = 24 * self.canvas.scale
+        rows, rects = self._rows, []
         for area in areas:
             x, y, w, h = area
             x, y = x - left, y - top

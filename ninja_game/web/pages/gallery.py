@@ -229,14 +229,18 @@ def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Pa
     ]
     if (out / BOARD / "index.html").is_file():
         links.append((f"../{BOARD}/index.html", "Board"))
-    site, game, near = address and f"{address}{GALLERY}/", f"../{frame.GAME_PAGE}", (*links, ("index.html", "Levels"))
+    site = address and f"{address}{GALLERY}/"
+    game = f"../{frame.GAME_PAGE}"
+    near = (*links, ("index.html", "Levels"))
     deeper = [(f"../{address}", title) for address, title in near]
     for digest, entry in shown.entries.items():
         pages.write(picture_name(digest), picture(entry.named.level))
         certificates = {}
         for kind, recording in shown.runs.get(digest, {}).items():
-            text, tick = shared_text(recording.replay, entry.named.level), recording.replay.final_tick
-            stem, title = sha256(text.encode()).hexdigest()[:16], f"{entry.title} {RUN_TITLES[kind].lower()}"
+            text = shared_text(recording.replay, entry.named.level)
+            tick = recording.replay.final_tick
+            stem = sha256(text.encode()).hexdigest()[:16]
+            title = f"{entry.title} {RUN_TITLES[kind].lower()}"
             certificates[RUN_TITLES[kind]] = stem, tick
             facts = [("Time", f"{seconds_text(tick)} s"), ("Made", str(recording.replay.made))]
             pages.write(f"{stem}.txt", text, replay=True)
