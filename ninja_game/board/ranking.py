@@ -53,6 +53,15 @@ class Standing:
     ranks: list[int] = field(default_factory=list)  #: places of the best runs in the first category
     behind: list[float] = field(default_factory=list)  #: shares by which these are slower than the best, unless far
 
+    def add(self, ranked: Ranked, best: int) -> None:
+        """Count the player's best run of a level in the first category. ``best``: ticks of the level's best."""
+        self.levels += 1
+        self.ranks.append(ranked.place)
+        if not ranked.far:
+            self.behind.append(ranked.run.tick / max(1, best) - 1)
+        if ranked.run.medal:
+            self.medals[ranked.run.medal] += 1
+
 
 class Ranking:
     """All rankings for the pages of a folder. ``name``, ``unknown``: as of BoardRules."""
@@ -197,12 +206,7 @@ class Ranking:
                     standing = players_of[ladder][ranked.run.player]
                     standing.records[category] += ranked.place == 1
                     if category is self.categories[0] and ranked.place:
-                        standing.levels += 1
-                        standing.ranks.append(ranked.place)
-                        if not ranked.far:
-                            standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
-                        if ranked.run.medal:
-                            standing.medals[ranked.run.medal] += 1
+                        standing.add(ranked, table[0].run.tick)
         return {
             ladder: sorted(players.values(), key=lambda item: (-sum(item.records.values()), -item.levels, item.player))
             for ladder, players in players_of.items()

@@ -14,6 +14,8 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.links import is_link
+from ninja_game.formats.recording import Recording
+from ninja_game.sim.level import Level
 
 MAX_BESIDE = 3
 
@@ -80,10 +82,7 @@ def film(
     path = output or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
     if path.exists() and any(not is_link(file) and path.samefile(file) for file in (replay, *ghosts, *beside)):
         raise click.UsageError("the film would replace the replay")
-    named = [[run for file in files for run in load_replays(file, level=level)] for files in (ghosts, beside)]
-    if any(all(run.level != part.level for part in parts) for runs in named for run in runs):
-        raise click.UsageError("--ghost, --beside: a run of another level")
-    ghosts_of, beside_of = ([tuple(run for run in runs if run.level == part.level) for part in parts] for runs in named)
+    ghosts_of, beside_of = _by_part(parts, ghosts, level), _by_part(parts, beside, level)
     most = max(map(len, beside_of))
     if most > MAX_BESIDE:
         raise click.UsageError(f"--beside: {most} runs; at most {MAX_BESIDE}")
@@ -115,3 +114,14 @@ def film(
     except OSError as error:
         raise NinjaGameError(f"{path}: the film cannot be written: {error.strerror}") from None
     click.echo(f"{shown_text(str(path))}: {length_of(films)} ticks{size_note(path)}")
+
+
+def _by_part(parts: Sequence[Recording], files: Sequence[Path], level: Level | None) -> list[tuple[Recording, ...]]:
+    """The runs of files that a film shows with each of its parts. Raises UsageError for a run of another level."""
+    from ninja_game.formats.load import load_replays
+
+    runs = [run for file in files for run in load_replays(file, level=level)]
+    levels = [part.level for part in parts]
+    if any(run.level not in levels for run in runs):
+        raise click.UsageError("--ghost, --beside: a run of another level")
+    return [tuple(run for run in runs if run.level == level) for level in levels]

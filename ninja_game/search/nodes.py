@@ -268,24 +268,25 @@ def keep_state(words: StateWords, initial: StateWords, node: Node, arrays: Searc
     chunk = -1
     count = 0
     for k in range(len(words)):
-        if words[k] != initial[k] or k == 0:
-            if count % CHUNK == 0:
-                free = counters.free_chunk
-                if free < 0:
-                    if first >= 0:
-                        arrays.chunk_next[chunk] = -1
-                        free_state(first, arrays)
-                    return False
-                counters.free_chunk = arrays.chunk_next[free]
-                if first < 0:
-                    first = free
-                else:
-                    arrays.chunk_next[chunk] = free
-                chunk = free
-            place = chunk * CHUNK + count % CHUNK
-            arrays.chunk_index[place] = k
-            arrays.chunk_value[place] = words[k]
-            count += 1
+        if words[k] == initial[k] and k > 0:
+            continue
+        if count % CHUNK == 0:
+            free = counters.free_chunk
+            if free < 0:
+                if first >= 0:
+                    arrays.chunk_next[chunk] = -1
+                    free_state(first, arrays)
+                return False
+            counters.free_chunk = arrays.chunk_next[free]
+            if first < 0:
+                first = free
+            else:
+                arrays.chunk_next[chunk] = free
+            chunk = free
+        place = chunk * CHUNK + count % CHUNK
+        arrays.chunk_index[place] = k
+        arrays.chunk_value[place] = words[k]
+        count += 1
     arrays.chunk_next[chunk] = -1
     node.chunk = first
     node.words = count

@@ -67,6 +67,10 @@ def level_source(origin: Origin) -> LevelSource:
         if any(part.largest is not None for part in parts):
             raise ArgumentError("'bench:…' is a source of its own; expected it alone, not in a list with others")
         return LevelSource([n for p in parts for n in p.names], [level for p in parts for level in p.levels])
+    return _level_source_by_text(origin)
+
+
+def _level_source_by_text(origin: str) -> LevelSource:
     if "\n" in origin or "|" in origin:
         return _named(parse_levels(origin))
     word, _, rest = origin.partition(":")

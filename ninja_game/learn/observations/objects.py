@@ -179,18 +179,19 @@ def observe_objects(
         count_here = 0
         for object_ in range(bounds[2 * level], bounds[2 * level + 1]):
             o = w.objects[objects[object_].slot]
-            if is_there(w, o):
-                x, y = contact_place_of(o)
-                distance = (x - n.x) * (x - n.x) + (y - n.y) * (y - n.y)
-                if count_here < count or distance < distances[base + count - 1]:
-                    count_here = min(count_here + 1, count)
-                    place = base + count_here - 1
-                    while place > base and distance < distances[place - 1]:
-                        distances[place] = distances[place - 1]
-                        nearest[place] = nearest[place - 1]
-                        place -= 1
-                    distances[place] = distance
-                    nearest[place] = object_
+            if not is_there(w, o):
+                continue
+            x, y = contact_place_of(o)
+            distance = (x - n.x) * (x - n.x) + (y - n.y) * (y - n.y)
+            if count_here < count or distance < distances[base + count - 1]:
+                count_here = min(count_here + 1, count)
+                place = base + count_here - 1
+                while place > base and distance < distances[place - 1]:
+                    distances[place] = distances[place - 1]
+                    nearest[place] = nearest[place - 1]
+                    place -= 1
+                distances[place] = distance
+                nearest[place] = object_
         width = len(ranges)
         for j in range(offset, offset + count * width):
             out[index, j] = 0.0

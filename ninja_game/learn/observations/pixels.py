@@ -242,8 +242,9 @@ class Pixels(Part):
         sizes = {kind.number: (kind.disc or kind.box or PLAIN_SIZE, kind.box is not None) for kind in OBSERVED}
         sizes[kinds.DOOR] = HALF, False
         layers = np.zeros((1, 1) if self.view else (context.count, self.length), self.box.dtype)
-        wide, high, rounded = across + 2 * margins[1][0], down + 2 * margins[0][0], int(not self.normalised)
-        frame = Frame(self.width, 0.0, 0.0, pixel_x, pixel_y, 0, self.width - 1, 0, self.height - 1, rounded)
+        right, bottom = self.width - 1, self.height - 1
+        frame = Frame(self.width, 0.0, 0.0, pixel_x, pixel_y, 0, right, 0, bottom, int(not self.normalised))
+        wide, high = across + 2 * margins[1][0], down + 2 * margins[0][0]
         return (
             observe_pixels,
             context.values(picture, self.box.dtype),
@@ -326,24 +327,29 @@ def observe_pixels(
                     number = start + layers.movers[place]
                     o = w.objects[things[number].slot]
                     size = things[number].size
-                    area = area_of(o, size, 0.0)
-                    if is_covered(number - start, level, layers.later, area) != (turn == 1):
-                        continue
-                    if not turn:
+                    covered = is_covered(number - start, level, layers.later, area_of(o, size, 0.0))
+                    if not covered and turn == 0:
                         draw_object(o, picture, frame, size, things[number].box == 1, things[number].shade)
-                        continue
-                    near = area_of(o, size, max(pixel_x, pixel_y) + 2.0 * ROUNDING)
-                    first_column, last_column, first_row, last_row = pixels_of(area, frame)
-                    wide = last_column + 1 - first_column
-                    for line in range(first_row, last_row + 1):
-                        line_start = line * width + first_column
-                        source = corner + line_start
-                        copy_values(picture[line_start : line_start + wide], tiles[source : source + wide], wide)
-                    part = Frame(
-                        width, 0.0, 0.0, pixel_x, pixel_y, first_column, last_column, first_row, last_row, whole.rounded
-                    )
-                    draw_objects(w, picture, part, things, start, end, near, True)
+                    elif covered and turn == 1:
+                        redraw_under(o, size, w, picture, frame, tiles[corner:], things, start, end)
         paint(picture, frame, w.ninja.x, w.ninja.y, RADIUS, RADIUS, True, view.ninja_shade)
+
+
+@fast
+def redraw_under(
+    o: Any, size: float, w: Any, picture: Any, frame: Any, tiles: Any, things: Any, start: int, end: int
+) -> None:
+    """Draw the area of an object again: its tiles, then all objects near it in order."""
+    first_column, last_column, first_row, last_row = pixels_of(area_of(o, size, 0.0), frame)
+    wide = last_column + 1 - first_column
+    for line in range(first_row, last_row + 1):
+        line_start = line * frame.width + first_column
+        line_end = line_start + wide
+        copy_values(picture[line_start:line_end], tiles[line_start:line_end], wide)
+    x, y = frame.pixel_x, frame.pixel_y
+    part = Frame(frame.width, 0.0, 0.0, x, y, first_column, last_column, first_row, last_row, frame.rounded)
+    near = area_of(o, size, max(x, y) + 2.0 * ROUNDING)
+    draw_objects(w, picture, part, things, start, end, near, True)
 
 
 @fast
