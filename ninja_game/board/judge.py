@@ -177,11 +177,10 @@ class _Judging:
         self._folder, self._shown, self._memo = folder, shown, memo
         self._episodes = {episode.key: episode.levels for episode in shown.levels.episodes.values()}
         # Twice as long as a run within the time can be.
-        longest = [
-            2 * (LIFETIME + GOLD_BONUS * sum(level.all_gold for level in levels)) * tick_cost(entry.named.level)
-            for levels in [*self._episodes.values(), *([entry] for entry in shown.entries.values())]
-            for entry in levels
-        ]
+        longest = []
+        for levels in [*self._episodes.values(), *([entry] for entry in shown.entries.values())]:
+            ticks = 2 * (LIFETIME + GOLD_BONUS * sum(entry.all_gold for entry in levels))
+            longest += [ticks * tick_cost(entry.named.level) for entry in levels]
         self._budget = min(RUN_BUDGET, max(longest, default=RUN_BUDGET))
         self._context = values_digest([program(), self._budget, sorted(shown.entries), sorted(self._episodes)])
         self._waiting: deque[JudgedFile] = deque()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from difflib import get_close_matches
-from functools import reduce
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -126,7 +125,13 @@ class PixelSize(click.ParamType):  # type: ignore[type-arg, unused-ignore]
 
 def together(*options: Callable[[F], F]) -> Callable[[F], F]:
     """Several options as one, in this order."""
-    return lambda command: reduce(lambda decorated, option: option(decorated), reversed(options), command)
+
+    def decorate(command: F) -> F:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return decorate
 
 
 window_options = together(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -35,13 +36,13 @@ def table_of(group: Sequence[RunSplits], against: Sequence[RunSplits]) -> Table:
 
 def titles(recordings: Sequence[Recording]) -> list[str]:
     """Distinct names of recordings: their own, or file and record if that is missing or not unique."""
-    names = [shown_text(recording.name) for recording in recordings]
-    return [
-        name
-        if name and names.count(name) == 1
-        else f"{shown_text(Path(recording.file).name.removesuffix(REPLAY_SUFFIX))}:{recording.record}"
-        for name, recording in zip(names, recordings, strict=True)
-    ]
+    titles = [shown_text(recording.name) for recording in recordings]
+    unique = [title for title, number in Counter(titles).items() if title and number == 1]
+    for number, recording in enumerate(recordings):
+        if titles[number] not in unique:
+            file = Path(recording.file).name.removesuffix(REPLAY_SUFFIX)
+            titles[number] = f"{shown_text(file)}:{recording.record}"
+    return titles
 
 
 def show(tables: Sequence[Table]) -> None:

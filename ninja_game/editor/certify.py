@@ -437,7 +437,8 @@ def place_before(draft: Draft, place: tuple[float, float], size: Cell = SIZE) ->
     ]
 
     def rank(strip: list[Cell]) -> tuple[bool, int, int]:
-        floor, upright = -sum(draft.tile((x, y + 1)) != EMPTY for x, y in strip), strip[0][0] == column
+        floor = -sum(draft.tile((x, y + 1)) != EMPTY for x, y in strip)
+        upright = strip[0][0] == column
         return (upright, floor, -len(strip)) if upright else (upright, -len(strip), floor)
 
     for strip in sorted(strips, key=rank):

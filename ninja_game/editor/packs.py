@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from itertools import chain, count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +16,7 @@ from ninja_game.editor.files import SUFFIX, ascii_text, draft_of, open_source, s
 from ninja_game.editor.pack_steps import move_folder, noted, write_file
 from ninja_game.errors import PackError
 from ninja_game.files.reading import read_bytes, read_utf8
-from ninja_game.files.shown_text import counted, file_stem, name_problem, shown_text
+from ninja_game.files.shown_text import counted, file_stem, name_problem, shown_text, unused_name
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
@@ -258,9 +257,7 @@ def rename_level(file: Path, name: str) -> None:
 def duplicate(path: Path, level: NamedLevel) -> str:
     """A copy of a level in the folder, by a name that no level there has; its file's name."""
     names = {other.name for other in Pack(path).levels.values()}
-    first = f"{level.name} copy"
-    copies = chain([first], (f"{first} {number}" for number in count(2)))
-    return _write_level(path, replace(draft_of(level), name=next(name for name in copies if name not in names)))
+    return _write_level(path, replace(draft_of(level), name=unused_name(f"{level.name} copy", names)))
 
 
 def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:

@@ -366,13 +366,14 @@ def behind(cells: list[Cell], tile: int) -> list[Cell]:
     """Of a line of slopes or curves, the cells on their solid side where two touch only at a corner."""
     filling = (family.tiles for family in FAMILIES if family.key != "5")
     quarter = next((tiles.index(tile) for tiles in filling if tile in tiles), -1)
-    return [
-        corner
-        for (dx, dy), of in _AIR.items()
-        for (ax, ay), (bx, by) in pairwise(cells if of == quarter else [])
-        if (ax, ay) != (bx, by)
-        for corner in {(ax - dx, ay), (ax, ay - dy)} & {(bx - dx, by), (bx, by - dy)}
-    ]
+    if quarter < 0:
+        return []
+    dx, dy = next(air for air, of in _AIR.items() if of == quarter)
+    corners = list[Cell]()
+    for (ax, ay), (bx, by) in pairwise(cells):
+        if (ax, ay) != (bx, by):
+            corners += {(ax - dx, ay), (ax, ay - dy)} & {(bx - dx, by), (bx, by - dy)}
+    return corners
 
 
 def sloped(before: Draft, after: Draft) -> Draft:

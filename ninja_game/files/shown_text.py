@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
+from itertools import chain, count
 from unicodedata import category, normalize
 
 MAX_SHOWN = 200  # most characters shown; no name of a level or player comes near
@@ -69,6 +70,16 @@ def shown_character(character: str) -> str:
 
 def _escape(character: str) -> str:
     return character.encode("unicode_escape").decode("ascii")
+
+
+def unused_name(name: str, taken: Container[str]) -> str:
+    """The name, with a number from 2 on behind it if it is taken.
+
+    >>> unused_name("Cave", ("Cave", "Cave 2"))
+    'Cave 3'
+    """
+    names = chain([name], (f"{name} {number}" for number in count(2)))
+    return next(free for free in names if free not in taken)
 
 
 def file_stem(text: str, otherwise: str = "") -> str:

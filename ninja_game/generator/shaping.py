@@ -63,7 +63,8 @@ def fitted(ink: Ink, *, even: bool) -> NDArray[np.int64]:
 def shaped(ink: Ink, *, even: bool) -> dict[tuple[int, int], str]:
     """The tile of every cell that is not empty; paint that is mirrored gives mirrored tiles."""
     tiles, other = fitted(ink, even=even), fitted(ink[:, ::-1], even=even)
-    turned = [next(k for k, mask in enumerate(masks()) if (mask == grid[:, ::-1]).all()) for grid in masks()]
+    by_mask = {mask.tobytes(): tile for tile, mask in enumerate(masks())}
+    turned = [by_mask[mask[:, ::-1].tobytes()] for mask in masks()]
     half = COLUMNS // 2 + 1
     tiles[:, half:] = np.array(turned)[other[:, ::-1]][:, half:]
     return {(c + 1, r + 1): TILE_CHARS[tiles[r, c]] for r in range(ROWS) for c in range(COLUMNS) if tiles[r, c]}

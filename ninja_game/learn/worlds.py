@@ -222,7 +222,7 @@ class EnvWorlds:
         self.memory, self.threads = self._worlds.name, thread_count(threads)
         self._changed = np.ones(count, np.bool_)
         fresh = self._worlds.initial_levels(range(len(loaded)))
-        max_objects = self._worlds.slots * self._unbounded
+        max_objects = self._worlds.slots if self._unbounded else 0
         context = PartContext(
             self._worlds, fresh, self._changed, time_limit, self.memory == "compiled", max_objects=max_objects
         )

@@ -82,13 +82,15 @@ def _is_name(value: Any) -> bool:
 
 
 def _is_bindings(value: Any) -> bool:
-    return isinstance(value, Mapping) and all(
-        isinstance(action, str)
-        and isinstance(inputs, (list, tuple))
-        and len(inputs) <= MAX_INPUTS
-        and all(isinstance(name, str) and name.isprintable() for name in inputs)
-        for action, inputs in value.items()
-    )
+    if not isinstance(value, Mapping):
+        return False
+    return all(isinstance(action, str) and _are_inputs(inputs) for action, inputs in value.items())
+
+
+def _are_inputs(value: Any) -> bool:
+    if not isinstance(value, list | tuple) or len(value) > MAX_INPUTS:
+        return False
+    return all(isinstance(name, str) and name.isprintable() for name in value)
 
 
 def _bindings_of(bindings: Mapping[str, Sequence[str]]) -> InputNames:
@@ -277,6 +279,7 @@ def _changed_text(path: Path, before: Settings, after: Settings) -> str:
     import tomlkit
     from tomlkit.exceptions import TOMLKitError
 
+    changed = [name for name in SPECS if getattr(before, name) != getattr(after, name)]
     why = "damaged"
     try:
         with _long_numbers():
@@ -284,9 +287,8 @@ def _changed_text(path: Path, before: Settings, after: Settings) -> str:
             parse_toml(text, any_number=True)
             document = tomlkit.parse(text)
             if document.get("version", SETTINGS_VERSION) == SETTINGS_VERSION:
-                for name in SPECS:
-                    if getattr(before, name) != getattr(after, name):
-                        _put(document, name, getattr(before, name), getattr(after, name))
+                for name in changed:
+                    _put(document, name, getattr(before, name), getattr(after, name))
                 text = document.as_string()
                 parse_toml(text, any_number=True)
                 return text

@@ -327,8 +327,11 @@ def nearest_state(ours: NDArray[np.float64], tick: int, theirs: NDArray[np.float
     """
     if not tick:
         return 0
-    moves, move = np.diff(theirs, axis=0, prepend=theirs[:1]), ours[tick - 1] - ours[max(tick - 2, 0)]
-    return int(np.argmin(np.hypot(*(theirs - ours[tick - 1]).T) + SPEED_AHEAD * np.hypot(*(moves - move).T))) + 1
+    place = ours[tick - 1]
+    speed = place - ours[max(tick - 2, 0)]
+    speeds = np.diff(theirs, axis=0, prepend=theirs[:1])
+    apart = np.hypot(*(theirs - place).T) + SPEED_AHEAD * np.hypot(*(speeds - speed).T)
+    return int(np.argmin(apart)) + 1
 
 
 def _nearest_on_path(

@@ -11,7 +11,7 @@ of a node; ``action``: the macro (macros.py) that leads from it to the scratch w
 
 from __future__ import annotations
 
-from ninja_game.search.heuristics import point_at
+from ninja_game.search.heuristics import UNREACHED, point_at
 from ninja_game.search.known_run import KnownRun, nearest_row
 from ninja_game.search.macros import (
     MAX_ROWS,
@@ -50,6 +50,10 @@ CHOICES = 10
 """Macros per state: three directions by three modes of the jump key, and waiting."""
 FOLLOW_CHOICES = 3
 """Rows of a known run from which a search follows it: the one nearest to the state, and its two neighbours."""
+FEWEST_FOLLOWED, FOLLOWED = 3, 24
+"""Ticks for which a known run is followed at once: the fewest, and how many numbers are drawn from there."""
+ROOM = 16
+"""Nodes and links for which there must be room before a node is expanded, more than it has children."""
 BOUND_SHARE = 0.4
 """Share of the estimate in the comparison of a node with the best run: fields may be too high. Not tuned."""
 MIN_GAIN = 0.5
@@ -109,7 +113,7 @@ def expand(
     counters = arrays.counters[0]
     stop = counters.ticks + budget
     while counters.ticks < stop and counters.fields_wanted == 0 and counters.ends - counters.other_ends < goal.ends:
-        full = counters.nodes + 16 > len(arrays.nodes) or counters.links + 16 > len(arrays.links)
+        full = counters.nodes + ROOM > len(arrays.nodes) or counters.links + ROOM > len(arrays.links)
         if full or counters.entries * 4 > len(arrays.table) * 3:
             return OUT_OF_NODES
         index = pop_lowest(arrays)
@@ -136,7 +140,8 @@ def expand(
                 copy_words(start.scratch, start.node)
                 played = 0
                 if known is not None:
-                    played = follow(start.levels[0], w, known.keys, first, 3 + random_below(counters, 24))
+                    limit = FEWEST_FOLLOWED + random_below(counters, FOLLOWED)
+                    played = follow(start.levels[0], w, known.keys, first, limit)
                 action = followed_code(first, played)
             counters.ticks += played
             if w.outcome == OUTCOME_RUNNING and played > 0:
@@ -272,7 +277,7 @@ def keep_child(
         known = backed_up.table[
             find_entry(backed_up.table, state_key(w, goal, switch_state, gold, backed_up.resolution))
         ]
-        if known.key != 0 and known.value < 1.0e8:
+        if known.key != 0 and known.value < UNREACHED:
             to_go = 0.0 + known.value
         else:
             to_go = source.to_go - played + resolution.off_table * played

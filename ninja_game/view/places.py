@@ -55,6 +55,12 @@ def hidden_by(things: Things, x: float, y: float, w: float, h: float) -> Iterato
     return (cost for a, b, cost in things if -_NEAR < a - x < w + _NEAR and -_NEAR < b - y < h + _NEAR)
 
 
+def _around(at: float, size: float, first: float, last: float) -> list[float]:
+    """Left or upper edges for a panel near a coordinate, within an area."""
+    step = (_AWAY + size / 2) / 6
+    return [min(max(first, at + k * step - size / 2), last - size) for k in range(-6, 7)]
+
+
 @lru_cache(maxsize=4)
 def solid_place(
     tiles: tuple[int, ...],
@@ -91,11 +97,8 @@ def solid_place(
     tops = [edge + k * apart for k in range(rows or int((_MAX_BOTTOM - h - edge) / 6))]
     if beside:
         things = tuple(thing for thing in things if away_from(thing[:2], *beside, 0, 0) < hypot(w, h) + 2 * _AWAY)
-        ends = (beside[0], w, WIDTH - edge), (beside[1], h, _MAX_BOTTOM)
-        lefts, tops = (
-            [min(max(edge, at + k * (_AWAY + size / 2) / 6 - size / 2), end - size) for k in range(-6, 7)]
-            for at, size, end in ends
-        )
+        lefts = _around(beside[0], w, edge, WIDTH - edge)
+        tops = _around(beside[1], h, edge, _MAX_BOTTOM)
     places = [(x, y) for x in lefts for y in tops]
     clear = [place for place in places if beside and _BESIDE - 1 <= away_from(beside, *place, w, h) < _AWAY + 4]
     x, y = min(clear or places, key=cost)

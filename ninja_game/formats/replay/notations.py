@@ -183,9 +183,11 @@ def write_libtas(inputs: bytes) -> str:
     """Write inputs for libTAS, one line per tick. Raises ReplayError for a jump that no keyboard can make."""
     _check_keyboard(inputs)
     numbers = {letter: keysym for keysym, letter in reversed(KEYSYMS.items())}
-    return "".join(
-        f"|K{':'.join(numbers[letter] for letter in KEY_NAMES[keys & KEYS_DOWN].strip('.'))}|\n" for keys in inputs
-    )
+    lines = []
+    for keys in inputs:
+        letters = KEY_NAMES[keys & KEYS_DOWN].strip(".")
+        lines.append("|K" + ":".join(numbers[letter] for letter in letters) + "|\n")
+    return "".join(lines)
 
 
 def _check_keyboard(inputs: bytes) -> None:

@@ -198,12 +198,12 @@ class WalkingEnemies(Figure):
 
     def press(self, x: float, y: float) -> None:
         self.drag(x, y)
-        self.toggle(
-            min(
-                self._of_kind(DOOR),
-                key=lambda o: abs(tiles.CENTRE_X[o.edge_1 // 4] - x) + abs(tiles.CENTRE_Y[o.edge_1 // 4] - y),
-            )
-        )
+
+        def distance(door: Object) -> float:
+            cell = door.edge_1 // 4
+            return abs(tiles.CENTRE_X[cell] - x) + abs(tiles.CENTRE_Y[cell] - y)
+
+        self.toggle(min(self._of_kind(DOOR), key=distance))
 
     def drag(self, x: float, y: float) -> None:
         """Dragging does nothing; only a press does."""

@@ -137,9 +137,12 @@ def distinct_routes(results: Iterable[SpanResult], *, measured: bool) -> list[Sp
 def _is_same_route(one: SpanResult, other: SpanResult) -> bool:
     if (one.own_route, one.gold) != (other.own_route, other.gold) or abs(one.ticks - other.ticks) > SAME_ROUTE_TICKS:
         return False
+    if not len(one.path) or not len(other.path):
+        return not len(one.path)
     ticks = np.arange(len(one.path))[:, np.newaxis] + np.arange(-SAME_ROUTE_TICKS, SAME_ROUTE_TICKS + 1)
-    there = other.path[np.clip(ticks, 0, len(other.path) - 1)] if len(other.path) else np.inf
-    return not len(one.path) or bool((np.abs(there - one.path[:, None]).max(2).min(1) <= SAME_ROUTE_PX).all())
+    there = other.path[np.clip(ticks, 0, len(other.path) - 1)]
+    apart = np.abs(there - one.path[:, np.newaxis]).max(2)  # px in x or y, by tick of the one and ticks around it
+    return bool((apart.min(1) <= SAME_ROUTE_PX).all())
 
 
 def target_of(task: SpanTask) -> int | None:

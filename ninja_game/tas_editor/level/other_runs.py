@@ -14,6 +14,7 @@ from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.files.bundled import bundled_replays
 from ninja_game.files.reading import SUFFIXES, Skipped, files_in
+from ninja_game.files.shown_text import unused_name
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import is_link
 from ninja_game.formats.n14.level_string import level_digest
@@ -148,8 +149,7 @@ def _free_name(recording: Recording, origin: Recording, taken: set[str]) -> str:
     """A unique name: its author, or its file and number, or its name."""
     # Records of N are often many by one author: their files and numbers tell them apart.
     known = recording.whose if recording.player != origin.author else recording.place or recording.name
-    name = known or "another run"
-    return next(free for free in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if free not in taken)
+    return unused_name(known or "another run", taken)
 
 
 class OtherRunScreen(ReplaysScreen):

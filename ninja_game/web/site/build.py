@@ -127,8 +127,8 @@ def _stamped(
     Above it icons, the manifest, and the files that name the version. ``about``: Pyodide's.
     """
     above = icons | {"manifest.webmanifest": json.dumps(_manifest(), indent=1).encode()}
-    parts = sorted((app | above).items())
-    known = digest_of(b"".join(f"{name} {len(content)}\n".encode() + content for name, content in parts))[:16]
+    parts = [f"{name} {len(content)}\n".encode() + content for name, content in sorted((app | above).items())]
+    known = digest_of(b"".join(parts))[:16]
     folder = f"app-{known}"
     build = {"version": __version__, "id": known, "pyodide": about, "sizes": {name: len(app[name]) for name in _LARGE}}
     templates = {name: app.pop(name) for name in TEMPLATES} | documents
