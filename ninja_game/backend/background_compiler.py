@@ -37,10 +37,9 @@ def start() -> None:
         folder = code_folder()
         folder.mkdir(parents=True, exist_ok=True)
         program = [sys.executable] if getattr(sys, "frozen", False) else [sys.executable, "-m", "ninja_game"]
-        command = [*program, "compile", "--background"]
         _STARTED.append(
             subprocess.Popen(  # noqa: S603 - this program itself
-                command,
+                [*program, "compile", "--background"],
                 stdin=quiet,
                 stdout=quiet,
                 stderr=quiet,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import click
@@ -18,6 +19,8 @@ from ninja_game.formats.recording import Recording
 from ninja_game.sim.level import Level
 
 MAX_BESIDE = 3
+
+_runs_option = partial(click.option, multiple=True, metavar="FILE", type=InputPath(dir_okay=False))
 
 
 @click.command()
@@ -36,21 +39,10 @@ MAX_BESIDE = 3
 @click.option(
     "--to", "last", type=click.IntRange(min=0), help="Last picture. [default: a second after the end; 20,000 at most]"
 )
-@click.option(
-    "--ghost",
-    "ghosts",
-    multiple=True,
-    metavar="FILE",
-    type=InputPath(dir_okay=False),
-    help="Show the runs of this file on the same level as ghosts; may be given several times.",
+@_runs_option(
+    "--ghost", "ghosts", help="Show the runs of this file on the same level as ghosts; may be given several times."
 )
-@click.option(
-    "--beside",
-    multiple=True,
-    metavar="FILE",
-    type=InputPath(dir_okay=False),
-    help="Show the runs of this file, three at most, in pictures of their own beside the first.",
-)
+@_runs_option("--beside", help="Show the runs of this file, three at most, in pictures of their own beside the first.")
 @click.option("--keys", is_flag=True, help="Show the keys that are down.")
 @click.option("--splits", is_flag=True, help="Show time and last splits, and how far others are behind (+).")
 @click.option("--gold", is_flag=True, help="With --splits: a split for each piece of gold, too.")

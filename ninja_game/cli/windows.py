@@ -60,11 +60,10 @@ def play(
     from ninja_game.play.main import main
     from ninja_game.tas_editor.opening import open_tas_editor
 
-    replay_path = str(replay) if replay is not None else None
     return main(
         path,
         body=body,
-        replay_path=replay_path,
+        replay_path=str(replay) if replay is not None else None,
         practice=practice,
         record=record,
         tas_editor=open_tas_editor,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from operator import attrgetter
 from pathlib import Path
 
@@ -141,6 +142,14 @@ class App:
         self.notice, self.notice_refuses = text, refuses
         self._notice_ms, self._notice_on = ms, self.top if here else None
         self.stack.redraw_all()
+
+    @contextmanager
+    def noting(self, what: str = "") -> Iterator[None]:
+        """Show a notice instead of an error of files or of the program within; ``what`` stands before its reason."""
+        try:
+            yield
+        except (NinjaGameError, OSError) as error:
+            self.notify(f"{what}{reason(error)}")
 
     def report_problems(self) -> None:
         """Show the problems with the player's files that have not been shown yet."""

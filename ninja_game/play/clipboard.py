@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pygame
 
 from ninja_game.editor.draft import Draft
-from ninja_game.errors import NinjaGameError, reason
+from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.links import level_link
 from ninja_game.formats.named_level import NamedLevel
@@ -37,12 +37,9 @@ def pasted_text() -> str:
 
 def copy_link(app: App, make: Callable[[], str], *, title: str) -> None:
     """Put a link into the clipboard: the address of the player's page with the text that ``make`` gives."""
-    try:
-        link = make()
-    except (NinjaGameError, OSError) as error:
-        app.notify(f"No link: {reason(error)}")
-        return
-    copy_text(app, app.settings.site + link, title=title, suffix=".link.txt", notice="Link copied")
+    with app.noting("No link: "):
+        link = app.settings.site + make()
+        copy_text(app, link, title=title, suffix=".link.txt", notice="Link copied")
 
 
 def copy_level_link(app: App, named: NamedLevel | Draft, title: str) -> None:

@@ -422,10 +422,8 @@ class DocumentCommands:
             self.app.push(Menu(self.app, f"Discard {name}?", [keep, ("Discard", discard, "It is lost")]))
 
         def try_to_recover() -> None:
-            try:
+            with self.app.noting():
                 recover()
-            except (NinjaGameError, OSError) as error:
-                self.app.notify(reason(error))
 
         rows: list[MenuRow] = [("Recover", try_to_recover, about), keep, ("Discard...", ask, "")]
         self.app.push(Menu(self.app, f"Not saved last time: {name}", rows))

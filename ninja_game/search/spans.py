@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -23,17 +24,8 @@ NODES = 300_000
 PART = 500_000
 """Ticks between two looks at the clock."""
 
-CELLS = (3.0, 4.0, 6.0, 8.0)
-_SPEEDS = (0.2, 0.35, 0.5)
-MACROS = (1, 2, 3, 4)
-JITTERS = (3, 5, 8)
-DELAYS = (4.0, 8.0, 16.0, 30.0)
-DISTANCES = (48.0, 64.0, 96.0, 160.0)
-PLACE_PRICES = (0.6, 0.9, 1.2)
-SPEED_PRICES = (0.5, 1.0, 2.0, 4.0)
-ENEMY_CELLS = (0.0, 24.0)
 LENGTHS = (40, 60, 90, 150)
-"""Values that are drawn for a search: see Resolution and KnownRun; ticks of a span. Not tuned, but widely spread."""
+"""Ticks of a span. Not tuned, but widely spread."""
 MIN_DELAY_FACTOR, MAX_DELAY_FACTOR = 0.5, 6.0
 """Factor of ``max_delay``: greater while searches are exhausted early, smaller while they are not."""
 FEW_TICKS, MANY_TICKS = 500_000, 2_000_000
@@ -54,15 +46,21 @@ class SpanSettings(NamedTuple):
 
 
 def draw_settings(random: np.random.Generator) -> SpanSettings:
+    """Settings of one search. Their values are not tuned, but widely spread."""
     resolution = Resolution(
-        cell=float(random.choice(CELLS)),
-        speed=float(random.choice(_SPEEDS)),
-        macro=int(random.choice(MACROS)),
-        jitter=int(random.choice(JITTERS)),
-        enemy_cell=float(random.choice(ENEMY_CELLS)),
+        cell=float(random.choice((3.0, 4.0, 6.0, 8.0))),
+        speed=float(random.choice((0.2, 0.35, 0.5))),
+        macro=int(random.choice((1, 2, 3, 4))),
+        jitter=int(random.choice((3, 5, 8))),
+        enemy_cell=float(random.choice((0.0, 24.0))),
     )
-    drawn = (float(random.choice(part)) for part in (DELAYS, DISTANCES, PLACE_PRICES, SPEED_PRICES))
-    return SpanSettings(resolution, *drawn)
+    return SpanSettings(
+        resolution,
+        max_delay=float(random.choice((4.0, 8.0, 16.0, 30.0))),
+        max_distance=float(random.choice((48.0, 64.0, 96.0, 160.0))),
+        place_price=float(random.choice((0.6, 0.9, 1.2))),
+        speed_price=float(random.choice((0.5, 1.0, 2.0, 4.0))),
+    )
 
 
 class SpanSearches:
@@ -144,29 +142,22 @@ class SpanSearches:
         return with_press_bits(self._inputs[:first] + span) if span else None
 
 
+@dataclass(eq=False)
 class RunShortener:
     """Shortens runs of one level that must collect ``gold`` pieces.
 
     ``submit`` gets every shorter run; ``spend`` gets the ticks and the cost of each part, and may end the work.
     """
 
-    def __init__(
-        self,
-        start: Start,
-        heuristics: Heuristics,
-        *,
-        gold: int,
-        seed: int,
-        submit: Callable[[bytes], None],
-        spend: Callable[[int, float], bool],
-    ) -> None:
-        self.start = start
-        self.heuristics = heuristics
-        self.gold = gold
-        self.seed = seed
-        self._submit = submit
-        self._spend = spend
-        self._local_searches = self._searches = 0
+    start: Start
+    heuristics: Heuristics
+    _: KW_ONLY
+    gold: int
+    seed: int
+    submit: Callable[[bytes], None]
+    spend: Callable[[int, float], bool]
+    _local_searches: int = 0
+    _searches: int = 0
 
     @cached_property
     def _spans(self) -> SpanSearches:
@@ -185,13 +176,13 @@ class RunShortener:
         def spend(played: int) -> bool:
             nonlocal left
             left -= played
-            return self._spend(played, played * SEARCH_COST) or left <= 0
+            return self.spend(played, played * SEARCH_COST) or left <= 0
 
         while not spend(0):
             self._searches += 1
             run = self._spans.shorter(inputs, seed=self.seed * 1000 + self._searches, spend=spend)
             if run:
-                self._submit(run)
+                self.submit(run)
                 inputs = self.search_locally(run, SHORT_LOCAL_TICKS)
         return inputs
 
@@ -201,11 +192,11 @@ class RunShortener:
         local_search = LocalSearch(self.start, inputs, gold=self.gold, seed=self.seed + 7919 * self._local_searches)
         for temperature in COOLING:
             until = local_search.played + ticks // len(COOLING)
-            while local_search.played < until and not self._spend(0, 0.0):
+            while local_search.played < until and not self.spend(0, 0.0):
                 before, best = local_search.played, local_search.ticks
                 local_search.run(min(SLICE, until - before), temperature=temperature)
-                self._spend(local_search.played - before, local_search.played - before)
+                self.spend(local_search.played - before, local_search.played - before)
                 if local_search.ticks < best:
-                    self._submit(local_search.best())
+                    self.submit(local_search.best())
             local_search.return_to_best()
         return local_search.best()

@@ -73,13 +73,12 @@ class TextEntry(Widget):
     def _press(self, event: pygame.Event) -> bool:
         *modifiers, key = chord(event).split("+")
         select, ctrl = "shift" in modifiers, "ctrl" in modifiers
-        edited = self.edited
         if key in ("left", "right"):
-            edited.step(1 if key == "right" else -1, word=ctrl, select=select)
+            self.edited.step(1 if key == "right" else -1, word=ctrl, select=select)
         elif key in ("home", "end"):
-            edited.go(0 if key == "home" else len(self.text), select=select)
+            self.edited.go(0 if key == "home" else len(self.text), select=select)
         elif key in ("backspace", "delete"):
-            edited.erase(1 if key == "delete" else -1, word=ctrl)
+            self.edited.erase(1 if key == "delete" else -1, word=ctrl)
         elif ctrl and not getattr(event, "mod", 0) & pygame.KMOD_ALT:
             return self._command(key)
         else:

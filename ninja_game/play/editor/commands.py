@@ -15,7 +15,7 @@ from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
 from ninja_game.editor.stamp import Stamp, level_stamp, with_stamp
 from ninja_game.editor.tools import TAKES, TOOLS
-from ninja_game.errors import LevelError, NinjaGameError, reason
+from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, STAMPS, free_path, short_path
 from ninja_game.formats.ascii.writer import headers_of
@@ -496,10 +496,8 @@ class EditorCommands(DocumentCommands):
 
     def _load(self, action: Action) -> None:
         """Load or keep something, and show a notice if its file cannot be read or written."""
-        try:
+        with self.app.noting():
             action()
-        except (NinjaGameError, OSError) as error:
-            self.app.notify(reason(error))
 
     def offer_recovered(self) -> None:
         """Ask what to do with a level that was open when the program crashed."""

@@ -341,8 +341,7 @@ class PalettePart(EditorPart):
         super().paint(surface, theme)
         x, y, w, h = self.area
         theme.canvas.fill_rect(surface, theme.palette.panel, x + 2, y, w - 4, h, 3)
-        label = self._palette.label
-        theme.text(surface, label, x + 5, y + h - 13, size=8, width=w - 83, height=13)
+        theme.text(surface, self._palette.label, x + 5, y + h - 13, size=8, width=w - 83, height=13)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         used = super().mouse(event, x, y)

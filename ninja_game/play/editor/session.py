@@ -420,12 +420,9 @@ class EditorSession:
 
     def copy_string(self) -> None:
         """Copy the level as an in-game string of N into the clipboard, or into a file where there is none."""
-        try:
+        with self.app.noting("This level cannot be written as N level code: "):
             text = write_level_string(self.draft.level, exact=True)
-        except NinjaGameError as error:
-            self.app.notify(f"This level cannot be written as N level code: {error}")
-            return
-        copy_text(self.app, text, title=self.name, suffix=".nlevel")
+            copy_text(self.app, text, title=self.name, suffix=".nlevel")
 
     def paste_string(self) -> None:
         """Replace the level by the one in the clipboard, in any format; this can be undone."""

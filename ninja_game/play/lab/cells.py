@@ -27,7 +27,7 @@ class GridOfCells(Figure):
     start = (163.0, 88.0)
 
     def numbers(self) -> list[tuple[str, str]]:
-        cell = cell_at(self.x, self.y)
+        cell = self.cell
         return [
             ("point", f"{self.x:.1f}, {self.y:.1f} px"),
             ("column", f"floor({self.x:.1f} / {CELL:g}) = {floor(self.x / CELL)}"),
@@ -37,7 +37,7 @@ class GridOfCells(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p, own = sheet.palette, cell_at(self.x, self.y)
+        p, own = sheet.palette, self.cell
         shade_border(sheet)
         sheet.grid()
         for cell in [own + offset for offset in NINE_CELLS if own and EXISTS[own + offset]]:
@@ -67,10 +67,6 @@ class CellsTouched(Figure):
 
     def drag(self, x: float, y: float) -> None:
         super().drag(max(x, CELL + RADIUS), max(y, CELL + RADIUS))
-
-    @property
-    def cell(self) -> int:
-        return cell_at(self.x, self.y)
 
     def numbers(self) -> list[tuple[str, str]]:
         cell, touched = self.cell, touched_cells(self.x, self.y, self.cell)
@@ -110,7 +106,7 @@ class NineCells(Figure):
         w = self.world
         before = save_plain(w)
         w.ninja.x, w.ninja.y = self.x, self.y
-        w.ninja.cell = cell_at(self.x, self.y)
+        w.ninja.cell = self.cell
         _, calls = traced(touch_objects, w)
         events = [EVENT_NAMES[event.kind] for event in w.events[: w.event_count]]
         restore_plain(w, before)
@@ -127,7 +123,7 @@ class NineCells(Figure):
 
     def draw(self, sheet: Sheet) -> None:
         p = sheet.palette
-        centre = cell_at(self.x, self.y)
+        centre = self.cell
         sheet.tiles(self.tiles)
         for number, offset in enumerate(NINE_CELLS, 1):
             cell = centre + offset

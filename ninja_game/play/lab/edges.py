@@ -75,10 +75,6 @@ class EdgeStates(Figure):
         self.side, self.is_open = tick // 40 % 4, tick // 80 % 2 == 1
         self.drag(180.0 + 24 * (tick // 160 % 3), 156.0)
 
-    @property
-    def cell(self) -> int:
-        return cell_at(self.x, self.y)
-
     def numbers(self) -> list[tuple[str, str]]:
         column, row = tiles.COLUMN[self.cell], tiles.ROW[self.cell]
         tile = self.tiles.tiles[self.cell]

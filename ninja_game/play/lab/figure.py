@@ -20,7 +20,7 @@ from ninja_game.files.bundled import data_folder
 from ninja_game.formats.ascii.reader import room_level
 from ninja_game.player.settings import Settings
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, UNIT_X, UNIT_Y
-from ninja_game.sim.grid import Point
+from ninja_game.sim.grid import Point, cell_at
 from ninja_game.sim.rules import CELL, HALF, INTERESTING, OFF
 from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.simulation import Simulation
@@ -279,6 +279,11 @@ class Figure:
 
     def reset(self) -> None:
         self.x, self.y = self.start
+
+    @property
+    def cell(self) -> int:
+        """The cell of the handle."""
+        return cell_at(self.x, self.y)
 
     def controls(self) -> Sequence[Control]:
         """Sliders and choices, at most four."""

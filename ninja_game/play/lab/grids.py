@@ -157,8 +157,7 @@ class LooseGrid(Figure):
         """The cells that a body at the handle tests: in the loose grid, in the normal one."""
         probe = Object()
         probe.x, probe.y = self.x, self.y
-        cell = cell_at(self.x, self.y)
-        return {cell + offset for offset in NINE_CELLS}, set(self.crowd.cells_of(probe))
+        return {self.cell + offset for offset in NINE_CELLS}, set(self.crowd.cells_of(probe))
 
     def numbers(self) -> list[tuple[str, str]]:
         (loose, normal), (nine, four) = self.works, self.asked()

@@ -7,7 +7,7 @@ from functools import partial
 
 import pygame
 
-from ninja_game.errors import LevelError, NinjaGameError, reason
+from ninja_game.errors import LevelError
 from ninja_game.formats.links import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
@@ -111,13 +111,11 @@ class LevelScreen(Screen):
         """Back to the level's start, at once; a level file that has changed is read again."""
         self.app.audio_output.quiet()
         self.playthrough.gave_up(self.attempt)
-        try:
+        with self.app.noting("The changed level cannot be played: "):
             if self.playthrough.restart():
                 self._start_level()
                 self.app.notify("The level's file has changed: this is the new level")
                 return
-        except (NinjaGameError, OSError) as error:
-            self.app.notify(f"The changed level cannot be played: {reason(error)}")
         self.play.retry(ignored=ignored)
 
     def retry_by_choice(self) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.errors import NinjaGameError, reason
+from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
@@ -118,15 +118,13 @@ class PackDesk(ThumbnailScreen):
 
         ``name``: for undo; "": it cannot be undone.
         """
-        done = True
-        try:
+        done = False
+        with self.app.noting():
             if name and not self.packer.steps.run(name, action):
                 return False
             if not name:
                 action()
-        except (NinjaGameError, OSError) as error:
-            self.app.notify(reason(error))
-            done = False
+            done = True
         self.app.top.enter()
         return done
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.errors import ArgumentError
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.formats.replay.notations import Marker, write_inputs
@@ -184,15 +184,12 @@ class RollCommands:
     def paste(self, *, between: bool = False) -> None:
         """Paste the clipboard's ticks over the present ones, or ``between``, and select them."""
         editor = self._editor
-        try:
+        with editor.app.noting("Not pasted: "):
             pasted = inputs_of_text(pasted_text(), "clipboard")
-        except NinjaGameError as error:
-            editor.app.notify(f"Not pasted: {error}")
-            return
-        first, count = editor.selection[0], len(pasted.keys)
-        if self._editor.edit_selected(lambda track: _with_pasted(track, first, pasted, between=between)):
-            editor.select(first, first + count)
-            editor.app.notify(f"{counted(count, 'tick')} pasted")
+            first, count = editor.selection[0], len(pasted.keys)
+            if editor.edit_selected(lambda track: _with_pasted(track, first, pasted, between=between)):
+                editor.select(first, first + count)
+                editor.app.notify(f"{counted(count, 'tick')} pasted")
 
     # --- markers ---
 

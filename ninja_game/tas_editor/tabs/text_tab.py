@@ -162,8 +162,7 @@ class TextTab(Tab):
 
     def _step(self, by: int) -> None:
         """Go to the line above or below; typed text is put in before."""
-        index = self.list.index
-        first, last = self.span(index)
+        first, last = self.span(self.list.index)
         if self.field.text.strip() == self._shown_text or self.put():
             self.editor.go(first - 1 if by < 0 else max(last, self.editor.cursor))
 
