@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -12,11 +12,7 @@ from ninja_game.budget import DATASET_MIB
 from ninja_game.cli.options import OLD_PATH, level_option, load_level_option, memory_option, output_option
 from ninja_game.cli.progress import with_progress
 from ninja_game.cli.terminal import print_error
-from ninja_game.formats.recording import Recording
 from ninja_game.sim.rules import LIFETIME
-
-if TYPE_CHECKING:
-    from ninja_game.learn.demonstrations import Demonstration
 
 
 @click.command(name="demonstrations")
@@ -90,7 +86,14 @@ def demonstrations(
     observation = parts[0] if len(parts) == 1 else list(parts)
     limit = max([LIFETIME, *(len(recording.inputs) for recording in recordings)])
     settings: dict[str, Any] = {"observation": observation, "flat": flat, "actions": actions, "time_limit": limit}
-    episodes = _playable(recordings, megabytes, memory=memory, **settings)
+    episodes = []
+    left_bytes = megabytes * 2**20
+    for recording in with_progress(recordings, "recording"):
+        try:
+            episodes.append(learn.demonstration(recording, memory=memory, most_bytes=left_bytes, **settings))
+            left_bytes -= learn.observation_size(episodes[-1].observations)
+        except learn.UnplayableRecordingError as error:
+            print_error(f"left out: {error}")
     if not episodes:
         raise ArgumentError("none of these recordings can be a demonstration")
     if output is not None:
@@ -101,18 +104,3 @@ def demonstrations(
     left_out = len(recordings) - len(episodes)
     text = f"{output or dataset}: {len(episodes)} demonstrations, {steps:,} steps, {passed} to the exit"
     click.echo(f"{text}, {left_out} left out" if left_out else text)
-
-
-def _playable(recordings: Sequence[Recording], megabytes: int, **settings: Any) -> list[Demonstration]:
-    """Demonstrations of the recordings that an agent could have made; the others are named."""
-    from ninja_game.learn.demonstrations import UnplayableRecordingError, demonstration, observation_size
-
-    episodes = []
-    left_bytes = megabytes * 2**20
-    for recording in with_progress(recordings, "recording"):
-        try:
-            episodes.append(demonstration(recording, most_bytes=left_bytes, **settings))
-            left_bytes -= observation_size(episodes[-1].observations)
-        except UnplayableRecordingError as error:
-            print_error(f"left out: {error}")
-    return episodes

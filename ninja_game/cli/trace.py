@@ -67,7 +67,7 @@ def trace(
         raise click.UsageError("--ticks and --after cannot be used together")
     if against_record is not None and not against:
         raise click.UsageError("--against-record needs --against")
-    if digests + bool(against) + bool(output) > 1:
+    if sum(map(bool, (digests, against, output))) > 1:
         raise click.UsageError("--digests, --against and --output cannot be used together")
     how = workers | {
         "level": options.load_level_option(level_path),

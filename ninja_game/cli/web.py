@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -15,10 +15,6 @@ from ninja_game.cli.commands import FAILED
 from ninja_game.cli.options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, jobs_option
 from ninja_game.files.bundled import data_folder
 from ninja_game.files.user_folder import cache_folder
-
-if TYPE_CHECKING:
-    from ninja_game.board.ranking import Ranking
-    from ninja_game.board.runs import Ledger
 
 
 def _address(_ctx: click.Context, _param: click.Parameter, value: str) -> str:
@@ -176,7 +172,7 @@ def board(
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
-    from ninja_game.board.report import board_text, check_confirmed, gone, moderate, plain, summary, unnamed
+    from ninja_game.board.report import board_news, board_text, check_confirmed, gone, moderate, plain, summary, unnamed
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.pages.frame import GAME_PAGE
@@ -205,7 +201,7 @@ def board(
     if data:
         write_atomically(data, board_text(judged, before), keep=[folder])
     if check:
-        return _show_news(ranking, before)
+        return _show_news(list(board_news(ranking, before)), summary(judged))
     for run in judged.rejected:
         click.echo(f"{run.kind}: {plain(run.file)}: {plain(run.why)}")
     for line in gone(ranking, before):
@@ -216,16 +212,12 @@ def board(
     return 0
 
 
-def _show_news(ranking: Ranking, before: Ledger) -> int:
-    """Print what has changed since an earlier board. FAILED: some of it may not."""
-    from ninja_game.board.report import board_news, summary
-
-    rows = list(board_news(ranking, before))
-    for _, line in rows:
+def _show_news(news: Sequence[tuple[bool, str]], sums: str) -> int:
+    """Print what has changed since an earlier board. ``news``: whether it may, and a line. FAILED: some may not."""
+    for _, line in news:
         click.echo(line)
-    text = summary(ranking.judged)
-    click.echo(text if rows else f"nothing has changed: {text}")
-    return 0 if all(allowed for allowed, _ in rows) else FAILED
+    click.echo(sums if news else f"nothing has changed: {sums}")
+    return 0 if all(allowed for allowed, _ in news) else FAILED
 
 
 board.add_command(ask)

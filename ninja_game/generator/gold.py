@@ -81,7 +81,7 @@ def hoard(scene: Scene, rng: Random) -> list[Point]:
 
 def gold_rows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     """A few pieces on a floor, the smallest floors first: for a guard, thwump or mine to watch."""
-    floors = sorted(scene.runs(), key=lambda run: (run.length > 6) + rng.random())
+    floors = sorted(scene.runs(), key=lambda run: (run.length > 6, rng.random()))
     for run in floors:
         count = min(run.length, 4)
         if count >= 2:
@@ -153,7 +153,7 @@ def lay_gold(scene: Scene, rng: Random) -> bool:
         for group in pattern(scene, rng):
             if done >= most or (len(scene.baits) > 6 and len(scene.gold) > MIN_PIECES):
                 break
-            both = [group, scene.twin(group)][: 1 + (rng.random() < 0.6)]
+            both = [group, scene.twin(group)] if rng.random() < 0.6 else [group]
             laid = sum([_lay(scene, points, count) for points in both])
             done += laid > 0
             if laid and pattern is dangers:

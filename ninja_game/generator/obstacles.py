@@ -313,7 +313,7 @@ def blocks(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     ]
     x, y = rng.choice(((1, 0), (0, 1), (2, 1), (2, -1), (3, 0)))
     for c, r in rng.sample(air, min(len(air), 3)):
-        steps = [(c + x * k, r + y * k) for k in range(2 + (x > 1))]
+        steps = [(c + x * k, r + y * k) for k in range(3 if x > 1 else 2)]
         if rng.random() < 0.7:
             steps += [mirrored(step) for step in steps]
         yield from (object_of(f"bounce block {c},{r}") for c, r in steps if (c, r) in scene.steps)

@@ -141,7 +141,9 @@ class TasSession:
             self._keep_undone(self._undone)
         began, opened = self.history.began, self._first.track
         made = (NONE if whole else self.track.made) + (taken or NONE)
-        edits = max(began.made.edits, made.edits * whole) + (edited and track.inputs != began.inputs)
+        edits = max(began.made.edits, made.edits if whole else 0)
+        if edited and track.inputs != began.inputs:
+            edits += 1
         made = replace(made, edits=edits)
         self.history.change(replace(track, made=opened.made if track.inputs == opened.inputs else made))
         self._follow(ticks)

@@ -190,12 +190,9 @@ def _play(entry: Entry, game: str) -> Content:
     return tag("p", tag("a", "Play this level", href=game + link, class_="button"))
 
 
-_PLURALS = {"gold": "gold"}
-
-
 def objects_text(entry: Entry) -> str:
     counts = Counter(KIND_NAMES[spec.kind] for spec in entry.named.level.objects if makes_object(spec))
-    texts = [counted(count, kind, _PLURALS.get(kind, "")) for kind, count in counts.most_common()]
+    texts = [counted(count, kind, kind if kind == "gold" else "") for kind, count in counts.most_common()]
     return ", ".join(texts) or "none"
 
 

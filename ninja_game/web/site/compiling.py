@@ -21,10 +21,8 @@ def without_lines(code: CodeType) -> CodeType:
     """Code without line numbers: entries without a line, each for up to eight units of code."""
     inner = tuple(without_lines(item) if isinstance(item, CodeType) else item for item in code.co_consts)
     eights, rest = divmod(len(code.co_code) // 2, 8)
-    table = b"\xff" * eights
-    if rest:
-        table += bytes([0xF7 + rest])
-    return code.replace(co_consts=inner, co_linetable=table)
+    last = bytes([0xF7 + rest]) if rest else b""
+    return code.replace(co_consts=inner, co_linetable=b"\xff" * eights + last)
 
 
 def bytecode(path: Path, folder: str) -> bytes:
