@@ -50,7 +50,7 @@ CHOICES = 10
 """Macros per state: three directions by three modes of the jump key, and waiting."""
 FOLLOW_CHOICES = 3
 """Rows of a known run from which a search follows it: the one nearest to the state, and its two neighbours."""
-FEWEST_FOLLOWED, FOLLOWED = 3, 24
+FEWEST_TICKS_FOLLOWED, DRAWN_TICKS_FOLLOWED = 3, 24
 """Ticks for which a known run is followed at once: the fewest, and how many numbers are drawn from there."""
 ROOM = 16
 """Nodes and links for which there must be room before a node is expanded, more than it has children."""
@@ -140,7 +140,7 @@ def expand(
                 copy_words(start.scratch, start.node)
                 played = 0
                 if known is not None:
-                    limit = FEWEST_FOLLOWED + random_below(counters, FOLLOWED)
+                    limit = FEWEST_TICKS_FOLLOWED + random_below(counters, DRAWN_TICKS_FOLLOWED)
                     played = follow(start.levels[0], w, known.keys, first, limit)
                 action = followed_code(first, played)
             counters.ticks += played
