@@ -62,6 +62,15 @@ def test_a_replay_that_lost_a_claim_is_recorded_anew_without_the_others(idea: Pa
     assert Path("again.replay.txt").read_text() == Path("run.replay.txt").read_text()
 
 
+def test_a_replay_without_a_name_gets_that_of_the_level_inside(idea: Path) -> None:
+    called("record", idea, "-o", "run.replay.txt")
+    text = re.sub("^name:.*\n", "", Path("run.replay.txt").read_text(), flags=re.MULTILINE)
+    idea.write_text(re.sub(r"(?<=level-data:\n)(.*\n)(?:  name.*\n)?", r"\1  name: Under the Hill\n", text))
+    assert called("record", idea, "-o", "named.replay.txt").output.startswith("named")
+    (recording,) = load_replays("named.replay.txt")
+    assert (recording.replay.name, recording.replay.level_name) == ("Under the Hill", "Under the Hill")
+
+
 def test_a_replay_with_wrong_claims_is_recorded_anew(idea: Path) -> None:
     called("record", idea, "-o", "run.replay.txt")
     edited = (
