@@ -73,6 +73,14 @@ def restore_plain(w: World, state: PlainState) -> None:
     w.event_count = 0
 
 
+def _world_in(state: PlainState) -> World:
+    """Make a world that is in a save-state."""
+    w = World()
+    w.objects += [Object() for _ in state[-1][1:]]
+    restore_plain(w, state)
+    return w
+
+
 class PlainWorlds(Worlds):
     """Worlds of plain Python objects. Raises LevelError as ``object_table`` does."""
 
@@ -197,7 +205,9 @@ class PlainWorlds(Worlds):
     def put_levels(self, numbers: Any, levels: Sequence[Level]) -> None:
         for number, level in zip(numbers.tolist(), levels, strict=True):
             self.maps[number], self.fresh[number] = load_plain(level, self.box)
-            self.worlds[number] = load_plain(level, self.box)[1]
+            self._fresh_states[number] = state = save_plain(self.fresh[number])
+            self.worlds[number] = _world_in(state)
+            self._show(number)
 
     def save_many(self, indices: Iterable[int]) -> list[PlainState]:
         return [save_plain(self.worlds[index]) for index in indices]
@@ -206,9 +216,9 @@ class PlainWorlds(Worlds):
         """Restore worlds. A world is rebuilt if its state is of another level."""
         for state, index, number in zip(states, indices, levels, strict=True):
             if self.level_of[index] != number:
-                self.worlds[index] = load_plain(self.levels[number], self.box)[1]
-                self.level_of[index] = number
-            restore_plain(self.worlds[index], state)
+                self.worlds[index], self.level_of[index] = _world_in(state), number
+            else:
+                restore_plain(self.worlds[index], state)
             self._show(index)
 
     def run_batch(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from functools import lru_cache
 from pathlib import Path
@@ -13,6 +13,7 @@ from typing import Any
 from ninja_game.board.players import folded
 from ninja_game.board.ranking import Ranking
 from ninja_game.board.runs import (
+    ASSISTED,
     DECISIONS,
     NO_LEDGER,
     OWN,
@@ -146,16 +147,21 @@ def moderate(
     *,
     decisions: Sequence[tuple[str, str]],
     reason: str,
+    tell: Callable[[str], object],
 ) -> None:
     """Write the keeper's decisions on the runs of ``files`` into a ledger.
 
-    ``decisions``: a file, a folder that ends in / or a player, and one of DECISIONS. Raises ArgumentError for one
+    ``decisions``: a file, a folder that ends in / or a player, and one of DECISIONS. ``tell``: how many runs they move
+    to a ladder, in a line for each. Raises ArgumentError for one
     without such runs, and for a reason that is too long, or missing where a run is rejected.
     """
     if len(reason) > MAX_REASON or (not reason and any(what == REJECTED for _, what in decisions)):
         raise ArgumentError(f"--reject: say why with --reason, in at most {MAX_REASON} characters")
     for name, what in decisions:
-        for row in _rows_of(name, _decidable(ledger, runs, files, what), what):
+        rows = _rows_of(name, _decidable(ledger, runs, files, what), what)
+        if what in (PLAYED, ASSISTED):
+            tell(f"ranked as {what}: {counted(len(rows), 'run')} of {plain(name)}")
+        for row in rows:
             run = row["level"], row["way"], row["file"], row["player"]
             decision = Decision(*run, what, reason, now.strftime(DATE))
             ledger.decisions[decision.key] = decision
@@ -182,7 +188,8 @@ def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str) -> list[dict[
     in_it = [row for row in rows if row["file"] == name or (name.endswith("/") and row["file"].startswith(name))]
     if chosen := in_it or [row for row in rows if folded(row["player"]) == folded(name)]:
         return chosen
-    raise _no_run(name, [row["file"] for row in rows], what, "in that file")
+    which = f"in that {'folder' if name.endswith('/') else 'file'}, or by that player"
+    raise _no_run(name, [row["file"] for row in rows], what, which)
 
 
 def _no_run(name: str, files: Sequence[str], what: str, which: str) -> ArgumentError:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.board_ranking import levels_option, ranking_of, rules_option
-from ninja_game.cli.options import NEW_FILE, OLD_FILE, OLD_FOLDER, jobs_option
+from ninja_game.cli.options import OLD_FILE, OLD_FOLDER, jobs_option, output_option
 from ninja_game.cli.tables import as_json, draw, show, table_of
 from ninja_game.cli.terminal import size_note, use_dummy_video
 from ninja_game.errors import ArgumentError
@@ -51,7 +51,7 @@ TYPED = (
 )
 @click.option("--category", metavar="NAME", help="One of the board's, or a part of its name. [default: the first]")
 @click.option("--assisted", is_flag=True, help="The ladder of runs that were edited or searched.")
-@click.option("-o", "--output", type=NEW_FILE, help="The picture, or the film.")
+@output_option("The picture, or the film.")
 @click.option("--json", "as_data", is_flag=True, help="Answer as JSON.")
 @jobs_option
 def ask(

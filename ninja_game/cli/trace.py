@@ -16,7 +16,7 @@ import click
 from ninja_game.cli import options
 from ninja_game.cli.commands import BAD_INPUT, FAILED
 from ninja_game.cli.progress import Readable, with_progress
-from ninja_game.cli.terminal import data_output
+from ninja_game.cli.terminal import data_output, say
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ MAX_TRACE_TICKS = 1_000_000  # longest trace that can be asked for: almost seven
 
 SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 """A comment like this names the section of the specification that a recording is about."""
+HOW_TO_KEEP = "To keep this table: -o run.csv; instead of it a line for each recording: --digests"
 
 
 @click.command()
@@ -152,7 +153,10 @@ def _write(traces: Readable[FiledTrace], output: Path | None, files: Sequence[Pa
         return  # no column heads are written before an error
     runs = chain([first], traces)
     if output is None:
-        write_csv(runs, data_output())
+        shown = data_output()
+        write_csv(runs, shown)
+        if shown.isatty():
+            say(HOW_TO_KEEP)
     elif output.suffix == ".npz":
         write_atomically(output, partial(write_trace_arrays, runs), keep=files)
     else:

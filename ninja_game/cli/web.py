@@ -186,7 +186,7 @@ def board(
         check_output(data, keep=[folder])
         check_ledger(data, folder)
     decisions = [*((name, "rejected") for name in reject), *((name, "disowned") for name in disown), *ladder]
-    decide = partial(moderate, decisions=decisions, reason=reason.strip())
+    decide = partial(moderate, decisions=decisions, reason=reason.strip(), tell=click.echo)
     same = keeps or check is not None
     ranking, before = ranking_of(
         folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, confirm=confirm, dates=dates,

@@ -37,15 +37,15 @@ def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> I
 def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
     """A recording as a replay of today with its level; names, markers, how it was made stay. Raises as above.
 
-    The one name in a record of N is its level's author: the player stays unknown.
+    One without a name gets that of the level inside. The one name in a record of N is its level's author: the player
+    stays unknown.
 
     If its claims are no longer true, it was edited: its text by hand, or its level.
     """
     old, level, inputs = recording.replay, recording.level, recording.inputs
+    name = old.name or old.level_name or recording.name
     with named_errors(recording):
-        new = record_replay(
-            level, inputs, body=recording.body, name=recording.name, author=recording.player, budget=budget
-        )
+        new = record_replay(level, inputs, body=recording.body, name=name, author=recording.player, budget=budget)
     markers = tuple(marker for marker in old.markers if marker.tick <= len(new.inputs))
     claimed, now = ((run.outcome, run.final_tick, run.gold, run.digest or new.digest) for run in (old, new))
     return replace(

@@ -21,7 +21,7 @@ from ninja_game.tas.tracks import InputTrack, first_different_index
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.tas_editor.span_pieces import WITHOUT_REST
 
-PATIENCE = 5.0  # seconds of a search before pieces of its span are proposed
+PATIENCE, STALLED = 5.0, 10.0  # seconds without a result, or a better one, before other searches are proposed
 CLOSING_SECONDS = 0.5  # longest wait for a cancelled search when the TAS editor is left
 
 COMPILING_SEARCHES = (
@@ -64,6 +64,7 @@ class SpanResults:
         self.better: tuple[SpanResult, ...] = ()
         self._last_results: tuple[SpanResult, ...] = ()
         self._preview: tuple[SpanResult, OtherRun] | None = None
+        self._gained_at = 0.0  #: seconds of the search up to its last gain
         self.search.start()
         self._started = monotonic()
         self.stopped = False  #: whether it was cancelled
@@ -195,7 +196,12 @@ class SpanResults:
             if run.missed_by is None
             and (own is None or run.score < own.score or (run.score == own.score and run.gold > own.gold))
         ]
-        self.better = tuple(distinct_routes(better, measured=bool(self.task.measure))[:KEPT])
+        kept = distinct_routes(better, measured=bool(self.task.measure))[:KEPT]
+        # A run beside that is only found again comes last.
+        kept.sort(key=lambda run: self._equal_run(run) is not None)
+        if [run.score for run in kept] != [run.score for run in self.better]:
+            self._gained_at = self.search.seconds
+        self.better = tuple(kept)
 
     def words(self, result: SpanResult) -> tuple[str, ...]:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
@@ -218,12 +224,13 @@ class SpanResults:
 
     @property
     def in_vain(self) -> bool:
-        """Whether an earlier end was searched for a while, or all there is, and nothing reaches it."""
+        """Whether an earlier end was searched for a while without a gain, or all there is."""
         search, task = self.search, self.task
-        late = search.ticks_run and (search.seconds > PATIENCE or not (self.running or self.stopped))
+        patience = STALLED if any(run.missed_by is None for run in self.better) else PATIENCE
+        late = search.seconds - self._gained_at > patience or not (self.running or self.stopped)
         sooner = not task.measure and (search.own is not None or task.rest or "won" in task.goal)
         fits = self.first_behind is not None and not isinstance(search, RunSearch)
-        return bool(late and sooner and fits) and all(run.missed_by is not None for run in self.better)
+        return bool(search.ticks_run and late and sooner and fits)
 
     @property
     def status(self) -> str:

@@ -9,14 +9,16 @@ import numpy as np
 import pytest
 
 from ninja_game import Level, Simulation, parse_level
+from ninja_game.backend import plain
 from ninja_game.backend.kernels import run_worlds
 from ninja_game.backend.layout import OBJECT_DTYPE
-from ninja_game.backend.memories import MemoryUnavailableError, compiled, compiled_available
+from ninja_game.backend.memories import MemoryUnavailableError, compiled, compiled_available, open_worlds
 from ninja_game.batch.batch import OBJECT_FIELDS, Batch
 from ninja_game.batch.thread_pool import ThreadPool
 from ninja_game.errors import ArgumentError, LevelError
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import DRONE, EXIT, MINE
+from ninja_game.sim.loader import object_table
 from ninja_game.sim.states import OUTCOME_NAMES
 from tests.support.learning import FLOOR, LEVELS
 from tests.support.memories import BOTH
@@ -139,6 +141,23 @@ def test_a_world_of_a_smaller_level_shows_nothing_of_the_larger_one(memory: str)
     assert batch.objects["x"][0].any()
     batch.reset(0, levels=1)
     assert not batch.objects["x"][0, int(batch.used[0]) :].any()
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_a_world_in_a_level_that_replaced_another_starts_afresh_in_it(
+    memory: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loaded: list[Level] = []
+    monkeypatch.setattr(plain, "object_table", lambda level: loaded.append(level) or object_table(level))
+    worlds = open_worlds(memory, LEVELS, len(LEVELS), box=True)
+    worlds.load(range(len(LEVELS)), range(len(LEVELS)))
+    del loaded[:]
+    worlds.put_levels(np.array([0, 1]), [LEVELS[2], LEVELS[2]])
+    assert len(loaded) == (2 if memory == "plain" else 0), "a level is loaded once"
+    expected = worlds.states[0].tobytes()
+    worlds.run(bytes([2] * 20), 0)
+    worlds.load([0], [0])
+    assert worlds.states[0].tobytes() == expected == open_worlds(memory, LEVELS[2:], 1, box=True).states[0].tobytes()
 
 
 @pytest.mark.parametrize("memory", BOTH)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -47,6 +48,27 @@ def test_record_never_replaces_what_a_person_wrote(idea: Path) -> None:
     assert called("record", idea).stdout.startswith("idea-2.replay.txt"), "the name is taken"
     assert called("record", idea, "-o", "idea.replay.txt").exit_code == 2
     assert called("record", idea, "-o", "idea.replay.txt", "--force").exit_code == 0
+
+
+@pytest.mark.parametrize("header", ["rules", "body"])
+def test_a_replay_that_lost_a_claim_is_recorded_anew_without_the_others(idea: Path, header: str) -> None:
+    called("record", idea, "-o", "run.replay.txt")
+    idea.write_text(re.sub(f"^{header}:.*\n", "", Path("run.replay.txt").read_text(), flags=re.MULTILINE))
+    result = called("record", idea)
+    assert (result.exit_code, "take rules, outcome, gold, digest, waypoints out too" in result.stderr) == (2, True)
+    lost = r"^(rules|body|outcome|gold|digest):.*\n|^waypoints:\n(  .*\n)+"
+    idea.write_text(re.sub(lost, "", idea.read_text(), flags=re.MULTILINE))
+    assert called("record", idea, "-o", "again.replay.txt").exit_code == 0
+    assert Path("again.replay.txt").read_text() == Path("run.replay.txt").read_text()
+
+
+def test_a_replay_without_a_name_gets_that_of_the_level_inside(idea: Path) -> None:
+    called("record", idea, "-o", "run.replay.txt")
+    text = re.sub("^name:.*\n", "", Path("run.replay.txt").read_text(), flags=re.MULTILINE)
+    idea.write_text(re.sub(r"(?<=level-data:\n)(.*\n)(?:  name.*\n)?", r"\1  name: Under the Hill\n", text))
+    assert called("record", idea, "-o", "named.replay.txt").output.startswith("named")
+    (recording,) = load_replays("named.replay.txt")
+    assert (recording.replay.name, recording.replay.level_name) == ("Under the Hill", "Under the Hill")
 
 
 def test_a_replay_with_wrong_claims_is_recorded_anew(idea: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import os
 from pathlib import Path
@@ -13,6 +14,7 @@ from click.testing import CliRunner, Result
 
 from ninja_game import parse_level, trace_level
 from ninja_game.cli.main import cli
+from ninja_game.cli.trace import HOW_TO_KEEP
 from ninja_game.formats.n14.demo import write_demo
 from ninja_game.runs.trace import trace_digests
 from ninja_game.sim.inputs import Demo
@@ -39,6 +41,16 @@ def test_table_has_every_tick_with_velocity_state_and_events(memory: str, two: P
     assert float(rows[5]["vx"]) == float(rows[5]["x"]) - float(rows[5]["prev_x"]) > 0
     assert "won" in rows[WALK_END]["events"].split()
     assert rows[WALK_END]["gold"] == "1"
+
+
+def test_after_a_table_a_terminal_tells_what_is_shorter(two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    shown = io.StringIO()
+    monkeypatch.setattr(shown, "isatty", lambda: True, raising=False)
+    monkeypatch.setattr("ninja_game.cli.trace.data_output", lambda: shown)
+    assert trace(two).stderr.endswith(f"{HOW_TO_KEEP}\n")
+    assert len(shown.getvalue().splitlines()) > WALK_END, "all of it, as promised"
+    monkeypatch.undo()
+    assert "--digests" not in trace(two).stderr
 
 
 def test_objects_get_rows_of_their_own(two: Path) -> None:

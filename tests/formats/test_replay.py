@@ -124,7 +124,7 @@ def test_a_byte_that_is_no_input_is_refused() -> None:
         ("end\n", "", "a.txt:11: the replay is truncated; its last line is 'end'"),
         ("ninja-game", "ninja", "a.txt:1:1: not a replay of ninja-game; found 'ninja replay 3'; expected 'ninja-game"),
         ("body: circle", "body: square", "a.txt:5:7: an unknown body; found 'square'; expected circle or box"),
-        ("body: circle\n", "", "a.txt: an incomplete replay; expected a line with 'body'"),
+        ("body: circle\n", "", "a.txt:2: an incomplete replay; expected a line with 'body'; ~record"),
         ("body: circle", "bodi: circle", "a.txt:5:1: an unknown header; found 'bodi'; ~; did you mean 'body'?"),
         ("body: circle", "body circle", "a.txt:5:1: not a header line; found 'body circle'; expected key: value"),
         ("body: circle", "body: circle\nbody: box", "a.txt:6:1: a header given twice; found 'body'"),

@@ -568,6 +568,8 @@ def test_a_faster_near_copy_is_told_and_confirmed_by_a_command(runs: Path, level
         (site / name).read_text("utf-8") for name in (f"levels/{DIGEST[:16]}.html", "rejected.html", "waiting.html")
     )
     assert (waits in level, ">Waiting: 1</a>" in rejected, ">Waiting: 1</a>" in level) == (True, True, False)
+    player = (site / f"{player_page('Bob')}.html").read_text("utf-8")
+    assert [page.count('<a href="../waiting.html">1 run waits</a>') for page in (level, player)] == [1, 1]
     assert "<div>better.txt</div>" in waiting
     for does in ("--confirm better.txt", "--reject better.txt --reason 'not confirmed'"):
         assert f"<code>ninja-game board {runs.name} --json board.json {escape(does)}</code>" in waiting
@@ -648,7 +650,7 @@ def test_a_near_copy_alone_on_its_ladder_is_nowhere_first(runs: Path, levels: Pa
     assert f'<li class="card leader"><a href="#ranks-1">Fastest, played</a>{waits}</li>' in level
     assert ">Me</a>" not in all_levels
     (mine,) = (text for path in pages.glob("players/*.html") if "<title>Me -" in (text := path.read_text("utf-8")))
-    assert "Played Runs 1 Levels 0 All runs" in words_of(mine)
+    assert "Played Runs 1 Levels 0 1 run waits All runs" in words_of(mine)
 
 
 def test_a_clean_run_goes_before_the_players_own_near_copy(runs: Path, levels: Path) -> None:

@@ -91,7 +91,8 @@ def test_many_files_are_decided_on_at_once(ledger: Path, runs: Path, levels: Pat
     put(runs, "old/ann.txt", slow_walk(40, author="Old"))
     put(runs, "old/bea/2.txt", slow_walk(60, author="ann.txt"))
     words = "--json", str(ledger)
-    board(runs, levels, *words, "--ladder", "old/", "assisted", "--ladder", "BEA", "assisted")
+    moved_now = board(runs, levels, *words, "--ladder", "old/", "assisted", "--ladder", "BEA", "assisted").splitlines()
+    assert moved_now[:2] == ["ranked as assisted: 2 runs of old/", "ranked as assisted: 1 run of BEA"]
     rejected = "--reject", "ann.txt", "--reject", "tool.txt", "--reason", "spliced"
     board(runs, levels, *words, *rejected)
     decided = {row["file"]: row["what"] for row in json.loads(ledger.read_text("utf-8"))["decisions"]}
@@ -107,8 +108,9 @@ def test_many_files_are_decided_on_at_once(ledger: Path, runs: Path, levels: Pat
         (["--reject", "ann.txt"], "--reject: say why with --reason"),
         (["--reject", "ann.txt", "--reason", " "], "--reject: say why with --reason"),
         (["--reject", "ann.txt", "--reason", "x" * 301], "at most 300 characters"),
-        (["--reject", "dee.txt", "--reason", "x"], "no run of the ledger in that file; there are: ann.txt, bea.txt"),
-        (["--ladder", "dee.txt", "assisted"], "no run of the ledger in that file; there are: ann.txt, bea.txt"),
+        (["--reject", "dee.txt", "--reason", "x"], "in that file, or by that player; there are: ann.txt, bea.txt"),
+        (["--ladder", "dee.txt", "assisted"], "in that file, or by that player; there are: ann.txt, bea.txt"),
+        (["--reject", "old/", "--reason", "x"], "in that folder, or by that player; there are: ann"),
         (["--ladder", "ann.txt", "other"], "'other' is not one of"),
     ],
 )
@@ -317,7 +319,7 @@ def test_what_no_keyboard_can_do_is_put_on_the_assisted_ladder(runs: Path, level
         assert "no run of the ledger in that file" in told(runs, levels, *words, "--ladder", name, ladder)
     for more in (("--ladder", "demo.txt", "assisted", "--reason", "tools"), ()):
         said = board(runs, levels, *words, *more)
-        assert ("demo.txt" in said, "1 run by 1 player" in said) == (False, True)
+        assert ("refused: demo.txt" in said, "1 run by 1 player" in said) == (False, True)
         remark = "the jump key is down and was never pressed; moved to assisted by the keeper on 20"
         assert (remark in level_page(site), ">0.600<" in level_page(site)) == (True, True)
     (row,) = json.loads(ledger.read_text("utf-8"))["runs"]

@@ -23,6 +23,7 @@ W = TypeVar("W", bound=str)
 REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
 CLAIMS = ("rules", "outcome", "gold", "digest", "waypoints")
 """The headers that make claims; a replay without them only needs its inputs."""
+_HOW_TO_CLAIM = f"take {', '.join(CLAIMS)} out too: of inputs alone `ninja-game record` writes all of them again"
 SECTIONS = ("inputs", "level-data", "waypoints")
 REPLAY_KEYS = (
     *REQUIRED, "name", "author", "co-authors", "made", "level", "level-record", "level-digest", "digest", "demo-length",
@@ -67,7 +68,9 @@ class Headers:
         self.unclaimed = not any(key in self.lines for key in CLAIMS)
         missing = [repr(key) for key in (("inputs",) if self.unclaimed else REQUIRED) if key not in self.lines]
         if missing:
-            raise ReplayError("an incomplete replay", file, expected=f"a line with {', '.join(missing)}")
+            hint = "" if self.unclaimed or "inputs" not in self.lines else _HOW_TO_CLAIM
+            place, expected = lines[0][0] if lines else 1, f"a line with {', '.join(missing)}"
+            raise ReplayError("an incomplete replay", file, place, expected=expected, hint=hint)
 
     def section(self, key: str) -> list[Line]:
         return [(number, line) for number, line in self.lines.get(key, []) if line.strip()]

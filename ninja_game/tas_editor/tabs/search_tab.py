@@ -125,8 +125,15 @@ class SearchTab(Tab):
     # --- the task ---
 
     def focus_goal(self) -> None:
-        """Show this tab for the selected ticks, with the focus on the goal; without new ones it stays as it is."""
+        """Show this tab for the selected ticks, with the focus on the goal; without new ones it stays as it is.
+
+        Without a goal, in ticks in which the run dies, that is to reach the exit.
+        """
         self._follow_selection()
+        tick, outcome = self.editor.session.timeline.end
+        if not self.goal.text and not self.measure.text and outcome == "dead" and tick in range(*self.span):
+            name, _, make = PRESETS[0]
+            self._fill(name, make)
         self.editor.tab = self.name
         self.wants = self.goal
 

@@ -184,9 +184,9 @@ class LevelPages:
             shown.append(self._left_out("More than twice as slow", [row for ranks in same for row in ranks.far]))
             shown.append(self._left_out("Better, and waiting", [row for ranks in same for row in ranks.waiting]))
             leaders |= {ranks.leaderboard: self._leader(ranks, anchor) for ranks in same}
-        near = any(row.run.waits for same in merged.values() for ranks in same for row in (*ranks.rows, *ranks.waiting))
+        waits = self.parts.waiting_link(self.ranking.by_level[entry.digest])
         leads = [(name, name.capitalize()) for name, content in ((_RECORDS, first), (SPLITS, beside)) if content]
-        note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
+        note = tag("p", NEAR, waits) if waits else None
         top = tag("ul", *(leaders[part] for part in tables), class_="cards"), on_this_page(leads) if leads else None
         unknown = any(not row.run.made for same in merged.values() for ranks in same for row in ranks.rows)
         shown.append(tag("p", UNKNOWN_ORIGIN.format(self.ranking.unknown)) if unknown else None)
@@ -205,8 +205,7 @@ class LevelPages:
         parts, leaderboard, best = self.parts, ranks.leaderboard, ranks.rows[0]
         link = tag("a", self.ranking.leaderboard_name(leaderboard), href=f"#{anchor}")
         if best.place != 1:
-            number = len(self.ranking.tables[best.run.level][leaderboard])
-            waits = tag("a", counted(number, "run waits", "runs wait"), href=f"{UP}waiting.html")
+            waits = parts.waiting_link(row.run for row in self.ranking.tables[best.run.level][leaderboard])
             return tag("li", link, tag("p", waits, class_="facts"), class_="card leader")
         result, run = tag("strong", leaderboard[1].measured(best.values[0])), best.run
         about = tag("p", parts.player_link(run.player, UP), parts.watch_link([run], UP), run.day, class_="facts")

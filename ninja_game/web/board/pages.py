@@ -326,7 +326,8 @@ class BoardPages:
             link = tag("p", tag("a", note, href=f"{UP}{name}-records.html")) if records else None
             gains = self._gains(own)
             ahead = tag("p", tag("a", f"{GAINS}: {counted(len(gains), 'level')}", href=f"{UP}{name}-gains.html"))
-            self._runs_of(player, own, [*sums[player], link, ahead if gains else None])
+            waits = tag("p", waiting) if (waiting := parts.waiting_link(own)) else None
+            self._runs_of(player, own, [*sums[player], link, ahead if gains else None, waits])
             back = tag("p", tag("a", "All runs of the player", href=f"{UP}{name}.html"))
             if gains:
                 names = ("Level", self.main.unit, "Behind", "Place", "First", "Watch")

@@ -11,7 +11,7 @@ from ninja_game.board.categories import Category
 from ninja_game.board.memo import Memo, values_digest
 from ninja_game.board.ranking import Ranked, Ranking
 from ninja_game.board.runs import Run
-from ninja_game.files.shown_text import shown_text
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.levels.episodes import Entry
 from ninja_game.web.pages.frame import GAME_PAGE, LONG_CELL, REPLAYS, Content, Markup, Pages, joined, page, table, tag
@@ -113,6 +113,11 @@ class Parts:
         address = watch_address(up + self.game, *stems)
         label = f"{text}: {runs[0].player} on {runs[0].entry.title}"
         return tag("a", text, href=address, aria_label=label, class_="watch" if text == "Watch" else None)
+
+    def waiting_link(self, runs: Iterable[Run]) -> Content:
+        """A link from a deeper page to what waits, with the number of these runs that do; None for none."""
+        number = sum(bool(run.waits) for run in runs)
+        return tag("a", counted(number, "run waits", "runs wait"), href=f"{UP}waiting.html") if number else None
 
     def run_link(self, run: Run, up: str, text: str = "") -> Markup:
         """A link to the page of a run with the text ``text``, such as its time; by default to its replay."""

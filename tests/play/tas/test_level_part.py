@@ -25,12 +25,14 @@ from ninja_game.play.replay.screen import SPEEDS, ReplayScreen
 from ninja_game.runs.compare import SPEED_AHEAD
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, Demo, with_press_bits
 from ninja_game.tas.files import open_run, runs_of_level
+from ninja_game.tas.goals import PRESETS
 from ninja_game.tas.timeline import Timeline, apart_text
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen, RunFiles
 from ninja_game.tas_editor.level.part import nearest_tick, object_at
 from ninja_game.tas_editor.level.paths import shown_span
 from ninja_game.tas_editor.screen import TasScreen
+from ninja_game.tas_editor.tabs.search_tab import SearchTab
 from ninja_game.tas_editor.tabs.tab import LitButton
 from ninja_game.tas_editor.tabs.values_tab import ValuesTab
 from tests.support.own_pack import PACK
@@ -266,7 +268,12 @@ def test_where_a_joined_run_dies_the_ticks_from_the_joint_on_are_selected_for_a_
     assert at.editor.selection == (5, end + 1)
     assert at.app.notice.endswith(f"Now: {at.session.timeline.ending}; F searches other keys up to there")
     at.press("f")
-    assert at.screen.tabs[3].span == (5, end + 1)  # type: ignore[attr-defined]
+    tab = at.screen.tab
+    assert isinstance(tab, SearchTab)
+    assert (tab.goal.text, tab.span[0], tab.results) == ("won", 5, None), "Reach the exit sooner"
+    at.press("return")
+    assert tab.results is not None
+    assert tab.results.title.endswith(PRESETS[0][0])
     at.close()
 
 

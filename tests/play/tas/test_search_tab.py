@@ -247,6 +247,23 @@ def test_pieces_of_a_span_in_which_nothing_better_is_found_are_searched_by_a_cli
     assert not tab.pieces
 
 
+def test_a_search_that_has_stalled_proposes_the_whole_run(
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    at.editor.edit(lambda track: track.replaced(110, 110, bytes(40)))
+    for name in ("PATIENCE", "STALLED"):
+        monkeypatch.setattr(span_results, name, LONGEST)
+    wish(at, "Reach the exit sooner")
+    at.wait(lambda: bool(tab.better) and tab.better[0].missed_by is None, "a result")
+    at.frames(2)
+    assert tab.proposed is None
+    monkeypatch.setattr(span_results, "STALLED", 0.01)
+    at.wait(lambda: bool(tab.pieces), "pieces")
+    stopped(at, tab)
+    row(at, tab, len(tab.better))
+    assert (tab.method, results_of(tab).running) == (IMPROVE, True)
+
+
 @pytest.mark.usefixtures("nothing_found")
 @pytest.mark.parametrize("dies", [False, True])
 def test_the_way_to_the_exit_is_proposed_as_the_whole_run_too(at: TasDriver, tab: SearchTab, dies: bool) -> None:
@@ -723,6 +740,9 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     beside = replace(own, inputs=fast.inputs[: own.ticks], own_route=False)
     assert results.words(beside)[0].endswith(", this is Cy")
     assert results._contributions(beside) == at.editor.others[0].made
+    results.search.results = replace(beside, score=own.score - 1, path=own.path + 99), own
+    at.frames(2)
+    assert [each.own_route for each in tab.better] == [True, False], "what is known already comes last"
     other = replace(own, own_route=False, path=at.editor.others[0].trajectory.positions[: own.ticks])
     cy = at.editor.others[0]
     results._others = (replace(cy, name="Dee", trajectory=at.session.timeline.trajectory()), cy)
