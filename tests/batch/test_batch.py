@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -147,13 +148,13 @@ def test_a_world_of_a_smaller_level_shows_nothing_of_the_larger_one(memory: str)
 def test_a_world_in_a_level_that_replaced_another_starts_afresh_in_it(
     memory: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    loaded: list[Level] = []
-    monkeypatch.setattr(plain, "object_table", lambda level: loaded.append(level) or object_table(level))
+    loads = Mock(wraps=object_table)
+    monkeypatch.setattr(plain, "object_table", loads)
     worlds = open_worlds(memory, LEVELS, len(LEVELS), box=True)
     worlds.load(range(len(LEVELS)), range(len(LEVELS)))
-    del loaded[:]
+    loads.reset_mock()
     worlds.put_levels(np.array([0, 1]), [LEVELS[2], LEVELS[2]])
-    assert len(loaded) == (2 if memory == "plain" else 0), "a level is loaded once"
+    assert loads.call_count == (2 if memory == "plain" else 0), "a level is loaded once"
     expected = worlds.states[0].tobytes()
     worlds.run(bytes([2] * 20), 0)
     worlds.load([0], [0])
