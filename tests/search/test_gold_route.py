@@ -169,8 +169,9 @@ def test_gold_that_was_never_collected_is_told() -> None:
     assert [WALLED_IN.objects[number].kind for number in why.records] == [GOLD]
     both = tuple(number for number, spec in enumerate(WALLED_IN.objects) if spec.kind == GOLD)
     several = obstacle(WALLED_IN, WALLED_IN.gold, replace(progress[-1], gold=0, untaken=both))
-    assert several.sentence == "0 at most were collected at once, never gold at 8,23 (200,566px, object 2), " + (
-        "gold at 29,12 (700,300px, object 3)"
+    assert several.sentence == (
+        "0 at most were collected at once, never "
+        "gold at 8,23 (200,566px, object 2), gold at 29,12 (700,300px, object 3)"
     )
     assert several.records == both
     every = obstacle(WALLED_IN, WALLED_IN.gold, replace(progress[-1], untaken=()))
