@@ -20,7 +20,7 @@ from ninja_game.sim.kinds import EXIT, GOLD
 from ninja_game.sim.level import Body, Level, makes_object
 
 CANDIDATES = 4  # runs that are kept for local searches
-NAMED = 3  # objects that a finding of the solver names; it counts the others
+_NAMED = 3  # objects that a finding of the solver names; it counts the others
 
 Report = Callable[["Progress"], None]
 
@@ -79,7 +79,7 @@ def obstacle(level: Level, gold: int, progress: Progress) -> Finding:
 
     def at(code: str, ids: Iterable[int]) -> Finding:
         names = [object_name(level.objects[numbers[id_]], id_) for id_ in ids]
-        listed = ", ".join(names[:NAMED]) + (f" and {len(names) - NAMED} more" if len(names) > NAMED else "")
+        listed = ", ".join(names[:_NAMED]) + (f" and {len(names) - _NAMED} more" if len(names) > _NAMED else "")
         never = f"never {listed}" if names else "each piece now and then"
         records = tuple(numbers[id_] for id_ in ids) or tuple(n for n in numbers if level.objects[n].kind == GOLD)
         finding = level_finding(code, records, most=progress.gold, never=never)
