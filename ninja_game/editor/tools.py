@@ -5,7 +5,7 @@ They know no window: points are px of the level.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from enum import StrEnum, auto
 from math import ceil
@@ -36,6 +36,10 @@ DRAGGED = PICK_REACH = 12.0
 """A press that moves farther than this is a drag; a nearer object is picked, px."""
 REACH = 17.32
 """px within which an object is deleted (√300: game.md §6), or selected by a click."""
+
+
+Ends = Sequence[tuple[Cell, ...]]
+"""The cells at each end of a line."""
 
 
 class Gesture(StrEnum):
@@ -93,6 +97,8 @@ class EditorTools:
         self._copies = False
         self._chosen_before = stamps.Selection()
         self._previewed: tuple[tuple[object, ...], Tiles] = ((), {})
+        #: Gets an object that something else than ``cancel`` takes away, since it has no switch yet
+        self.gave_up: Callable[[ObjectSpec], object] = lambda _: None
 
     def _take_first(self) -> None:
         self.tool, self.symmetry = "brush", "off"  #: one of TOOLS; a name
@@ -171,7 +177,7 @@ class EditorTools:
         if erase and (self.placing_switch or self.ghost or self.tool == "select"):
             self.cancel()
         elif self.placing_switch:
-            self.finish()
+            self._end()
         elif stamp := self.pasted:
             self.tool, self.ghost = "select", None
             draft, self.selection = stamps.pasted(self.draft, stamp, empty=self.pastes_empty)
@@ -204,7 +210,7 @@ class EditorTools:
             far = max(abs(a - b) for a, b in zip(self.pointer, self._pressed_at, strict=True)) > DRAGGED
             if far:
                 self._put_switch()
-                self.finish()
+                self._end()
             return
         if self._gesture == Gesture.CHOOSE and self.marquee is None and not self._chosen_before:
             part, area = self.near(REACH), (*self.cell, 1, 1) if self.takes == "tiles" else None
@@ -213,6 +219,15 @@ class EditorTools:
         self.history.end()
 
     def finish(self) -> None:
+        """End the operation under way; a door or exit without its switch is given up."""
+        if spec := self._switchless:
+            self.history.abandon()
+            self._end()
+            self.gave_up(spec)
+        else:
+            self._end()
+
+    def _end(self) -> None:
         self._switchless = self.ghost = None
         self._gesture, self.marquee = Gesture.IDLE, None
         self.history.end()
@@ -253,14 +268,22 @@ class EditorTools:
         closing = (("left", "right") if is_gap(0, 1) else ()) + (("top", "bottom") if is_gap(1, 0) else ())
         return brush.placed(self.spec, x, y, snap or self.snap, (closing or SIDES) if self.nearest else ())
 
-    def _change(self, stamp: stamps.Stamp, draft: Draft | None = None) -> None:
-        self.history.change(self._with(stamp, draft or self.draft))
+    def _change(self, stamp: stamps.Stamp, draft: Draft | None = None, ends: Ends = ()) -> None:
+        self.history.change(self._with(stamp, draft or self.draft, ends))
 
-    def _with(self, stamp: stamps.Stamp, draft: Draft) -> Draft:
-        """The draft with a stamp on it, in all images of the symmetry, and with automatic slopes."""
-        after = stamps.with_stamp(draft, stamp, SYMMETRIES[self.symmetry])
-        sloped = self.sets_slopes and set(stamp.tiles.values()) <= {brush.EMPTY, brush.FULL}
-        return stamps.sloped(draft, after) if sloped else after
+    def _with(self, stamp: stamps.Stamp, draft: Draft, ends: Ends = ()) -> Draft:
+        """The draft with a stamp on it, in all images of the symmetry, and with automatic slopes.
+
+        ``ends``: of a line two cells thick; where slopes would make one pointed, it stays square.
+        """
+        images = SYMMETRIES[self.symmetry]
+        after = stamps.with_stamp(draft, stamp, images)
+        if not (self.sets_slopes and set(stamp.tiles.values()) <= {brush.EMPTY, brush.FULL}):
+            return after
+        sloped = stamps.sloped(draft, after)
+        all_ends = [*ends, *(tuple(map(motion.cell, end)) for motion in images for end in ends)]
+        pointed = [end for end in all_ends if brush.FULL not in map(sloped.tile, end)]
+        return sloped.with_tiles({cell: after.tile(cell) for end in pointed for cell in end})
 
     @property
     def sets_slopes(self) -> bool:
@@ -297,6 +320,7 @@ class EditorTools:
         if not self.draws_objects:
             cells = stamps.covered(self._gesture, cell_of(*self._pressed_at), self.cell, self._bend)
             tiles, shaped = dict.fromkeys(cells, self.tile), dict[Cell, int]()
+            ends: Ends = ()
             if self.slopes and self.tile == brush.FULL and not self._bend and self._gesture == Gesture.LINE:
                 shaped = stamps.ramp(cell_of(*self._pressed_at), self.cell)
             elif self.slopes and self.tile == brush.FULL and self._gesture == Gesture.ELLIPSE:
@@ -308,15 +332,18 @@ class EditorTools:
                 tiles = {cell: tile for cell, tile in shaped.items() if tile == brush.FULL or cell not in rock}
             elif self._gesture == Gesture.LINE:
                 ramp = self.slopes and self.tile in (brush.EMPTY, brush.FULL)
-                tiles = self._lined(stamps.ramp_cells(cells) if ramp else cells, self.tile, self.history.began)
-            self._change(stamps.Stamp(tiles), self.history.began)
+                band = stamps.ramp_cells(cells) if ramp else cells
+                tiles = self._lined(band, self.tile, self.history.began)
+                if self.tile == brush.FULL and len(band) > len(cells):
+                    ends = (band[0], band[len(cells)]), (cells[-1], band[-1])
+            self._change(stamps.Stamp(tiles), self.history.began, ends)
             return
-        ends = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)
+        corners = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)
         if self._gesture in CURVES:
-            places, snap = stamps.spaced_places(stamps.curve(self._gesture, *ends, self._bend), self.spacing), "px"
+            places, snap = stamps.spaced_places(stamps.curve(self._gesture, *corners, self._bend), self.spacing), "px"
         else:
             step, snap = max(brush.SNAPS[self.snap], 12.0), self.snap
-            (x, right), (y, bottom) = (sorted(along) for along in zip(*ends, strict=True))
+            (x, right), (y, bottom) = (sorted(along) for along in zip(*corners, strict=True))
             rows, columns = (range(int(length // step) + 1) for length in (bottom - y, right - x))
             places = [(x + step * i, y + step * j) for j in rows for i in columns]
         self._change(stamps.Stamp({}, tuple(self.placed(*place, snap) for place in places)), self.history.began)
@@ -416,7 +443,7 @@ class EditorTools:
 
     def undo(self) -> bool:
         """Cancel a paste or a drawing, else undo the newest change; whether there was any."""
-        hung = self.ghost is not None
+        hung = self.ghost is not None or self.placing_switch
         self.finish()
         return hung or self._step(self.history.undo)
 

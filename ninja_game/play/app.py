@@ -314,7 +314,7 @@ class App:
             size, margin, high = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
             lines = wrapped(theme, self.notice, most, size)[:NOTICE_LINES]
         foot = theme.canvas.logical((0, theme.canvas.stage.bottom))[1] - self.top.foot_high
-        y = foot - high * len(lines) - 2 * margin
+        y = max(1.0, foot - high * len(lines) - 2 * margin)
         wide = min(most, max(theme.width(line, size) for line in lines)) + 28
         rect = theme.window(self.surface, middle - wide / 2, y, wide, high * len(lines) + 2 * margin)
         for k, line in enumerate(lines):
@@ -323,14 +323,21 @@ class App:
         return rect
 
     def write_export(
-        self, title: str, suffix: str, content: str | Callable[[Path], object], *, first: int = 0
+        self,
+        title: str,
+        suffix: str,
+        content: str | Callable[[Path], object],
+        *,
+        first: int = 0,
+        over: Path | None = None,
     ) -> Path | None:
         """Write a file into the player's exports, and show where; its path, or None if that failed.
 
         ``content``: text, or a function that writes to the path. ``first``: as of ``export_path``.
+        ``over``: an earlier export, which is replaced.
         """
         try:
-            path = export_path(self.player.folder, title, suffix, first)
+            path = over or export_path(self.player.folder, title, suffix, first)
             if callable(content):
                 content(path)
             else:

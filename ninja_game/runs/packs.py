@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
@@ -15,9 +16,10 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import DIGITS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
-from ninja_game.levels.findings import PackFinding, pack_finding
+from ninja_game.levels.findings import Finding, PackFinding, pack_finding
 from ninja_game.levels.lint import level_findings
 from ninja_game.runs.level_design import design, design_findings
+from ninja_game.runs.messages import late_messages
 from ninja_game.runs.verify import Verdict, verify_recording, with_demands
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
@@ -25,7 +27,17 @@ from ninja_game.sim.level import Level
 _verdict = lru_cache(maxsize=1024)(verify_recording)
 """Each of the checks here needs a pack's certificates, and again after each change of the pack."""
 
-_odd = lru_cache(maxsize=1024)(level_findings)
+
+@lru_cache(maxsize=1024)
+def level_problems(level: Level, says: str = "", inputs: bytes = b"") -> list[Finding]:
+    """What is odd about a level: the same in the editor and in its pack.
+
+    ``inputs``: of a known run, in which messages may come late. Raises LevelError for messages that cannot be read.
+    """
+    odd = [*level_findings(level, says), *late_messages(level, says, inputs)]
+    # One finding is enough for an enclosed exit: its switch gets one once the exit can be reached.
+    shut = {number for finding in odd if finding.code == "unreachable" for number in finding.records}
+    return [finding for finding in odd if finding.code != "unreachable-switch" or not shut.issuperset(finding.records)]
 
 
 @dataclass(frozen=True)
@@ -71,17 +83,23 @@ def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
     return Certificate(place, kind, pack.levels[file].level, recordings[0])
 
 
-def is_certified(pack: Pack, file: str, kind: str) -> bool:
-    try:
+def sound_certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
+    """The certificate of a level file if it certifies the level, else None."""
+    with suppress(NinjaGameError):
         run = certificate(pack, file, kind)
-        return run is not None and not run.problems
-    except NinjaGameError:
-        return False
+        return run if run and not run.problems else None
+    return None
+
+
+def is_certified(pack: Pack, file: str, kind: str) -> bool:
+    return sound_certificate(pack, file, kind) is not None
 
 
 def has_gold_out_of_reach(level: Level, says: str = "") -> bool:
     """Whether a finding about the level says that a piece can never be touched, so that no run takes all gold."""
-    barred = {number for finding in _odd(level, says) if finding.code == "unreachable" for number in finding.records}
+    barred = {
+        number for finding in level_problems(level, says) if finding.code == "unreachable" for number in finding.records
+    }
     return any(level.objects[number].kind == GOLD for number in barred)
 
 
@@ -204,7 +222,8 @@ def _about_levels(pack: Pack) -> Iterator[PackFinding]:
             if file[:4] in places:
                 yield pack_finding("same-place", file, number=file[:4], other=places[file[:4]])
             places.setdefault(file[:4], file)
-        for finding in _odd(named.level, named.says):
+        run = sound_certificate(pack, file, "exit") if named.says else None
+        for finding in level_problems(named.level, named.says, run.recording.inputs if run else b""):
             yield PackFinding(finding.code, file, odd=finding)
 
 

@@ -66,7 +66,7 @@ class Route:
         self.seed = seed
         self.steps = 0
         self.most = 0
-        self.ever_taken = 0
+        self.ever_taken = self.last_taken = 0  #: masks of pieces; ``last_taken``: those that were the last of all
         self.urgency = np.zeros(len(self.heuristics.gold_places))
         self.frontiers: dict[tuple[int, int], Frontier] = {}
         self._stalled_steps = self._stalled_ticks = self._restarts = 0
@@ -184,6 +184,8 @@ class Route:
         frontier = self.frontiers[key]
         self.ever_taken |= checkpoint.taken
         self.most = max(self.most, frontier.count)
+        if checkpoint.before and frontier.count >= self.gold:
+            self.last_taken |= checkpoint.taken & ~checkpoint.before.taken
         self._most_now = max(self._most_now, self._done(frontier))
         frontier.add(checkpoint, ROUTE_WIDTH)
 

@@ -19,6 +19,7 @@ from ninja_game.search.best_first import MORE
 from ninja_game.search.certificate import UnverifiedRunError, with_plain_triggers
 from ninja_game.search.gold_beam import GoldBeam
 from ninja_game.search.heuristics import Heuristics
+from ninja_game.search.legs import piece_numbers
 from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.route import LEG_NODES, Route
 from ninja_game.search.searching import Search
@@ -156,9 +157,10 @@ class _Job:
         run = None
         while not run and not spend(0):
             run = route.step(spend)
-        pieces = enumerate(self.heuristics.gold_ids)
-        never = [id_ for piece, id_ in pieces if not route.ever_taken >> piece & 1] if route.gold else None
-        self.state.note_unreached(route.search.untouched, route.most, never)
+        pieces = self.heuristics.gold_ids
+        never = [id_ for piece, id_ in enumerate(pieces) if not route.ever_taken >> piece & 1] if route.gold else None
+        last = [pieces[piece] for piece in piece_numbers(route.last_taken)]
+        self.state.note_unreached(route.search.untouched, route.most, never, last)
         if run:
             self.state.submit(run)
 

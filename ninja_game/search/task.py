@@ -20,6 +20,7 @@ from ninja_game.sim.kinds import EXIT, GOLD
 from ninja_game.sim.level import Body, Level, makes_object
 
 CANDIDATES = 4  # runs that are kept for local searches
+_NAMED = 3  # objects that a finding of the solver names; it counts the others
 
 Report = Callable[["Progress"], None]
 
@@ -29,7 +30,8 @@ class Progress:
     """The state of a solver. ``best``: end tick of the best run, -1: none yet.
 
     As long as there is no run, ``untouched`` holds the ids of exits and locked doors whose switch was never touched. If
-    gold is wanted, ``gold`` is the most pieces collected at once, and ``untaken`` the ids of pieces never collected.
+    gold is wanted, ``gold`` is the most pieces collected at once, ``untaken`` the ids of pieces never collected, and
+    ``last`` the ids of those that were the last of all: from there the search went on to the exit.
     """
 
     best: int = -1
@@ -38,6 +40,7 @@ class Progress:
     doing: str = ""
     gold: int = 0
     untaken: tuple[int, ...] | None = None
+    last: tuple[int, ...] = ()
     untouched: tuple[int, ...] | None = None
 
 
@@ -76,14 +79,16 @@ def obstacle(level: Level, gold: int, progress: Progress) -> Finding:
 
     def at(code: str, ids: Iterable[int]) -> Finding:
         names = [object_name(level.objects[numbers[id_]], id_) for id_ in ids]
-        few = f"never {', '.join(names)}" if names else "each piece now and then"
-        never = f"{len(names)} of {level.gold} pieces were never reached" if len(names) > 1 else few
+        listed = ", ".join(names[:_NAMED]) + (f" and {len(names) - _NAMED} more" if len(names) > _NAMED else "")
+        never = f"never {listed}" if names else "each piece now and then"
         records = tuple(numbers[id_] for id_ in ids) or tuple(n for n in numbers if level.objects[n].kind == GOLD)
         finding = level_finding(code, records, most=progress.gold, never=never)
-        return finding if code == "gold-left" else finding._replace(names=", ".join(names))
+        return finding if code == "gold-left" else finding._replace(names=listed)
 
     if gold > progress.gold and progress.untaken is not None:
         return at("gold-left", progress.untaken)
+    if gold and progress.last:
+        return at("gold-trap", progress.last)
     exits = [id_ for id_, number in enumerate(numbers) if level.objects[number].kind == EXIT]
     return at("untouched-switch", progress.untouched) if progress.untouched else at("unreached-exit", exits)
 
@@ -119,13 +124,16 @@ class SharedProgress:
             if inputs not in self.runs:
                 self.runs = sorted([*self.runs, inputs], key=lambda run: (len(run), run))[:CANDIDATES]
 
-    def note_unreached(self, untouched: list[int], most: int = 0, untaken: list[int] | None = None) -> None:
-        """Record the switches and gold (ids) that a search never reached, and the most pieces that it had at once."""
+    def note_unreached(
+        self, untouched: list[int], most: int = 0, untaken: list[int] | None = None, last: Iterable[int] = ()
+    ) -> None:
+        """Record what a search never reached, and its gold, as ``Progress`` has them."""
         with self.lock:
             progress = self.progress
             progress.gold = max(progress.gold, most)
             progress.untouched = _never(progress.untouched, untouched)
             progress.untaken = progress.untaken if untaken is None else _never(progress.untaken, untaken)
+            progress.last = tuple(sorted({*progress.last, *last}))
             if self.report:
                 self.report(replace(progress))
 

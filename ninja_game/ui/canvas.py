@@ -189,7 +189,7 @@ class Camera:
         x, y = self.canvas(window).logical(px)
         most = self._most or max(1.0, MAX_SCALE / Canvas(window).scale)
         steps = round(log(self.zoom, self._step)) + notches
-        self.zoom = min(most, max(1.0, self._step**steps))
+        self.zoom = min(most, max(1.0, round(self._step**steps, 9)))  # twice as large is 2.0
         scale = Canvas(window).scale * self.zoom
         self._look_at(window, x - (px[0] - window[0] / 2) / scale, y - (px[1] - window[1] / 2) / scale)
 

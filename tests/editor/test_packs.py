@@ -20,7 +20,7 @@ from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, PackFiles
 from ninja_game.levels.findings import level_finding
-from ninja_game.runs.packs import lint
+from ninja_game.runs.packs import certificate, level_problems, lint
 from ninja_game.search.certificate import read_certificate
 from ninja_game.search.task import Progress
 from tests.support.own_pack import PACK
@@ -270,6 +270,20 @@ def test_what_follows_from_a_problem_is_no_problem_of_its_own(pack: Path) -> Non
         "twin.txt": ["single-level", "same-content", "no-certificate"],
         FIRST: ["no-exit", "unseen-message"],
     }
+
+
+def test_messages_that_are_never_shown_are_problems_of_the_pack_as_they_are_in_the_editor(pack: Path) -> None:
+    says = f"after 1 s: {'Long ' * 20}| after 1 s: One | after 2 s: Two | lock: Three | trap: Four"
+    text = (pack / FIRST).read_text("utf-8")
+    (pack / FIRST).write_text(re.sub("(?m)^says: .*", f"says: {says}", text), "utf-8")
+    named, run = Pack(pack).levels[FIRST], certificate(Pack(pack), FIRST, "exit")
+    assert run
+    ours = [finding.odd for finding in lint(Pack(pack)) if finding.file == FIRST and finding.odd]
+    theirs = level_problems(named.level, named.says, run.recording.inputs)
+    assert ours == theirs
+    assert [finding.code for finding in ours] == ["unseen-message", "unseen-message", "late-message"]
+    (pack / RUN).unlink()
+    assert "late-message" not in [finding.code for finding in lint(Pack(pack))], "no run is known"
 
 
 def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Path) -> None:

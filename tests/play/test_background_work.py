@@ -120,7 +120,7 @@ def test_a_daily_level_that_cannot_be_made_says_why(
 def test_a_level_that_cannot_be_examined_or_certified_says_why(
     tmp_path: Path, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(editor_session, "level_findings", raising(why))
+    monkeypatch.setattr(editor_session, "level_problems", raising(why))
     monkeypatch.setattr("ninja_game.search.solve.solve", raising(why))
     monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
     maker = Maker(tmp_path)

@@ -169,11 +169,32 @@ def test_gold_that_was_never_collected_is_told() -> None:
     assert [WALLED_IN.objects[number].kind for number in why.records] == [GOLD]
     both = tuple(number for number, spec in enumerate(WALLED_IN.objects) if spec.kind == GOLD)
     several = obstacle(WALLED_IN, WALLED_IN.gold, replace(progress[-1], gold=0, untaken=both))
-    assert several.sentence == "0 at most were collected at once, 2 of 2 pieces were never reached"
+    assert several.sentence == (
+        "0 at most were collected at once, never "
+        "gold at 8,23 (200,566px, object 2), gold at 29,12 (700,300px, object 3)"
+    )
     assert several.records == both
     every = obstacle(WALLED_IN, WALLED_IN.gold, replace(progress[-1], untaken=()))
     assert every.sentence == "1 at most were collected at once, each piece now and then"
     assert [WALLED_IN.objects[number].kind for number in every.records] == [GOLD, GOLD]
+
+
+_PIT = ".........#..#"
+IN_A_PIT = {19: ".........#vv#", **dict.fromkeys((20, 21, 22), _PIT), 23: "..@.o....#o.#....x.X"}
+"""One-way platforms lead down to gold, from which no way leads back."""
+
+
+def test_gold_from_which_no_way_leads_on_is_told() -> None:
+    picture = [f"|{IN_A_PIT.get(row, ''):.<31}|" for row in range(1, 24)]
+    level = parse_level("\n".join(["ninja-game level 1", *picture]))
+    assert solve(Task(level, work=2_000_000))
+    progress: list[Progress] = []
+    assert solve(Task(level, gold=-1, work=2_000_000), report=progress.append) is None
+    why = obstacle(level, level.gold, progress[-1])
+    assert why.sentence.startswith("gold at 11,23 (object 4): the last gold of all: no way from there"), why
+    assert [level.objects[number].values[:2] for number in why.records] == [(276.0, 564.0)]
+    many = obstacle(level, level.gold, replace(progress[-1], last=(4, 5, 4, 5)))
+    assert many.names.endswith(" and 1 more")
 
 
 UNTOUCHED, UNREACHED = "the solver never touched its switch", "the solver never reached it, although it was open"

@@ -87,6 +87,15 @@ class PackIndex:
         return f"{self.name}{by}{', ' if self.version else ''}{self.version}"
 
     @property
+    def summary(self) -> str:
+        """Title and comment in one line.
+
+        >>> PackIndex("Walls", "Ann", "Jump", (), ()).summary, PackIndex("Walls", "Ann", "", (), ()).summary
+        ('Walls by Ann. Jump', 'Walls by Ann')
+        """
+        return ". ".join(filter(None, (self.title, self.comment)))
+
+    @property
     def byline(self) -> str:
         """What the title has beside the name.
 

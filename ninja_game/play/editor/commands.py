@@ -30,8 +30,7 @@ from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import UNREACHABLE_CODES, EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
 from ninja_game.play.editor.stamp_menu import StampMenu
-from ninja_game.play.editor.view import EditorView
-from ninja_game.play.level.messages import heard
+from ninja_game.play.editor.view import DOUBLE, EditorView
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, Question, ask_text, nothing
 from ninja_game.play.menus.browser import LevelChoice
@@ -40,6 +39,7 @@ from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.playthrough import Navigation, PacedRun, Playthrough
+from ninja_game.runs.messages import heard
 from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level
@@ -131,7 +131,7 @@ class EditorCommands(DocumentCommands):
             "turn": lambda: view.turn(CLOCKWISE),
             "symmetry": lambda: self.mirror(following(list(SYMMETRIES), tools.symmetry)),
             "grid": lambda: view.show_grid(following(GRIDS, view.grid)),
-            "zoom_in": lambda: view.zoom(1), "zoom_out": lambda: view.zoom(-1), "zoom": lambda: view.zoom(0),
+            "zoom_in": lambda: view.zoom(DOUBLE), "zoom_out": lambda: view.zoom(-DOUBLE), "zoom": lambda: view.zoom(0),
             "slopes": self.switch_slopes,
             "list": lambda: setattr(view, "listing", not view.listing),
             "lines": lambda: self.switch("lines", "Lines from doors and exits to their switches"),

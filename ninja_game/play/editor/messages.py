@@ -36,8 +36,8 @@ from ninja_game.play.app import App
 from ninja_game.play.editor.sheet import said_at, things_of
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
-from ninja_game.play.level.messages import Heard, heard, late_text, shown_ticks
 from ninja_game.play.menu_screen import CANCEL, Action, Menu, MenuRow, MenuScreen, ask_to_keep
+from ninja_game.runs.messages import Heard, heard, late_text, shown_ticks
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.sim.rules import CELL, LIFETIME, TICKS_PER_SECOND

@@ -46,6 +46,11 @@ from ninja_game.ui.widgets import Button, Choice, Label, Widget
 
 _ROW = 22.5
 
+_MESSAGE_LINES = 4
+"""The most lines of a message in the panel."""
+
+_OPENS = "Its text, moment, place and frame; a double click on the bubble opens it too"
+
 FIRST_STEPS = (
     "First draw a floor; put the ninja",
     "(Shift+N) on it, and the exit",
@@ -88,10 +93,38 @@ def _turning(view: EditorView) -> Callable[[Area], Sequence[Widget]]:
     )
 
 
+_Row = Callable[[Area], Widget | Sequence[Widget]]
+"""Makes the widgets of a row in its place."""
+
+
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
+    """A title and rows about what is selected, pasted or in hand."""
     x, y, w, _ = area
     tools = view.session.tools
-    rows: list[Callable[[Area], Widget | Sequence[Widget]]] = []
+    if view.message is not None:
+        title, rows = _of_message(view, view.message, w)
+    elif tools.ghost:
+        title = _title("A click pastes", len(tools.ghost.tiles), len(tools.ghost.objects))
+        rows = [_turning(view)]
+    elif tools.selection and tools.chosen is None:
+        title, rows = _of_several(view)
+    elif tools.selection or tools.draws_objects:
+        title, rows = _of_object(tools)
+    else:
+        title, rows = _of_tile(view)
+    head, rows = Label((x, y, w, 15), title, size=10), [*_copying(tools), *rows]
+    row = min(_ROW, (area[3] - 17) / max(1, len(rows)))
+    made = [make((x, y + 17 + row * k, w, row - 3)) for k, make in enumerate(rows)]
+    return [head, *(widget for widgets in made for widget in (widgets if isinstance(widgets, Sequence) else [widgets]))]
+
+
+def _hints(texts: Sequence[str]) -> list[_Row]:
+    return [partial(Label, text=text, size=9.5, faint=True) for text in texts]
+
+
+def _copying(tools: EditorTools) -> list[_Row]:
+    """What Select takes, and what happens to the empty cells of a copy."""
+    rows: list[_Row] = []
     if tools.tool == "select" and not tools.ghost:
         taken = list(zip(("takes: all", "takes: only tiles", "takes: only objects"), TAKES, strict=True))
         rows.append(
@@ -101,50 +134,57 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         empty = [("empty cells: left out", False), ("empty cells: copied", True)]
         put_empty, about = partial(setattr, tools, "pastes_empty"), "Whether empty cells of a copy remove tiles there"
         rows.append(lambda area: Choice(area, "", empty, lambda: tools.pastes_empty, put_empty, hint=about))
-    if tools.ghost:
-        title = _title("A click pastes", len(tools.ghost.tiles), len(tools.ghost.objects))
-        rows.append(_turning(view))
-    elif tools.selection and tools.chosen is None:
-        cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
-        title = _title("Selected", cells, len(tools.selection.numbers))
-        rows += [_choice(tools, name) for name in _common(tools.subjects)]
-        rows.append(_turning(view))
-        rows += [_arranging(tools, head) for head in _ARRANGING]
-        remake = partial(_ask_kind, view) if any(map(can_be_remade, tools.subjects)) else None
-        last: list[MenuRow] = [
-            ("Move...", partial(_ask_move, view), "Move what is selected by columns and rows, or by px"),
-            ("Kind...", remake, "What the selected objects become, in their places: not ninjas, exits, doors"),
-            ("Delete", tools.delete, EDITOR_COMMANDS.hint("delete")),
-        ]
-        rows.append(_row(last))
-    elif tools.selection or tools.draws_objects:
-        spec = tools.chosen or tools.spec
-        title = f"{'Selected' if tools.selection else _taking(tools)}: {object_type_name(spec)}"
-        rows += [_choice(tools, name) for name in properties(spec)]
-        texts = [f"{' '.join(letters).upper()}: {name}" for name, letters in live_changes(tools).items()]
-        rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
-        if tools.selection:
-            rows += [_place(tools, part) for part in points(spec)]
-        elif has_switch(spec):
-            rows.append(partial(Label, text="Then click where its switch is", size=9.5, faint=True))
-        elif tools.effective_tool in CURVES:
-            words = [(f"one every {spacing:.0f} px", spacing) for spacing in SPACINGS]
-            put, hint = partial(setattr, tools, "spacing"), "How far apart they lie along it"
-            rows.append(lambda area: Choice(area, "", words, lambda: tools.spacing, put, hint=hint))
-    else:
-        title = f"{_taking(tools)}: {tile_name(tools.tile)}"
-        first = FIRST_STEPS if tools.draft.level == Level() else ()
-        rows += [partial(Label, text=text, size=9.5) for text in first]
-        texts = ["1 to 8: shape", "Q W A S: its solid corner", "9: full    0: empty", "H, J, U: mirror, flip, turn"]
-        rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
-        modes, set_slopes = [("slopes: by hand", False), ("slopes: by themselves", True)], view.session.set_slopes
-        rows.append(
-            lambda area: Choice(area, "", modes, lambda: tools.slopes, set_slopes, hint=EDITOR_COMMANDS.hint("slopes"))
-        )
-    head = Label((x, y, w, 15), title, size=10)
-    row = min(_ROW, (area[3] - 17) / max(1, len(rows)))
-    made = [make((x, y + 17 + row * k, w, row - 3)) for k, make in enumerate(rows)]
-    return [head, *(widget for widgets in made for widget in (widgets if isinstance(widgets, Sequence) else [widgets]))]
+    return rows
+
+
+def _of_message(view: EditorView, number: int, width: float) -> tuple[str, list[_Row]]:
+    message = parse_messages(view.session.draft.says)[number]
+    lines = wrapped(view.app.theme, f"{message.when}: {message.one_line}", width, 9.5)[:_MESSAGE_LINES]
+    rows: list[_Row] = [partial(Label, text=line, size=9.5) for line in lines]
+    return "Selected: message", [*rows, _row([("Open...", partial(view.open_message, number), _OPENS)])]
+
+
+def _of_several(view: EditorView) -> tuple[str, list[_Row]]:
+    tools = view.session.tools
+    cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
+    rows: list[_Row] = [_choice(tools, name) for name in _common(tools.subjects)]
+    rows.append(_turning(view))
+    rows += [_arranging(tools, head) for head in _ARRANGING]
+    remake = partial(_ask_kind, view) if any(map(can_be_remade, tools.subjects)) else None
+    last: list[MenuRow] = [
+        ("Move...", partial(_ask_move, view), "Move what is selected by columns and rows, or by px"),
+        ("Kind...", remake, "What the selected objects become, in their places: not ninjas, exits, doors"),
+        ("Delete", tools.delete, EDITOR_COMMANDS.hint("delete")),
+    ]
+    return _title("Selected", cells, len(tools.selection.numbers)), [*rows, _row(last)]
+
+
+def _of_object(tools: EditorTools) -> tuple[str, list[_Row]]:
+    """The selected object, or the one in hand."""
+    spec = tools.chosen or tools.spec
+    rows: list[_Row] = [_choice(tools, name) for name in properties(spec)]
+    rows += _hints([f"{' '.join(letters).upper()}: {name}" for name, letters in live_changes(tools).items()])
+    if tools.selection:
+        rows += [_place(tools, part) for part in points(spec)]
+    elif has_switch(spec):
+        rows += _hints(["Then click where its switch is"])
+    elif tools.effective_tool in CURVES:
+        words = [(f"one every {spacing:.0f} px", spacing) for spacing in SPACINGS]
+        put, hint = partial(setattr, tools, "spacing"), "How far apart they lie along it"
+        rows.append(lambda area: Choice(area, "", words, lambda: tools.spacing, put, hint=hint))
+    return f"{'Selected' if tools.selection else _taking(tools)}: {object_type_name(spec)}", rows
+
+
+def _of_tile(view: EditorView) -> tuple[str, list[_Row]]:
+    tools, set_slopes = view.session.tools, view.session.set_slopes
+    first = FIRST_STEPS if tools.draft.level == Level() else ()
+    rows: list[_Row] = [partial(Label, text=text, size=9.5) for text in first]
+    rows += _hints(["1 to 8: shape", "Q W A S: its solid corner", "9: full    0: empty", "H, J, U: mirror, flip, turn"])
+    modes = [("slopes: by hand", False), ("slopes: by themselves", True)]
+    rows.append(
+        lambda area: Choice(area, "", modes, lambda: tools.slopes, set_slopes, hint=EDITOR_COMMANDS.hint("slopes"))
+    )
+    return f"{_taking(tools)}: {tile_name(tools.tile)}", rows
 
 
 _ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
@@ -278,7 +318,7 @@ class ToolButton(Button):
         theme.row(surface, self.area, chosen=lit, focused=lit, radius=3)
         self.enabled = {"undo": tools.history.can_undo, "redo": tools.history.can_redo}.get(self.name, True)
         grid, certify = self.view.grid.name, self.view.session.certify_text
-        zoom = f"{self.view.camera.zoom:g}x".replace("1x", "fit")
+        zoom = "fit" if self.view.camera.zoom == 1 else f"{self.view.camera.zoom:.2g}x"
         text = self.text.format(symmetry=tools.symmetry, grid=grid, snap=tools.snap, certify=certify, zoom=zoom)
         colour = theme.palette.text if self.enabled else theme.palette.faint
         bold, place = lit or focused, (x + w / 2, y + (h - 9) / 2)
@@ -364,7 +404,8 @@ class Properties(EditorPart):
 
     def refresh(self) -> None:
         tools = self.session.tools
-        about = tools.tool == "select" and tools.takes, tools.pastes_empty, *panel_key(tools)
+        said = self.view.message is not None and (self.view.message, tools.draft.says)
+        about = tools.tool == "select" and tools.takes, tools.pastes_empty, said, *panel_key(tools)
         if about != self._subject:
             self._subject = about
             x, y, w, h = self.area
@@ -511,7 +552,7 @@ class StatusLine(EditorPart):
         theme.text(surface, self._text(), 140, top, size=9.5, colour=colour, width=584)
 
 
-_REACH = "In 1 s, {}, the ninja can be in the green, dies in the red; red lines: enemies; bars: last jumps. Y: next"
+_REACH = "In 1 s, {}, the ninja can be where it is shaded, dies in the red; red lines: enemies; bars: last jumps"
 _NO_REACH = "What is reached comes in a moment; the first time, what finds it is compiled for some minutes"
 _TOOL_HINTS = {
     "brush": "Left button draws, right erases, middle picks; wheel zooms, middle drag moves. F1: help",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -42,7 +41,6 @@ from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import NO_FILE, file_stamp
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.load import load_levels
-from ninja_game.formats.messages import parse_messages
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, is_pack
@@ -50,17 +48,16 @@ from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import GAME, YOURS, Entry
-from ninja_game.levels.findings import Finding, level_finding
-from ninja_game.levels.lint import level_findings
+from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_text, pasted_text
-from ninja_game.play.level.messages import heard, late_text
 from ninja_game.play.window import save_picture
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import keep_replay
+from ninja_game.runs.packs import level_problems
 from ninja_game.runtime import NewestJob
-from ninja_game.sim.grid import cell_of, is_inside
+from ninja_game.sim.grid import is_inside
 from ninja_game.sim.kinds import DRONE, EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec, well_formed
 from ninja_game.ui.widgets import following
@@ -87,24 +84,10 @@ Examined = tuple[Level, list[Finding]]
 
 def _examine(question: _Question) -> Examined:
     level, searched, says, inputs = question
-    odd = [*level_findings(level, says), *_late_messages(level, says, inputs)]
+    odd = level_problems(level, says, inputs)
     # An unreachable exit needs no finding of the solver too.
     out_of_reach = {number for finding in odd if finding.code in UNREACHABLE_CODES for number in finding.records}
-    # One finding is enough for an enclosed exit: its switch gets one once the exit can be reached.
-    shut = {number for finding in odd if finding.code == "unreachable" for number in finding.records}
-    odd = [finding for finding in odd if finding.code != "unreachable-switch" or not shut.issuperset(finding.records)]
     return level, [*(finding for finding in searched if not out_of_reach.intersection(finding.records)), *odd]
-
-
-def _late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
-    """The messages that wait for others in the known run. One that follows another of its own moment is meant to."""
-    messages, past = parse_messages(says), set[tuple[object, ...]]()
-    for message, coming in zip(messages, heard(messages, level, inputs) if inputs else [], strict=False):
-        moment = message.when, message.number, message.cell
-        if coming and message.when not in {"start", "death"} and moment not in past and (why := late_text(coming)):
-            cell = cell_of(*(message.place or coming.spot))
-            yield level_finding("late-message", cells=(cell,), text=message.one_line, why=why)
-        past.add(moment)
 
 
 class EditorSession:

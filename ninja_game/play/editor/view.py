@@ -10,7 +10,7 @@ import pygame
 from ninja_game.editor.certify import SQUARE, PathPoints, Reach, TestMap
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.specs import BODY_PART, SWITCH_PART, carried, points
+from ninja_game.editor.specs import BODY_PART, SWITCH_PART, carried, object_type_name, points
 from ninja_game.editor.stamp import Stamp, area_around, area_between, nearest_part
 from ninja_game.editor.tools import PICK_REACH, EditorTools
 from ninja_game.formats.messages import messages_at
@@ -31,7 +31,7 @@ from ninja_game.play.editor.sheet import (
 from ninja_game.play.workspace import Pane
 from ninja_game.sim.grid import Cell, Point, is_inside
 from ninja_game.sim.kinds import EXIT, NINJA
-from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
 from ninja_game.sim.rules import CELL
 from ninja_game.ui.canvas import Camera, Colour, Lens
 from ninja_game.ui.text_entry import DOUBLE_MS
@@ -44,6 +44,8 @@ GHOST = 5
 """Opacity in eighths of what a press would draw."""
 NEAR_SWITCH_PX = 1.0
 """A switch closer than this to the next exit, px, would be hidden by it: nothing is drawn over a fresh one."""
+DOUBLE = 4
+"""Notches of the wheel by which the level becomes twice as large."""
 EDGE_SPEED = 0.3
 """Scrolling while something is dragged beyond an edge of the view, logical px per ms."""
 
@@ -78,8 +80,9 @@ class Overlay:
         return changed
 
     def draw(
-        self, surface: pygame.Surface, tools: EditorTools, reach: Reach | None, *, hovering: bool
+        self, surface: pygame.Surface, tools: EditorTools, reach: Reach | None, said: Point | None, *, hovering: bool
     ) -> list[pygame.Rect]:
+        """``said``: where the bubble of the selected message is, px of the level."""
         self.target.begin(surface)
         surface.set_clip(self.area)
         if reach:
@@ -93,6 +96,8 @@ class Overlay:
                 self.target.sprite(_ring("accent"), *places[part])
                 if SWITCH_PART in places:
                     self.target.line(self.sheet.palette.accent, *places[BODY_PART], *places[SWITCH_PART], 1.2)
+        if said:
+            self.target.sprite(_ring("accent"), *said)
         if tools.marquee:
             self._frame(area_between(*tools.marquee), self.sheet.palette.good)
         if hovering:
@@ -108,7 +113,7 @@ class Overlay:
         palette, target, canvas = self.sheet.palette, self.target, self.canvas
         if self._reach is not reach:
             self._reach = reach
-            areas = [(reach.spans, palette.good, 70), (reach.deaths, palette.bad, 255)]
+            areas = [(reach.spans, palette.lock, 80), (reach.deaths, palette.bad, 255)]
             squares = [((*c[:3], a), canvas.rect(x, y, w, SQUARE)) for spans, c, a in areas for x, y, w in spans]
             rects = [rect for _, rect in squares] or [pygame.Rect(canvas.origin, (1, 1))]
             self._seen = rects[0].unionall(rects).clip(self.area)
@@ -117,7 +122,7 @@ class Overlay:
                 self._reached.fill(paint, rect.move(-self._seen.x, -self._seen.y))
         target.covered.append(target.surface.blit(self._reached, self._seen))
         for route in (*reach.arcs, *reach.dangers):
-            colour = palette.bad if route in reach.dangers else palette.good
+            colour = palette.bad if route in reach.dangers else palette.lock
             shown = [canvas.exact(*point) for point in route if is_near(*point)]
             if len(shown) > 1 and shown[0] != shown[-1]:
                 self._note(pygame.draw.lines(target.surface, colour, closed=False, points=shown, width=canvas.px(0.8)))
@@ -216,9 +221,11 @@ class EditorView(Pane):
         self.listing = self.tests = False  #: the list of objects is shown, not the palette; the map of tests is shown
         #: Gets the cell of the next press in the level, which draws nothing then; None if that is cancelled
         self.taker: Callable[[Cell | None], None] | None = None
+        session.tools.gave_up = self._tell_given_up
         self.open_message: Callable[[int], object] = lambda _: None  #: gets the number of a double-clicked message
         self._pressed: tuple[Cell, int, Draft] | None = None
-        self.camera = Camera(2.0, 4.0)  #: the shown part of the level
+        self._message: int | None = None  #: the number of the message on whose bubble Select was clicked last
+        self.camera = Camera(2.0 ** (1 / DOUBLE), 4.0)  #: the shown part of the level
         self._mouse = (0, 0)
         self._held = False
         self._marked: tuple[object, ...] = ()
@@ -235,6 +242,22 @@ class EditorView(Pane):
     @hint.setter
     def hint(self, text: str) -> None:
         self._hint = self.session.draft, text
+
+    def _tell_given_up(self, spec: ObjectSpec) -> None:
+        self.hint = f"The {object_type_name(spec)} is put away: it had no switch yet"
+
+    @property
+    def message(self) -> int | None:
+        """The number of the selected message."""
+        tools, number = self.session.tools, self._message
+        if (
+            number is None
+            or tools.tool != "select"
+            or tools.selection
+            or number not in said_places(tools.draft).values()
+        ):
+            return None
+        return number
 
     def _layout_key(self) -> tuple[object, ...]:
         return self.app.canvas, self.app.theme.palette.name, *self.camera.render_key
@@ -263,13 +286,13 @@ class EditorView(Pane):
         seen = self.camera.canvas(size)
         self.session.tools.move(*seen.logical((self._mouse[0] - left, self._mouse[1] - top)))
 
-    def zoom(self, steps: int) -> None:
+    def zoom(self, notches: int) -> None:
         """Zoom about the pointer; 0: show all of the level, or double its scale if all is shown."""
         camera, size = self.camera, self._rect.size
-        if not steps and camera.zoom > 1:
+        if not notches and camera.zoom > 1:
             camera.show_all()
         else:
-            camera.zoom_at(size, camera.canvas(size).point(*self.session.tools.pointer), steps or 1)
+            camera.zoom_at(size, camera.canvas(size).point(*self.session.tools.pointer), notches or DOUBLE)
         if self.hovering and not self.by_keys:
             self._point()
 
@@ -297,6 +320,9 @@ class EditorView(Pane):
             if erase or (is_inside(cell) and not pick):
                 self.take(None if erase else cell)
             return
+        tools = self.session.tools
+        free = tools.tool == "select" and not (erase or pick or tools.ghost or tools.near(PICK_REACH))
+        self._message = message_near(tools.draft, *tools.pointer) if free else None
         before, now = None if erase or pick else self._pressed, pygame.time.get_ticks()
         self._pressed = cell, now, self.session.draft
         twice = before and before[0] == cell and now - before[1] < DOUBLE_MS
@@ -317,7 +343,10 @@ class EditorView(Pane):
             self.app.notify("Not turned: a part of it would leave the level. Move it away from the border first")
 
     def take(self, cell: Cell | None) -> bool:
-        """Give a cell to a waiting ``taker``; whether there was one."""
+        """Give a cell to a waiting ``taker``; whether there was one. None also gives up the selected message."""
+        if cell is None and self.message is not None:
+            self._message = None
+            return True
         taker, self.taker = self.taker, None
         if taker:
             taker(cell)
@@ -363,7 +392,8 @@ class EditorView(Pane):
         return (
             tools.pointer, self.hovering, tools.tool, tools.draws_objects, tools.tile, tools.spec, tools.snap,
             tools.symmetry, tools.slopes, tools.nearest, tools.ghost, tools.pastes_empty, tools.selection,
-            tools.marquee, tools.placing_switch, tools.draft, self.session.reach and id(self.session.reach),
+            tools.marquee, tools.placing_switch, tools.draft, self.message,
+            self.session.reach and id(self.session.reach),
         )  # fmt: skip
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
@@ -384,7 +414,8 @@ class EditorView(Pane):
         else:
             changed = self.overlay.restore(surface, dirty)
         reach = self.session.reach if self.hovering else None
-        return [*changed, *self.overlay.draw(surface, tools, reach, hovering=self.hovering)]
+        said = next((at for at, number in said_places(tools.draft).items() if number == self.message), None)
+        return [*changed, *self.overlay.draw(surface, tools, reach, said, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
         session, palette = self.session, self.app.theme.palette

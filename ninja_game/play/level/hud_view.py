@@ -9,11 +9,11 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.messages import named_keys
 from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.play.level.level_play import STAMP_TICKS, LevelPlay, Phase
-from ninja_game.play.level.messages import FALL_HELP, WHY
 from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
 from ninja_game.player.playthrough import Navigation
 from ninja_game.player.progress import NO_MEDAL, Mark, next_par
 from ninja_game.runs.deaths import SELF
+from ninja_game.runs.messages import FALL_HELP, WHY
 from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.rules import LIFETIME

@@ -9,12 +9,12 @@ from random import Random
 
 from ninja_game.formats.messages import arrow_targets
 from ninja_game.play.app import App
-from ninja_game.play.level.messages import MessageQueue
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, AttemptState
 from ninja_game.player.playthrough import Playthrough
 from ninja_game.player.progress import HELPED
 from ninja_game.runs.deaths import cause_of
+from ninja_game.runs.messages import MessageQueue
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.schema.world_fields import World

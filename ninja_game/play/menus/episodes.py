@@ -275,10 +275,9 @@ class EpisodeGrid(ThumbnailScreen):
                 theme.text(surface, text, x + 25, y + 4, size=9.5)
             self._draw_total(surface, theme, self._below + 92)
         if self.pack.key and self.pack.pack and not self.previews:
-            index = self.pack.pack.index
-            subtitle = f"{index.title}. {index.comment}" if index.comment else index.title
+            summary = self.pack.pack.index.summary
             self._draw_picture(surface, self._below + 150, 200.0)
-            theme.text(surface, shown_text(subtitle, 200), _SIDE, 114, size=10, colour=palette.faint, width=364)
+            theme.text(surface, shown_text(summary, 200), _SIDE, 114, size=10, colour=palette.faint, width=364)
         episode = self.episode
         if episode is None:
             theme.text(surface, "No episodes", _SIDE, 66, size=16, colour=palette.faint, bold=True)

@@ -48,7 +48,6 @@ class PackDesk(ThumbnailScreen):
         self.pointer: tuple[float, float] | None = None  #: the mouse's place during a drag, else None
         self.marked = Marks()
         self.packer = packer_of(app)
-        self.packer.desk = self
         self.status = PackStatus(self.packer, self.player.catalogue)
         rack = partial(Rack, status=self.status, thumbnails=self.thumbnails, marked=self.marked, pull=self._pull)
         self.shelves = rack((36, 96, 0, 0), 6, choose=self.choose)
@@ -80,6 +79,7 @@ class PackDesk(ThumbnailScreen):
 
     def show(self, pack: EpisodeSet | None) -> None:
         self.pack = pack = pack or next(iter(self.own_packs), None)
+        self.packer.watch(self, pack and pack.path)
         self.status.show(pack)
         if not self.packer.busy:
             self.packer.follow(next((shelf.pack for shelf in self.own_packs if shelf.path == self.packer.path), None))

@@ -74,4 +74,4 @@ def pack_size(pack: EpisodeSet) -> str:
 
 def _description(pack: EpisodeSet) -> str:
     index = pack.pack.index if pack.pack else None
-    return shown_text(". ".join(filter(None, (index.title, index.comment))), 200) if index else ""
+    return shown_text(index.summary, 200) if index else ""

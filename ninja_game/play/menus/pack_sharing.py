@@ -25,6 +25,7 @@ from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_menus import pack_form, pack_menu, view
 from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
+from ninja_game.play.panels.files import FilesScreen
 from ninja_game.runs.packs import level_of
 
 _STOPS = "It can be stopped at any time: what was found is kept."
@@ -155,6 +156,27 @@ def paste(desk: PackDesk) -> None:
     install_received(desk, read)
 
 
+class ZipsScreen(FilesScreen):
+    """Chooses a zip with a pack, at first among what was loaded down."""
+
+    foot = "Enter opens a folder, or receives the pack of a zip; Esc goes back"
+    suffixes = (".zip",)
+
+    def __init__(self, desk: PackDesk) -> None:
+        home, loaded = Path.home(), Path.home() / "Downloads"
+        super().__init__(desk.app, loaded if loaded.is_dir() else home)
+        self._desk = desk
+
+    def open_file(self, path: Path) -> None:
+        self.app.pop()
+        install_received(self._desk, lambda: Pack(path))
+
+
+def choose_zip(desk: PackDesk) -> None:
+    """Choose a zip that was received."""
+    desk.app.push(ZipsScreen(desk))
+
+
 def install_received(desk: PackDesk, read: Callable[[], Pack]) -> None:
     """Install a received pack among the player's, instead of an older version if the player agrees."""
     try:
@@ -165,9 +187,10 @@ def install_received(desk: PackDesk, read: Callable[[], Pack]) -> None:
 
     def receive(over: Pack | None = None) -> None:
         def copy() -> None:
-            news = f": {packs.news(over, pack)}" if over else " is among your packs now"
+            news = packs.news(over, pack) if over else ""
             desk.new_path = packs.copy_pack(pack, desk.folder, pack.name, received=True, over=over)
-            desk.app.notify(f"{shown_text(pack.name)}{news}")
+            news = news or f"kept among your packs, in {short_path(desk.new_path)}"
+            desk.app.notify(f"{shown_text(pack.name)}: {news}")
 
         done = desk.run_step(copy, f"Update {pack.name}" if over else "Paste link")
         desk.focus_on(desk.play_button)
@@ -204,7 +227,6 @@ def show_card(desk: PackDesk, pack: EpisodeSet) -> None:
 
 
 def ask_about(desk: PackDesk, ready: ReadyPack) -> None:
-    desk.packer.open_problems = None
     rows: list[MenuRow] = [
         ("Show the problems", lambda: show_problems(desk), "Make ready asks again"),
         ("Zip and link all the same", partial(desk.packer.publish, ready), "")

@@ -13,8 +13,8 @@ from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.pack_steps import Steps
 from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, prepare_pack, problems_of
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.files.user_folder import short_path
+from ninja_game.files.shown_text import counted, file_stem, shown_text
+from ninja_game.files.user_folder import EXPORTS, short_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.pack.pack import Pack, certificate_name
 from ninja_game.formats.run_time import seconds_text
@@ -46,8 +46,7 @@ class Packer(Aside):
         self.saved: Path | None = None  #: the zip that was written of it
         self._seconds = SECONDS
         self._known: Sequence[PackFinding] | None = None  #: problems that the player knows; None: they are asked first
-        self.desk: Screen | None = None  #: the screen of packs
-        self.shown: Path | None = None  #: the pack that the desk shows
+        self._watching: tuple[Screen, Path | None] | None = None  #: the desk, and the pack that it shows
         self.obstacles: Obstacles = {}
         self.steps = Steps(app.player.folder)  #: what was done at the desk
         self.busy = self._stopped = False
@@ -56,14 +55,18 @@ class Packer(Aside):
         self.share: float | None = None  #: finished share of the present step; None: unknown
         self._zipped = b""
         self._compared: Pack | None = None  #: the pack that was last compared with the zip
-        self.open_problems: ReadyPack | None = None  #: a pack that is ready but for problems, about which the desk asks
+        self._open_problems: ReadyPack | None = None  #: ready but for problems, about which the desk asks
         self._step: tuple[str, float | None, float] = "", None, 0.0  #: text, share and start, s
         self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
 
     @property
     def waited_for(self) -> bool:
         """Whether the player looks at the pack that is made ready."""
-        return self.app.top is self.desk and self.shown == self.path
+        return self._watching == (self.app.top, self.path)
+
+    def watch(self, desk: Screen, shown: Path | None) -> None:
+        """The desk shows this pack from now on."""
+        self._watching = desk, shown
 
     @property
     def fresh(self) -> bool:
@@ -73,7 +76,8 @@ class Packer(Aside):
     def start(self, path: Path, *, seconds: float = SECONDS, known: Sequence[PackFinding] | None = None) -> None:
         """Make a pack ready. ``known``: problems that are not asked about; None: what is wrong is asked before."""
         self._known, self.path, self.busy, self._stopped = known, path, True, False
-        self.saved, self.open_problems, self._seconds = None, None, seconds
+        self.saved = self._open_problems = None
+        self._seconds = seconds
         self._say("Beginning", 0.0)
         self._job.ask(path)
 
@@ -117,18 +121,25 @@ class Packer(Aside):
                 self.app.top.look_again()
             ready = None if self.text else self._job.result
             if ready and any(problem not in (self._known or ()) for problem in ready.problems):
-                self.open_problems = ready
+                self._open_problems = ready
                 self.text = f"Neither zip nor link yet: {counted(len(ready.problems), 'open problem')}"
                 if not self.waited_for:
                     self.app.notify(f"{shown_text(ready.pack.name)}: {self.text}")
             elif ready:
                 self.publish(ready)
 
+    def take_problems(self) -> ReadyPack | None:
+        """The pack about whose problems the player is to be asked, once; None while they look at something else."""
+        asked = self._open_problems if self.waited_for else None
+        self._open_problems = None if asked else self._open_problems
+        return asked
+
     def publish(self, ready: ReadyPack) -> None:
         """Write the zip; copy the link if the player looks at the pack, and notify them."""
         app, name, waited_for = self.app, ready.pack.name, self.waited_for
         title = f"{name} {ready.pack.index.version}".strip()
-        self.saved = app.write_export(title, ".zip", lambda path: write_atomically(path, ready.zipped), first=1)
+        write, over = (lambda path: write_atomically(path, ready.zipped)), self._earlier(title, ready.pack)
+        self.saved = app.write_export(title, ".zip", write, first=1, over=over)
         self._zipped, self._compared = ready.zipped, None
         notices = [app.notice]
         if ready.link and waited_for:
@@ -138,6 +149,13 @@ class Packer(Aside):
         if codes := dict.fromkeys(finding.code.replace("-", " ") for finding in ready.problems):
             notices[0] += f", with {counted(len(ready.problems), 'open problem')} ({', '.join(codes)})"
         self.text = self._result_text = "; ".join([*notices, *ready.notes])
+
+    def _earlier(self, title: str, pack: Pack) -> Path | None:
+        """The export with this title if it is of the same pack: there is one zip of each version."""
+        path = self.app.player.folder / EXPORTS / f"{file_stem(title, 'replay')}.zip"
+        with suppress(NinjaGameError, OSError):
+            return path if Pack(path).index.title == pack.index.title else None
+        return None
 
     def follow(self, pack: Pack | None) -> None:
         """Update the text about the zip. ``pack``: with its present files, None if it is gone."""
@@ -191,7 +209,7 @@ class PackStatus:
 
     def show(self, pack: EpisodeSet | None) -> None:
         """Show a pack as it is now. A failed search changes no file, but the findings: it is checked again."""
-        self.pack, self.packer.shown = pack, pack and pack.path
+        self.pack = pack
         self._states.clear()
         question = pack and pack.pack, len(self.packer.obstacles)
         if question[0] and question != self._asked_for:

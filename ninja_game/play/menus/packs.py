@@ -24,7 +24,7 @@ from ninja_game.ui.widgets import Button, Choice, Widget
 _NO_PACK = (
     "A pack is a folder with your levels in episodes.",
     "Levels that you have made can be dragged into it.",
-    "Whoever has sent you one gave you a link to paste, or a zip to drop here.",
+    "Whoever has sent you one gave you a link to paste, or a zip to open or drop here.",
 )
 _NO_LEVELS = (
     "Or choose at the right where your levels are, and drag them into the places.",
@@ -46,6 +46,7 @@ class _Shown(NamedTuple):
 
 
 class PackScreen(PackDesk):
+    foot_high = 552.0
     _shown = _Shown()
 
     def build(self) -> Sequence[Widget]:
@@ -55,7 +56,7 @@ class PackScreen(PackDesk):
         ]
         pack = self.pack and self.pack.pack
         key = self.pack.key if self.pack else ""
-        choice = self.pack_choice = Choice((36, 60, 164, 28), "", names, lambda: key, self._choose_pack)
+        choice = self.pack_choice = Choice((36, 60, 140, 28), "", names, lambda: key, self._choose_pack)
         choice.more = lambda: app.push(PackList(app, self.own_packs, lambda pack: self._choose_pack(pack.key)))
         received = bool(self.pack and self.pack.received)
         mark = ", received" if received else ""
@@ -69,21 +70,23 @@ class PackScreen(PackDesk):
         def button(x: float, wide: float, text: str, act: Callable[[PackDesk], object], hint: str = "") -> Button:
             return Button((x, 60, wide, 28), text, partial(act, self), hint=hint, size=10)
 
-        undo = button(206, 44, "Undo", PackDesk.undo, f"Ctrl+Z: {steps[-1].name}" if steps else "")
+        undo = button(180, 42, "Undo", PackDesk.undo, f"Ctrl+Z: {steps[-1].name}" if steps else "")
         undo.enabled = bool(steps)
-        new = button(256, 76, "New pack...", pack_sharing.ask_for_new_pack)
+        new = button(226, 70, "New pack...", pack_sharing.ask_for_new_pack)
         hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
-        paste = button(338, 68, "Paste link", pack_sharing.paste, hint)
+        paste = button(300, 64, "Paste link", pack_sharing.paste, hint)
+        hint = "A zip that somebody sent you; it can be dropped here too"
+        unzip = button(368, 74, "Open a zip...", pack_sharing.choose_zip, hint)
         if not pack:
-            new.area, paste.area = (276, 220, 240, 44), (276, 276, 240, 44)
-            new.size = paste.size = 14
-            return [new, paste, undo] if steps else [new, paste]
-        about = button(412, 68, "More...", pack_menus.pack_menu, "Preview, name, copy or delete the pack")
+            for row, large in enumerate((new, paste, unzip)):
+                large.area, large.size = (276, 220 + 56 * row, 240, 44), 14
+            return [new, paste, unzip, undo] if steps else [new, paste, unzip]
+        about = button(446, 48, "More...", pack_menus.pack_menu, "Preview, name, copy or delete the pack")
         hint = f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
-        hint = shown_text(f"{pack.index.title}. {pack.index.comment}", 200) if received else hint
-        opener = self.play_button = button(486, 60, "Play" if received else "Preview", pack_menus.view, hint)
+        hint = shown_text(pack.index.summary, 200) if received else hint
+        opener = self.play_button = button(498, 54, "Play" if received else "Preview", pack_menus.view, hint)
         opener.enabled = bool(self.pack and self.pack.episodes)
-        wrong = button(552, 66, "Problems", pack_sharing.show_problems)
+        wrong = button(556, 62, "Problems", pack_sharing.show_problems)
         begin = ("Stop", self.packer.end) if busy else ("Make ready", partial(pack_sharing.prepare_shown, self))
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
         make = Button((632, 60, 124, 28), *begin, hint=hint)
@@ -92,7 +95,8 @@ class PackScreen(PackDesk):
         folder = Button((562, 525, 94, 24), "Open the folder", partial(pack_sharing.open_folder, self), size=10)
         folder.hint = "Where the zip is"
         share = [] if busy else [folder, link] if self.zipped else [link]
-        first = [self.shelves, choice, undo, new, paste, about, opener, wrong, make, tray_choice, self.tray, *share]
+        at_the_top: list[Widget] = [choice, undo, new, paste, unzip, about, opener, wrong, make]
+        first = [self.shelves, *at_the_top, tray_choice, self.tray, *share]
         episode = self.shelves.cells[0].episode
         if episode and self._begins:
             make_one = partial(pack_menus.ask_for_new_level, self, episode.number)
@@ -107,7 +111,12 @@ class PackScreen(PackDesk):
     @property
     def _below(self) -> float:
         """The upper edge of the texts below the shelves, px."""
-        return 96 + HIGH * self.shelves.lines + 24 if self.pack else 340
+        return 96 + HIGH * self.shelves.lines + 24 if self.pack else 396
+
+    @property
+    def notice_room(self) -> tuple[float, float]:
+        """Between the title and *Back*: below is the line of hints."""
+        return 110.0, 684.0
 
     def _choose_pack(self, key: str) -> None:
         self.show(next(pack for pack in self.own_packs if pack.key == key))
@@ -155,8 +164,8 @@ class PackScreen(PackDesk):
         elif shown != before:
             # A new notice may be about a certificate that a search of the editor has found.
             self.read_packs(news=shown.notice in ("", before.notice))
-        if packer.open_problems and packer.waited_for:
-            pack_sharing.ask_about(self, packer.open_problems)
+        if ready := packer.take_problems():
+            pack_sharing.ask_about(self, ready)
         self.redraw = self.status.update() or shown != before or self.redraw
 
     def draw_frame(self, surface: pygame.Surface) -> None:
@@ -188,7 +197,7 @@ class PackScreen(PackDesk):
         if packer.busy and packer.path == self.path:
             return ["It goes on when you leave this screen.", "Stop keeps what was found."]
         if packer.fresh and self.zipped:
-            return ["Send the zip or the link: a link is pasted, a zip dropped, in Levels > Packs."]
+            return ["Send the zip or the link: a link is pasted, a zip opened, in Levels > Packs."]
         if pack.received or not status.present:
             return []
         if status.present.problems:

@@ -8,19 +8,17 @@ from contextlib import suppress
 from pathlib import Path
 from time import thread_time
 
-import pygame
-
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.files.bundled import bundled_replays
 from ninja_game.files.reading import SUFFIXES, Skipped, files_in
 from ninja_game.files.shown_text import unused_name
-from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import WARNING_MS, App
 from ninja_game.play.menu_screen import Action, MenuScreen
+from ninja_game.play.panels.files import FilesScreen
 from ninja_game.play.panels.replays import FILES_SHOWN, ReplayRow, ReplaysScreen, result_of
 from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay
@@ -33,8 +31,6 @@ from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.tas_editor.tabs.tab import EntryField
 from ninja_game.ui.input.bindings import InputEvent
-from ninja_game.ui.list_view import ListView
-from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget
 
 QUICK = RUN_BUDGET // 100
@@ -213,36 +209,30 @@ class OtherRunScreen(ReplaysScreen):
             self.app.pop()
 
 
-class RunFiles(MenuScreen):
+class RunFiles(FilesScreen):
     """The folders and files beside the file of the run, then elsewhere: those with runs of its level.
 
     ``done``: called once a file's runs are shown.
     """
 
     foot = "Enter opens a folder, or shows the runs of a file; Esc goes back"
+    suffixes = SUFFIXES
 
     def __init__(self, app: App, others: OtherRuns, done: Action) -> None:
-        super().__init__(app)
         self.others, self._done = others, done
         self._origin = others.editor.session.at_home
         file = Path(self._origin.file)
-        self.folder = file.absolute().parent if file.is_file() else Path.cwd()
-        self.paths: list[Path] = []
-        self.field = EntryField("Path or link", lambda: self.open_file(self.field.text), longest=2000)
+        super().__init__(app, file.absolute().parent if file.is_file() else Path.cwd(), top=104)
+        self.field = EntryField("Path or link", lambda: self.open_path(self.field.text), longest=2000)
         self.field.area = 44, 62, 712, 28
-        self.list = ListView((44, 104, 712, 442), 26, self._draw_row, self._choose, opens=True)
 
     def build(self) -> Sequence[Widget]:
-        self._look()
-        return [self.field, self.list]
+        return [self.field, *super().build()]
 
-    def _look(self) -> None:
-        """List the folder, and its files with runs of the level, as far as that is quick."""
-        self.title, end = short_path(self.folder)[-40:], thread_time() + LOOK_SECONDS
-        names = [name for name in files_in(self.folder) if name.lower().endswith(SUFFIXES)]
-        fitting = [name for name in names if thread_time() > end or self._has_runs(self.folder / name)]
-        self.paths = [self.folder.parent, *_folders_in(self.folder), *map(self.folder.joinpath, fitting)]
-        self.list.fill(self.paths)
+    def fitting(self, names: Sequence[str]) -> list[Path]:
+        """Those with runs of the level, as far as that is quick."""
+        end = thread_time() + LOOK_SECONDS
+        return [path for path in super().fitting(names) if thread_time() > end or self._has_runs(path)]
 
     def _has_runs(self, file: Path) -> bool:
         try:
@@ -250,32 +240,18 @@ class RunFiles(MenuScreen):
         except (NinjaGameError, OSError):
             return False
 
-    def open_file(self, text: str) -> None:
+    def open_path(self, text: str) -> None:
         """Show the runs of a file or a link, or the contents of a folder; a path may be relative to that shown."""
         path = Path(text if is_link(text) else self.folder / os.path.expanduser(text))  # noqa: PTH111 - fails on none
         if not is_link(path) and os.path.isdir(path):  # noqa: PTH112 - likewise
-            self.folder, self.list.index, self.redraw = path.resolve(), 0, True
-            self._look()
-        elif self.others.editor.attempt(lambda: self.others.open(runs_of_level(path, self._origin))):
+            self.open_folder(path.resolve())
+        else:
+            self.open_file(path)
+
+    def open_file(self, path: Path) -> None:
+        if self.others.editor.attempt(lambda: self.others.open(runs_of_level(path, self._origin))):
             self.app.pop()
             self._done()
-
-    def _choose(self, index: int) -> None:
-        self.open_file(str(self.paths[index]))
-
-    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        path, (x, y, w, h) = self.paths[index], area
-        theme.row(surface, (x, y + 1, w, h - 2), chosen=index == self.list.index, focused=focused, radius=3)
-        up, folder = path == self.folder.parent, path.is_dir()
-        name = "..  the folder above" if up else f"{path.name}/" if folder else path.name
-        theme.text(surface, name, x + 10, y + 6, size=11, bold=folder, width=w - 20)
-
-
-def _folders_in(folder: Path) -> list[Path]:
-    try:
-        return sorted(path for path in folder.iterdir() if path.is_dir() and not path.name.startswith("."))
-    except OSError:
-        return []
 
 
 def _named(row: ReplayRow) -> ReplayRow:

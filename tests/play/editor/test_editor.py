@@ -27,6 +27,7 @@ from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.commands import EDITOR_COMMANDS, TryScreen
+from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import sign_mark
@@ -499,7 +500,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     room.mouse(*room.at(396, 541), click=False)
     assert session.reach or "compiled" in status._text()
     standing = shown(396, 541)
-    assert status._text().startswith("In 1 s, standing, the ninja can be in the green, ")
+    assert status._text().startswith("In 1 s, standing, the ninja can be where it is shaded, ")
     room.mouse(*LAYOUT.file[:2], click=False)
     room.frames()
     away = room.app.surface.copy()
@@ -808,7 +809,7 @@ def test_the_wheel_changes_nothing_while_something_is_drawn(maker: Maker) -> Non
     assert not maker.draft.objects, "it was still being drawn"
     assert maker.editor.view.camera.zoom == 1
     maker.wheel(1, *maker.at(400, 300))
-    assert maker.editor.view.camera.zoom == 2
+    assert maker.editor.view.camera.zoom > 1
 
 
 @pytest.mark.parametrize("how", ["key", "button"])
@@ -1254,3 +1255,73 @@ def test_grey_buttons_that_align_say_why(room: Maker) -> None:
             button = next(each for each in room.editor.properties.widgets if getattr(each, "text", "") == text)
             room.mouse(*button.centre, click=False)
             assert (why in drawn(room.app)) == (count < enough)
+
+
+@pytest.mark.parametrize("other", ["Box", "key", "test", "undo", "escape"])
+def test_a_door_without_its_switch_is_put_away_and_that_is_told(room: Maker, other: str) -> None:
+    before, view = room.draft, room.editor.view
+    room.press("shift+k")
+    room.drag((300, 300))
+    assert room.editor.session.tools.placing_switch
+    if other == "Box":
+        room.choose(other)
+    elif other == "undo":
+        room.chord("z", pygame.KMOD_LCTRL)
+    else:
+        room.press({"key": "9", "test": "f5", "escape": "escape"}[other])
+    assert room.draft == before
+    told = {"escape": "", "undo": "Undone: placed 1 locked door"}
+    assert view.hint == told.get(other, "The locked door is put away: it had no switch yet")
+    if other == "test":
+        room.press("escape")
+    room.press("shift+k")
+    room.drag((300, 300))
+    room.drag((400, 300))
+    assert len(room.draft.objects) == len(before.objects) + 1
+
+
+def test_a_clicked_bubble_is_shown_in_the_panel_from_which_it_opens(room: Maker) -> None:
+    editor = room.editor
+    editor.session.tools.history.change(replace(room.draft, says="start: Welcome | at 15,12 3x1: Mind the gap here"))
+    room.frames()
+
+    def labels() -> list[str]:
+        return [getattr(widget, "text", "") for widget in editor.properties.widgets]
+
+    def selected() -> bool:
+        return "Selected: message" in labels()
+
+    room.choose("Select")
+    room.drag((15 * 24 + 12, 12 * 24 + 12))
+    assert selected()
+    assert "at: Mind the gap here" in labels()
+    room.press("escape")
+    assert not selected()
+    room.drag((60 + 16, 542 - 18))
+    assert selected()
+    assert "start: Welcome" in labels()
+    room.drag((500, 100))
+    assert not selected()
+    room.drag((60 + 16, 542 - 18))
+    room.choose("Brush")
+    room.frames()
+    assert not selected()
+    room.choose("Select")
+    room.drag((15 * 24 + 12, 12 * 24 + 12))
+    room.choose("Open...")
+    assert room.shown(MessagesScreen).title == "Messages to the player"
+
+
+@pytest.mark.parametrize("symmetry", ["off", "left-right"])
+def test_flat_ends_of_a_bent_line_with_slopes_are_square(room: Maker, symmetry: str) -> None:
+    tools = room.editor.session.tools
+    room.editor.session.set_slopes(True)
+    tools.tool, tools.symmetry = "line", symmetry
+    tools.move(60, 480)
+    tools.press()
+    tools.move(340, 400)
+    tools.bend(4)
+    tools.release()
+    ends = [(2, row) for row in (20, 21)] + [(30, row) for row in (20, 21)] * (symmetry != "off")
+    assert [room.draft.tile(cell) for cell in ends] == [1] * len(ends)
+    assert any(tile > 1 for tile in room.draft.level.tiles), "slopes between them"

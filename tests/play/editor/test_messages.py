@@ -24,9 +24,9 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import Phase
-from ninja_game.play.level.messages import MessageQueue, read_ticks
 from ninja_game.play.menu_screen import Menu
 from ninja_game.player.playthrough import Playthrough
+from ninja_game.runs.messages import MessageQueue, read_ticks
 from ninja_game.search.certificate import verified_run
 from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.inputs import with_press_bits

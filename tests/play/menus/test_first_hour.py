@@ -17,7 +17,14 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER, Phase, things_at_start
-from ninja_game.play.level.messages import (
+from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
+from ninja_game.play.main_menu import MainMenu
+from ninja_game.play.menu_screen import Menu
+from ninja_game.play.menus.browser import Browser
+from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
+from ninja_game.runs.deaths import SELF
+from ninja_game.runs.messages import (
     _FADE_TICKS,
     CLIMB,
     CLIMBED,
@@ -28,13 +35,6 @@ from ninja_game.play.level.messages import (
     MessageQueue,
     read_ticks,
 )
-from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
-from ninja_game.play.main_menu import MainMenu
-from ninja_game.play.menu_screen import Menu
-from ninja_game.play.menus.browser import Browser
-from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
-from ninja_game.runs.deaths import SELF
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.grid import cell_of, middle_of
 from ninja_game.sim.kinds import EXIT, SWITCH

@@ -498,7 +498,7 @@ def test_a_check_that_fails_ends_the_wait_for_it(
 def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(
     driver: MenuDriver, screen: PackScreen
 ) -> None:
-    assert "a zip to drop here" in drawn(driver.app)
+    assert "a zip to open or drop here" in drawn(driver.app)
     driver.choose("New pack...")
     typed(driver, "Walls")
     assert "drag them into the places" in drawn(driver.app)
@@ -562,8 +562,7 @@ def test_a_pack_is_made_ready_in_the_background(
     saved, rest = f"Saved: {short_path(zipped)}", "the link is in the clipboard"
     assert driver.app.notice == f"{saved}; {rest}"
     notice = driver.app._draw_notice(driver.app.theme)
-    foot = driver.app.canvas.point(0, 551)[1], driver.app.canvas.stage.bottom
-    assert foot[0] <= notice.top < notice.bottom <= foot[1], "the state of the pack is read meanwhile"
+    assert 0 <= notice.top < notice.bottom <= 96, "the state of the pack, and hints, are read meanwhile"
     assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
     driver.wait(lambda: screen.status.present, "the problems are known")
     driver.choose("Problems")
@@ -980,7 +979,7 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path, 
         screen.enter()
         assert not screen.own_packs
         driver.choose("Paste link")
-        assert "Laundry is among your packs now" in driver.app.notice
+        assert "Laundry: kept among your packs, in " in driver.app.notice
         driver.choose("Not now")
         driver.wait(lambda: screen.status.present, "the problems are known")
         work = "Make ready will look for all gold in 8 levels"
@@ -1015,7 +1014,7 @@ def test_another_version_of_a_received_pack_updates_it(driver: MenuDriver, path:
         driver.drop_file(zipped)
 
     drop()
-    assert driver.app.notice == "Laundry is among your packs now"
+    assert driver.app.notice.startswith("Laundry: kept among your packs, in ")
     driver.choose("Not now")
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     before = {file: file.read_bytes() for file in path.rglob("*") if file.is_file()}
@@ -1563,3 +1562,59 @@ def test_a_pack_whose_folder_has_gone_meanwhile_ends_nothing(
         driver.choose(button)
     assert driver.top() is screen
     assert "No such file" in driver.app.notice
+
+
+def test_a_zip_is_chosen_from_the_folder_of_downloads_and_kept(
+    driver: MenuDriver, screen: PackScreen, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (loaded := tmp_path / "home" / "Downloads" / "new").mkdir(parents=True)
+    (loaded / "test.zip").write_bytes(Pack(PACK).files.zipped())
+    (loaded / "notes.txt").write_text("no pack", "utf-8")
+    monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
+    driver.choose("Open a zip...")
+    files = driver.shown(pack_sharing.ZipsScreen)
+    assert files.paths == [tmp_path / "home", loaded], "it begins where browsers put what they load"
+    driver.press("down", "return")
+    assert [path.name for path in files.paths[1:]] == ["test.zip"]
+    driver.press("down", "return")
+    assert driver.shown(PackCard)
+    assert [pack.name for pack in screen.own_packs] == ["test pack"]
+    assert driver.app.notice == f"test pack: kept among your packs, in {short_path(screen.path)}"
+
+
+def test_a_file_that_is_no_pack_is_refused_where_it_was_chosen(
+    driver: MenuDriver, screen: PackScreen, tmp_path: Path
+) -> None:
+    (bad := tmp_path / "bad.zip").write_bytes(b"no zip")
+    driver.choose("Open a zip...")
+    driver.shown(pack_sharing.ZipsScreen).open_file(bad)
+    assert driver.shown(PackScreen) is screen
+    assert "neither a folder nor a zip that can be a pack" in driver.app.notice
+
+
+def test_a_notice_leaves_the_line_of_hints_free(driver: MenuDriver, path: Path) -> None:
+    opened(driver)
+    for text in ("Saved", "word " * 40, "word " * 80):
+        driver.app.notify(text)
+        driver.frames(2)
+        rect = driver.app._draw_notice(driver.app.top.theme)
+        assert rect.top >= 0
+        assert rect.bottom < 200
+
+
+def test_there_is_one_zip_of_each_version(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    exports = driver.player.folder / "exports"
+
+    def publish(version: str) -> str:
+        packs.describe(path, {"version": version})
+        pack = Pack(path)
+        screen.packer.publish(ReadyPack(pack, [], pack.files.zipped(), "", []))
+        assert screen.packer.saved
+        return screen.packer.saved.name
+
+    names = ["laundry.zip", "laundry.zip", "laundry-2.zip", "laundry-2.zip", "laundry.zip"]
+    assert [publish(version) for version in ("", "", "2", "2", "")] == names
+    assert Pack(exports / "laundry-2.zip").index.version == "2"
+    packs.describe(path, {"author": "Somebody else"})
+    assert publish("") == "laundry-3.zip", "another author's pack is not replaced"

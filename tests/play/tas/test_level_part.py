@@ -376,7 +376,7 @@ def test_other_records_of_the_file_that_is_open_are_listed_and_never_the_run_its
     assert records == [2, 0, 3], "of records 0 and 3 all but the keys is the same"
     assert (listed.problems, listed.without_runs) == ([], ["levels.txt"])
     at.choose("From a file ...")
-    at.shown(RunFiles).open_file("box.txt")
+    at.shown(RunFiles).open_path("box.txt")
     assert [other.name for other in at.editor.others] == ["box.txt", "box.txt 2", "box.txt 3"]
     assert at.editor.beside is at.editor.others[0]
     at.chord("s", pygame.KMOD_LCTRL)
@@ -448,7 +448,7 @@ def test_other_runs_come_from_any_file(at: TasDriver, tmp_path: Path) -> None:
     files_shown = at.shown(RunFiles)
     assert [path.name for path in files_shown.paths[1:]] == ["player", "other.replay.txt"], "not the run itself"
     for name in ("no such file", "~nobody there/file", "long " * 60, "notes.txt", "elsewhere.replay.txt"):
-        files_shown.open_file(name)
+        files_shown.open_path(name)
         assert at.top() is files_shown
         assert at.app.notice
     at.press("down", "down", "return")

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from math import hypot
 from typing import NamedTuple
 
-from ninja_game.formats.messages import ALL_GOLD, LevelMessage, arrow_targets
+from ninja_game.formats.messages import ALL_GOLD, LevelMessage, arrow_targets, parse_messages
+from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.sim.collision.rays import sees, solid_at
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
-from ninja_game.sim.grid import Point
+from ninja_game.sim.grid import Point, cell_of
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
@@ -240,11 +241,22 @@ def late_text(moment: Heard) -> str:
     return f"{late} s late in the known run: others are read first" if late else ""
 
 
+def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
+    """The messages that wait for others in the known run. One that follows another of its own moment is meant to."""
+    messages, past = parse_messages(says), set[tuple[object, ...]]()
+    for message, coming in zip(messages, heard(messages, level, inputs) if inputs else [], strict=False):
+        moment = message.when, message.number, message.cell
+        if coming and message.when not in {"start", "death"} and moment not in past and (why := late_text(coming)):
+            cell = cell_of(*(message.place or coming.spot))
+            yield level_finding("late-message", cells=(cell,), text=message.one_line, why=why)
+        past.add(moment)
+
+
 _Comings = dict[str, tuple[int, Point]]
 """The tick in which a text first comes, and the ninja's place then, px."""
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=256)
 def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[_Comings, _Comings]:
     """When texts first come in a run: beside each other, and each as if it were the only one."""
     run = Simulation(level)
