@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
-from itertools import takewhile
-from math import isfinite
+from itertools import product, takewhile
+from math import dist, isfinite
 from struct import iter_unpack
 from threading import Event
 from time import monotonic
@@ -27,10 +27,10 @@ from ninja_game.runs.run import RunResult, run_level
 from ninja_game.runtime import NewestJob, install_hint
 from ninja_game.sim.events import LOCK_OPENED
 from ninja_game.sim.grid import Cell, cell_of, is_inside, middle_of
-from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT, with_press_bits
 from ninja_game.sim.kinds import DOOR, MOVING_ENEMIES, NINJA
 from ninja_game.sim.level import Body, Level, ObjectSpec, makes_object
-from ninja_game.sim.rules import CELL, TICKS_PER_SECOND, TOP_SPEED, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.rules import CELL, GOLD_RADIUS, RADIUS, TICKS_PER_SECOND, TOP_SPEED, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import FALLING, JUMPING, OUTCOME_DEAD
 from ninja_game.simulation import Simulation
 
@@ -330,6 +330,9 @@ class Certifier:
 TICKS = TICKS_PER_SECOND
 """Ticks simulated for the overlay, and least ticks of a test before its message: a second."""
 
+_AROUND, _FLOORS = 8, 16
+"""How many cells around a place, below it twice as many, and how many floors there, a test may begin on."""
+
 STARTS = {"off": None, "standing": 0.0, "running right": TOP_SPEED, "running left": -TOP_SPEED}
 """Speeds at the start to the right, px/tick; "off": nothing is shown."""
 
@@ -417,12 +420,19 @@ def lead_in(level: Level, inputs: bytes, tick: int) -> bytes:
     return inputs[: stood if alive - stood <= 2 * TICKS else alive]
 
 
-def place_before(draft: Draft, place: tuple[float, float], size: Cell = SIZE) -> tuple[float, float] | None:
+TOUCH = RADIUS + GOLD_RADIUS
+"""px between the ninja and gold or a switch that it touches."""
+
+
+def place_before(
+    draft: Draft, place: tuple[float, float], size: Cell = SIZE, *, touch: bool = False
+) -> tuple[float, float] | None:
     """Where a test of what is said near a place begins, px; None: at the level's start.
 
     It is a cell beside the frame, nearer without room for that, with a floor and on the side of the start rather than
-    without; between walls it is below or above. A ninja that presses nothing lives there. ``size``: of the frame around
-    the place, in cells.
+    without; between walls it is below or above. A ninja that presses nothing lives there. If that is in the air, it is
+    rather the nearest floor from which the ninja gets into the frame, or, with ``touch``, to the place itself.
+    ``size``: of the frame around the place, in cells.
     """
     column, row = cell_of(*place)
     start = next(iter(route_of(draft.level, bytes(1))), place)
@@ -445,8 +455,50 @@ def place_before(draft: Draft, place: tuple[float, float], size: Cell = SIZE) ->
         if all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in strip):
             run = _played(with_ninja_at(draft, at := middle_of(strip[-1])), bytes(TICKS))
             if run and run.outcome != "dead":
-                return at
+                column, row = strip[-1]
+                stands = draft.tile((column, row + 1)) != EMPTY
+                reach = (TOUCH, TOUCH) if touch else (size[0] * CELL / 2, size[1] * CELL / 2)
+                return at if stands else _floor_before(draft, place, reach) or at
     return None
+
+
+def _floor_before(draft: Draft, place: tuple[float, float], reach: tuple[float, float]) -> tuple[float, float] | None:
+    """The nearest floor from which one of a few jumps comes within ``reach`` px of a place, across and down.
+
+    Not nearer than two cells; None: there is none, as far as is looked.
+    """
+    column, row = cell_of(*place)
+    cells = product(range(column - _AROUND, column + _AROUND + 1), range(row - 2, row + 2 * _AROUND))
+    floors = [
+        middle_of((x, y))
+        for x, y in cells
+        if is_inside((x, y)) and draft.tile((x, y)) == EMPTY and draft.tile((x, y + 1)) != EMPTY
+    ]
+    apart = [at for at in floors if dist(at, place) >= 2 * CELL]
+    for at in sorted(apart, key=partial(dist, place))[:_FLOORS]:
+        level, side = with_ninja_at(draft, at), KEY_RIGHT if at[0] < place[0] else KEY_LEFT
+        if any(_comes_near(level, jump, place, reach) for jump in _jumps(side)):
+            return at
+    return None
+
+
+def _jumps(side: int) -> Iterator[bytes]:
+    """The keys of jumps, high and low: straight up, to a side, and there after a short or a longer run."""
+    for before, during, run in ((0, 0, 4), (0, side, 4), (side, side, 6), (side, side, 12), (side, side, 24)):
+        for hold in (TICKS, 4):
+            keys = bytes([before]) * run + bytes([during | JUMP_HELD]) * hold + bytes([during]) * (2 * TICKS - hold)
+            yield with_press_bits(keys)
+
+
+def _comes_near(level: Level, keys: bytes, place: tuple[float, float], reach: tuple[float, float]) -> bool:
+    run = Simulation(level)
+    for key in keys:
+        run.step_keys(key)
+        if run.outcome != "running":
+            return False
+        if abs(run.ninja.x - place[0]) <= reach[0] and abs(run.ninja.y - place[1]) <= reach[1]:
+            return True
+    return False
 
 
 def find_reach(ask: Ask) -> Reach:

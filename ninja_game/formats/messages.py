@@ -21,16 +21,18 @@ KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 """Actions whose key a message may name: {jump} becomes the player's key or button."""
 
 TARGETS = ("switch", "exit")  # objects that a message may name in the same way: arrows lead to them while it is shown
+COUNTS = ("gold left", "gold taken", "deaths")  # numbers that it may name: they change while it is shown
+WORDS = KEYS + TARGETS + COUNTS
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _COUNTED = re.compile(r"(?:death|gold) ([1-9][0-9]?)|after ([1-9][0-9]?) s")
 _PLACE = re.compile(r"(at|switch|gold|lock|trap) ([0-9]{1,2}),([0-9]{1,2})(?: ([1-9][0-9]?)x([1-9][0-9]?))?")
-_TIME = re.compile(r"(.*) for ([1-9][0-9]?) s")
+_TIME = re.compile(r"(.*) for ((?!0+(?:\.0)? )[0-9]{1,2}(?:\.[0-9])?) s")
 ALL_GOLD = "all gold"
 _EVENTS = ("start", "switch", "gold", ALL_GOLD, "lock", "trap")
 _WHEN = (
     f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'gold 3', 'death 3', 'after 20 s', 'at 12,5' or 'at 12,5 3x3',"
-    " then perhaps 'for 9 s'"
+    " then perhaps 'for 9 s' or 'for 1.5 s'"
 )
 
 
@@ -39,14 +41,14 @@ class LevelMessage(NamedTuple):
 
     ``text``: up to MAX_MESSAGE_LINES lines.
     ``cell``: column and row of "at", or of the one switch or gold. ``seconds``: how long it is shown; 0: the usual
-    time. ``size``: of its frame, in cells.
+    time. ``size``: of its frame, in cells: of an even number there is one more left of, or above, its cell.
     """
 
     when: str
     text: str
     number: int = 0
     cell: Cell = ANY
-    seconds: int = 0
+    seconds: float = 0
     size: tuple[int, int] = SIZE
 
     @property
@@ -63,8 +65,20 @@ class LevelMessage(NamedTuple):
         return self.cell == ANY or cell_at(x, y) == cell_index(*self.cell)
 
     @property
+    def frame(self) -> tuple[int, int, int, int]:
+        """Where the ninja is near the place: left column, upper row, number of columns and of rows."""
+        columns, rows = self.size
+        return self.cell[0] - columns // 2, self.cell[1] - rows // 2, columns, rows
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """Of the frame, px."""
+        left, top, columns, rows = self.frame
+        return CELL * (left + columns / 2), CELL * (top + rows / 2)
+
+    @property
     def reach(self) -> tuple[float, float]:
-        """Half the width and height of the frame in which the ninja is near the place, px."""
+        """Half the width and height of the frame, px."""
         return self.size[0] * CELL / 2, self.size[1] * CELL / 2
 
 
@@ -72,7 +86,7 @@ def parse_messages(value: str) -> tuple[LevelMessage, ...]:
     """The messages in a header's value, separated by bars. Raises LevelError.
 
     >>> parse_messages("start: {jump} jumps | death 3 for 9 s: Wait for the drone")[1]
-    LevelMessage(when='death', text='Wait for the drone', number=3, cell=(0, 0), seconds=9, size=(5, 5))
+    LevelMessage(when='death', text='Wait for the drone', number=3, cell=(0, 0), seconds=9.0, size=(5, 5))
     """
     parts = value.split(BAR) if value.strip() else []
     if len(parts) > MAX_MESSAGES:
@@ -81,8 +95,8 @@ def parse_messages(value: str) -> tuple[LevelMessage, ...]:
 
 
 def unknown_words(text: str) -> list[str]:
-    """Words in braces that are neither in KEYS nor in TARGETS."""
-    return [name for name in _KEY.findall(text) if name not in KEYS + TARGETS]
+    """Words in braces that are not in WORDS."""
+    return [name for name in _KEY.findall(text) if name not in WORDS]
 
 
 def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
@@ -133,9 +147,9 @@ def _read(part: str) -> LevelMessage:
     if len(lines) > MAX_MESSAGE_LINES:
         raise LevelError("too many lines in a text in 'says'", found=found, expected=f"at most {MAX_MESSAGE_LINES}")
     for name in unknown_words(text):
-        raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + TARGETS))
+        raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(WORDS))
     timed = _TIME.fullmatch(when)
-    moment, seconds = (timed[1], int(timed[2])) if timed else (when, 0)
+    moment, seconds = (timed[1], float(timed[2])) if timed else (when, 0.0)
     if moment in _EVENTS:
         return LevelMessage(moment, text, seconds=seconds)
     if match := _COUNTED.fullmatch(moment):
@@ -148,9 +162,9 @@ def _read(part: str) -> LevelMessage:
 
 
 def named_keys(text: str, name: Callable[[str], str]) -> str:
-    """Replace actions by the player's names of their keys, and targets by their names. ``name``: gives an action's key.
+    """Replace targets by their names, and actions and counts by what ``name`` gives: a player's key, a number.
 
-    >>> named_keys("{jump} jumps", {"jump": "Z"}.__getitem__)
-    'Z jumps'
+    >>> named_keys("{jump} to the {exit}", {"jump": "Z"}.__getitem__)
+    'Z to the exit'
     """
     return _KEY.sub(lambda match: match[1] if match[1] in TARGETS else name(match[1]), text)

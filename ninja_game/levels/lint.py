@@ -258,7 +258,7 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
         elif message.when == "gold" and message.number > len(gold):
             why = f"the level has {counted(len(gold), 'piece')} of gold"
             yield level_finding("unseen-message", text=message.one_line, why=why)
-        elif message.place and not ground.comes_near(*message.place, message.reach):
+        elif message.place and not ground.comes_near(*message.middle, message.reach):
             why = "the ninja never comes near its place"
             yield level_finding("unseen-message", cells=(message.cell,), text=message.one_line, why=why)
 

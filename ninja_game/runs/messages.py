@@ -22,7 +22,7 @@ from ninja_game.simulation import Simulation
 SHOWN_TICKS = 240  # for which a message is shown after its event
 START_TICKS = 480  # the same in play for a single message of the start or the switch
 _FADE_TICKS = 20  # in which a message near a place fades at its end
-_FAR = 60.0  # px outside its frame at which it ends
+_WAITS = {"at", "after"}  # moments that wait until what just happened was read
 
 _STILL = 0.05  # slower than this the ninja is still, px/tick
 
@@ -68,9 +68,10 @@ class MessageQueue:
     - ``helps``: the game gives advice too: to try again, to climb.
     - ``text`` is the present one or "", ``place`` its place, px: it ends when the ninja is far from there.
 
-    A message of the start comes at each start until the exit is open, any other once. A new one ends those of the
-    start; any other stays for its ``read_ticks``, and what happens meanwhile waits in order, before what waits for a
-    place. A place or a time that has passed by then is waited for again.
+    A message of the start comes at each start until the exit is open, any other once. What just happened replaces
+    what is shown; a place or a time waits until that was read, for its ``read_ticks``, and comes again if it was
+    replaced before. The text of a place without a time of its own stays while the ninja is in its frame, unless
+    another waits.
     """
 
     def __init__(self, messages: Sequence[LevelMessage], tiles: TileMap | None = None, *, helps: bool = False) -> None:
@@ -78,7 +79,7 @@ class MessageQueue:
         self.helps = helps
         self._again = helps
         self._shown: set[LevelMessage] = set()
-        self._deaths = self._slips = 0
+        self.deaths = self._slips = 0
         self._climb, self._foot = "", 0.0
         self._began = 0.0, 0.0
         self._next: list[_Text] = []
@@ -88,7 +89,7 @@ class MessageQueue:
         """Called when the level waits at its start. What was still waiting has not been shown."""
         waiting = {line[0] for line in self._next if not self._belongs_to_start(line[0])}
         self._shown = {message for message in self._shown if message.text not in waiting}
-        due = [message for message in self._messages if message.when == "death" and message.number == self._deaths]
+        due = [message for message in self._messages if message.when == "death" and message.number == self.deaths]
         starts = [message for message in self._messages if message.when == "start" and message not in self._shown]
         self._say(*_in_turn([*due, *starts]))
         self._still = self._quiet = 0
@@ -98,15 +99,14 @@ class MessageQueue:
         (self.text, self._left, self.message), *self._next = texts or (_NOTHING,)
         self._unread = read_ticks(self.text)
 
-    def _say_soon(self, *texts: _Text) -> None:
-        """Show these texts next: at once if the present one has been read or belongs to the start. Drop the start's."""
+    def _say_now(self, *texts: _Text) -> None:
+        """Show these texts at once, then what waits. A place or a time that was not read is waited for again."""
         waiting = [line for line in self._next if not self._belongs_to_start(line[0])]
+        unread = [message for _, _, message in waiting]
         if self.is_unread:
-            self._left = min(self._left, self._unread)
-            hurried = [(text, min(ticks, read_ticks(text)), about) for text, ticks, about in waiting]
-            self._next = sorted([*hurried, *texts], key=lambda line: line[2] is not None and line[2].when == "at")
-        else:
-            self._say(*texts, *waiting)
+            unread.append(self.message)
+        self._shown -= {message for message in unread if message and message.when in _WAITS}
+        self._say(*texts, *(line for line in waiting if line[2] is None or line[2] in self._shown))
 
     @property
     def named(self) -> Sequence[str]:
@@ -127,7 +127,7 @@ class MessageQueue:
 
     @property
     def is_unread(self) -> bool:
-        """Whether another text has to wait for the present one."""
+        """Whether a text of a place or a time has to wait for the present one."""
         return bool(self.text) and self._unread > 0 and not self.is_start
 
     @property
@@ -140,8 +140,12 @@ class MessageQueue:
         self._shown.clear()
         self.at_start()
 
+    def drop_start(self) -> None:
+        """The player has understood the goal, or is far from the start: do not say again what belongs to it."""
+        self._shown.update(message for message in self._messages if message.when == "start")
+
     def on_death(self) -> None:
-        self._deaths += 1
+        self.deaths += 1
         self.text = ""
 
     def on_tick(self, world: World) -> bool:
@@ -149,32 +153,30 @@ class MessageQueue:
         before = self.text
         self._left -= 1
         self._unread -= 1
-        if self.message and self.place and self._unread < 0 and not _is_near(world, self.message, _FAR):
-            self._left = min(self._left, _FADE_TICKS)
+        if self.message and self.place and not self.message.seconds:
+            if _is_near(world, self.message):
+                self._left = self._left if self._next else max(self._left, _FADE_TICKS)
+            elif self._unread < 0:
+                self._left = min(self._left, _FADE_TICKS)
         if self._left <= 0:
             self._say(*self._next)
         events = world.events[: world.event_count]
-        happened = {message for e in events for message in self._messages if _is_of(message, e, world)}
         if any(event.kind == EXIT_OPENED for event in events):
-            # The player has understood the goal: do not repeat the text of the start.
-            self._shown.update(message for message in self._messages if message.when == "start")
-        free = not (self.is_unread or happened - self._shown)
-        new = [
-            message
-            for message in self._messages
-            if message not in self._shown
-            and (message in happened or (free and (self._is_at(world, message) or _is_due(world, message))))
-        ]
+            self.drop_start()
+        ahead = [message for message in self._messages if message not in self._shown]
+        new = [message for message in ahead if any(_is_of(message, event, world) for event in events)]
+        if not new and not self.is_unread:
+            new = [message for message in ahead if self._is_at(world, message) or _is_due(world, message)]
         if new:
             self._shown.update(new)
-            self._say_soon(*_in_turn(new))
+            self._say_now(*_in_turn(new))
         if self._again and self._is_stuck(world):
             self._again = False
             self._say((AGAIN, SHOWN_TICKS, None))
         if self.helps and (wall := self._slipped(world)) and not self.is_unread:
             towards, away = ("{right}", "{left}") if wall < 0 else ("{left}", "{right}")
             self._climb, self._foot = CLIMB % (towards, away), world.ninja.y
-            self._say_soon((self._climb, START_TICKS, None))
+            self._say_now((self._climb, START_TICKS, None))
         elif self.text == self._climb and self._foot - world.ninja.y > CLIMBED:
             self.text = ""
         return self.text != before
@@ -220,6 +222,7 @@ class Heard(NamedTuple):
     due: int  #: the tick in which it comes as the only one, from 0
     tick: int | None  #: the same beside the others; None: never, because of them
     spot: Point
+    cut: int = 0  #: the ticks after which another replaces it before it was read; 0: none does
 
 
 def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[Heard | None]:
@@ -228,17 +231,25 @@ def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list
     texts = [str(number).ljust(-(-len(message.text) // 20) * 20) for number, message in enumerate(messages)]
     numbered = tuple(message._replace(text=text) for message, text in zip(messages, texts, strict=True))
     together, alone = _heard(numbered, level, inputs)
-    return [
-        Heard(alone[text][0], *together.get(text, (None, alone[text][1]))) if text in alone else None for text in texts
-    ]
+    comings: list[Heard | None] = []
+    for text in texts:
+        wanted, coming = alone.get(text), together.get(text)
+        if wanted is None or coming is None:
+            comings.append(wanted and Heard(wanted.tick, None, wanted.spot))
+        else:
+            is_cut = coming.ticks < min(wanted.ticks, read_ticks(text))
+            comings.append(Heard(wanted.tick, coming.tick, coming.spot, coming.ticks if is_cut else 0))
+    return comings
 
 
 def late_text(moment: Heard) -> str:
-    """How late a message comes in a level's known run because others are read first; '' if it is in time."""
+    """What keeps a message from being read in time in a level's known run; '' if nothing does."""
     if moment.tick is None:
         return "not shown in the known run: others are read then"
     late = (moment.tick - moment.due) // TICKS_PER_SECOND
-    return f"{late} s late in the known run: others are read first" if late else ""
+    if late:
+        return f"{late} s late in the known run: others are read first"
+    return f"replaced after {moment.cut / TICKS_PER_SECOND:.1f} s in the known run, too soon" if moment.cut else ""
 
 
 def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
@@ -252,13 +263,20 @@ def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
         past.add(moment)
 
 
-_Comings = dict[str, tuple[int, Point]]
-"""The tick in which a text first comes, and the ninja's place then, px."""
+class _Coming(NamedTuple):
+    """The tick in which a text first comes, the ninja's place then, px, and the ticks for which it is shown."""
+
+    tick: int
+    spot: Point
+    ticks: int = 0
+
+
+_Comings = dict[str, _Coming]
 
 
 @lru_cache(maxsize=256)
 def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[_Comings, _Comings]:
-    """When texts first come in a run: beside each other, and each as if it were the only one."""
+    """How texts come in a run: beside each other, and each as if it were the only one."""
     run = Simulation(level)
     together, alone = _Comings(), _Comings()
     queues = [(MessageQueue([message], run.tiles), alone) for message in messages]
@@ -267,7 +285,8 @@ def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> t
         run.step_keys(keys)
         for queue, comings in queues:
             queue.on_tick(run.world)
-            comings.setdefault(queue.text, (tick, (run.world.ninja.x, run.world.ninja.y)))
+            coming = comings.get(queue.text) or _Coming(tick, (run.world.ninja.x, run.world.ninja.y))
+            comings[queue.text] = coming._replace(ticks=coming.ticks + 1)
     return together, alone
 
 
@@ -281,7 +300,9 @@ def shown_ticks(when: str, together: int, text: str) -> int:
 
 
 def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
-    return [(m.text, m.seconds * TICKS_PER_SECOND or shown_ticks(m.when, len(messages), m.text), m) for m in messages]
+    return [
+        (m.text, round(m.seconds * TICKS_PER_SECOND) or shown_ticks(m.when, len(messages), m.text), m) for m in messages
+    ]
 
 
 def _is_of(message: LevelMessage, event: Event, world: World) -> bool:
@@ -295,9 +316,9 @@ def _is_due(world: World, message: LevelMessage) -> bool:
     return message.when == "after" and world.tick >= message.number * TICKS_PER_SECOND
 
 
-def _is_near(world: World, message: LevelMessage, around: float = 0.0) -> bool:
-    """Whether the ninja is in the frame of a message's place, or ``around`` it, px."""
-    if (place := message.place) is None:
+def _is_near(world: World, message: LevelMessage) -> bool:
+    """Whether the ninja is in the frame of a message's place."""
+    if message.place is None:
         return False
-    across, down = abs(world.ninja.x - place[0]), abs(world.ninja.y - place[1])
-    return across <= message.reach[0] + around and down <= message.reach[1] + around
+    across, down = abs(world.ninja.x - message.middle[0]), abs(world.ninja.y - message.middle[1])
+    return across <= message.reach[0] and down <= message.reach[1]

@@ -27,6 +27,8 @@ PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
         ("after 20: jump", "unknown moment"),
         ("start for 100 s: jump", "unknown moment"),
         ("start for 0 s: jump", "unknown moment"),
+        ("start for 0.0 s: jump", "unknown moment"),
+        ("start for 1.25 s: jump", "unknown moment"),
         ("start: " + "x" * (MAX_LETTERS + 1), "at most 120 printable letters"),
         ("start: \x07", "printable"),
         (r"start: a\nb\nc\nd", "too many lines in a text in 'says'; found 'start: a"),
@@ -48,6 +50,11 @@ def test_a_place_has_a_frame_of_five_cells_or_of_its_own_size() -> None:
     for size in ("0x3", "3x0", "32x1", "1x24", "3", "3x3x3"):
         with pytest.raises(LevelError, match="unknown moment"):
             parse_messages(f"at 12,5 {size}: a")
+
+
+def test_a_frame_of_an_even_size_lies_on_cells() -> None:
+    (message,) = parse_messages("at 12,5 4x2 for 1.5 s: {gold left}")
+    assert (message.frame, message.middle, message.seconds) == ((10, 4, 4, 2), (288.0, 120.0), 1.5)
 
 
 def test_a_moment_may_be_about_one_switch_or_gold_by_its_cell() -> None:

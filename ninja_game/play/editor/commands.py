@@ -275,7 +275,10 @@ class EditorCommands(DocumentCommands):
     # --- trying and certifying ---
 
     def test(self, at: Point | None = None, says: str | None = None, begun: Begun = NOTHING_BEGUN) -> None:
-        """Play the level. ``at``: where the ninja begins, by default at its place; ``says``: other messages."""
+        """Play the level. ``says``: other messages. ``at``: where the ninja begins, by default at its place.
+
+        Elsewhere nothing is said of the start.
+        """
         session, entry = self.session, self._entry()
         session.tools.finish()
         try:
@@ -285,12 +288,15 @@ class EditorCommands(DocumentCommands):
         except LevelError as error:
             self.app.notify(f"{error.what}: Shift+N and a click places a ninja, F6 tests with one at the pointer")
             return
+        if at:
+            screen.play.messages.drop_start()
+            screen.play.messages.at_start()
         self.app.push(screen)
 
     def test_message(self, number: int, place: Point | None, says: str) -> None:
         """Play the level with these messages from just before one of them; ``place``: where it is said, if known.
 
-        The way there is that of the known run, or of the last test; without such a run it begins beside the place.
+        The way there is that of the known run, or of the last test; else it begins on a floor before the place.
         """
         session, messages = self.session, parse_messages(says)
         level, message = session.draft.level, messages[number] if messages else None
@@ -305,7 +311,7 @@ class EditorCommands(DocumentCommands):
             if lead is not None:
                 self.test(None, says, (lead, 0))
                 return
-        self.test(place and place_before(session.draft, place, message.size), says)
+        self.test(place and place_before(session.draft, place, message.size, touch=message.when != "at"), says)
 
     def certify(self) -> None:
         certifier = self.session.certifier

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import lru_cache, partial
+from itertools import product
 from math import dist
 
 import pygame
@@ -16,16 +17,17 @@ from ninja_game.formats.messages import (
     ALL_GOLD,
     ANY,
     BAR,
+    COUNTS,
     KEYS,
     MAX_LETTERS,
     MAX_MESSAGE_LINES,
     MAX_MESSAGES,
     SIZE,
     TARGETS,
+    WORDS,
     LevelMessage,
     arrow_targets,
     in_a_header,
-    named_keys,
     parse_messages,
     unknown_words,
 )
@@ -34,10 +36,11 @@ from ninja_game.levels.findings import Finding
 from ninja_game.levels.lint import Ground, unseen_messages
 from ninja_game.play.app import App
 from ninja_game.play.editor.sheet import said_at, things_of
-from ninja_game.play.level.hud_view import named_in
+from ninja_game.play.level.hud_view import level_text, named_in
 from ninja_game.play.level.level_play import things_at_start
 from ninja_game.play.menu_screen import CANCEL, Action, Menu, MenuRow, MenuScreen, ask_to_keep
 from ninja_game.runs.messages import Heard, heard, late_text, shown_ticks
+from ninja_game.runtime import NewestJob
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.sim.rules import CELL, LIFETIME, TICKS_PER_SECOND
@@ -49,7 +52,7 @@ from ninja_game.ui.input.keys import chord
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Area, Palette, Theme, inside, mixed
 from ninja_game.ui.widgets import Button, Widget
-from ninja_game.view.hud import Hud, HudView, placed_message
+from ninja_game.view.hud import Hud, HudView, PlacedMessage, placed_message
 from ninja_game.view.places import Things
 from ninja_game.view.sprites.thumbnail import open_exit, thumbnail
 
@@ -69,7 +72,7 @@ _WHEN = {
     "lock": ("A door unlocks", "Once, when a locked door opens"),
     "trap": ("A trap closes", "Once, when a trap door closes"),
     "after": ("After seconds", "Once, when a try has lasted so long"),
-    "at": ("Near a place", "Beside it, when the ninja first comes into its frame"),
+    "at": ("Near a place", "Beside it, when the ninja first comes into its frame, while it is there"),
 }
 """The name of each moment, and when it is."""
 
@@ -80,24 +83,35 @@ _DETAILS = {
     "gold": ("any", f"{_ONE}; 3: after so many"),
     "death": ("deaths", "How many deaths: a number from 1 to 99"),
     "after": ("seconds", "How many seconds: a number from 1 to 99"),
-    "at": ("12,5", "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's: 12,5 or 12,5 3x3"),
+    "at": ("12,5", "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's size: 12,5 or 12,5 3x3"),
 }
 """What some moments may need besides: an example, and a hint."""
 
+
+def _listed(words: Sequence[str]) -> str:
+    return ", ".join(f"{{{word}}}" for word in words)
+
+
 _HELP = (
-    "{" + "}, {".join(KEYS) + "} become the key or button of whoever plays;",
-    "{" + "} and {".join(TARGETS) + "} have an arrow while their message is shown.",
+    "What just happened replaces what is shown; a place or a time waits until that was read.",
+    f"{_listed(KEYS)} become the key or button of whoever plays; {_listed(COUNTS)} the number.",
+    f"{_listed(TARGETS)} have an arrow while their message is shown.",
 )
 
 DETAIL, TIME, _TEXT = 1, -2, -1
 """Places of the fields in a row."""
 
+_HANDLE = 9.0
+"""Side of the handles of the selected frame, px of the level."""
+
 GRIP = 9.0
 """px of the level from the edge of a frame within which a drag sizes it."""
 
-_TIME_HINT = "Seconds that it stays: a number from 1 to 99; empty: as its letters and those of its moment need"
+_BAD_TIME = "Seconds: from 0.1 to 99.9, or empty"
+_TIME_HINT = "Seconds that it stays: from 0.1 to 99.9; empty: as its letters and those of its moment need"
 
-_WORDS = ", ".join(f"{{{name}}}" for name in KEYS + TARGETS)
+Frame = tuple[int, int, int, int]
+"""Left column, upper row, number of columns and of rows."""
 
 
 @dataclass(eq=False)
@@ -114,12 +128,9 @@ class MessageRow:
         return f"{self.when} {' '.join(self.detail.split())}{' s' if self.when == 'after' else ''}".strip()
 
     @property
-    def seconds(self) -> int:
-        return int(self.time) if self.time.isdecimal() else 0
-
-    @property
     def source(self) -> str:
-        shown_for = f" for {self.seconds} s" if self.seconds else ""
+        seconds = self.time.strip().replace(",", ".")
+        shown_for = f" for {seconds} s" if seconds else ""
         return f"{self.moment}{shown_for}: {in_a_header(self.text)}"
 
     @property
@@ -128,13 +139,13 @@ class MessageRow:
         moment = self.moment
         if self.when in _DETAILS and (":" in moment or not _fits(f"{moment}: a text")):
             return DETAIL, _DETAILS[self.when][1]
-        if self.time and not self.seconds:
-            return TIME, _TIME_HINT
+        if not _fits(replace(self, when="start", detail="", text="a text").source):
+            return TIME, _BAD_TIME
         if not self.text.strip():
             return _TEXT, "Type what is said, or remove the message"
         if BAR in self.text:
             return _TEXT, f"A message has no {BAR}"
-        return _TEXT, self.unknown and f"{self.unknown} is not one of {_WORDS}"
+        return _TEXT, self.unknown and f"{self.unknown} is not one of {_listed(WORDS)}"
 
     @property
     def unknown(self) -> str:
@@ -150,7 +161,7 @@ def _fits(source: str) -> bool:
 
 
 def messages_of(says: str) -> list[MessageRow]:
-    return [MessageRow(m.when, _detail(m), m.text, str(m.seconds or "")) for m in parse_messages(says)]
+    return [MessageRow(m.when, _detail(m), m.text, f"{m.seconds:g}" if m.seconds else "") for m in parse_messages(says)]
 
 
 def _detail(message: LevelMessage) -> str:
@@ -159,11 +170,50 @@ def _detail(message: LevelMessage) -> str:
     return "{},{}".format(*message.cell) + (" {}x{}".format(*message.size) if message.size != SIZE else "")
 
 
-def _edges_at(message: LevelMessage, x: float, y: float) -> tuple[bool, bool]:
-    """Whether a point, px, is on an upright and on a level edge of a message's frame."""
-    (px, py), (w, h) = message.place or (0.0, 0.0), message.reach
-    across, down = abs(x - px), abs(y - py)
-    return abs(across - w) <= GRIP and down <= h + GRIP, abs(down - h) <= GRIP and across <= w + GRIP
+def _edges_at(message: LevelMessage, x: float, y: float) -> tuple[int, int]:
+    """The edge or corner of a message's frame at a point, px: -1 left or above, 1 right or below, 0 neither."""
+    (wide, high), across, down = message.reach, x - message.middle[0], y - message.middle[1]
+    if abs(across) > wide + GRIP or abs(down) > high + GRIP:
+        return 0, 0
+    on_upright, on_level = abs(abs(across) - wide) <= GRIP, abs(abs(down) - high) <= GRIP
+    return on_upright * (1 if across > 0 else -1), on_level * (1 if down > 0 else -1)
+
+
+def _between(one: Cell, other: Cell) -> Frame:
+    (left, right), (top, bottom) = sorted((one[0], other[0])), sorted((one[1], other[1]))
+    return left, top, right - left + 1, bottom - top + 1
+
+
+def _with_edge_at(frame: Frame, edges: tuple[int, int], cell: Cell) -> Frame:
+    """A frame with some of its edges at a cell; those opposite stay."""
+    left, top, columns, rows = frame
+    first, last = [left, top], [left + columns - 1, top + rows - 1]
+    for axis, edge in enumerate(edges):
+        if edge < 0:
+            first[axis] = cell[axis]
+        elif edge > 0:
+            last[axis] = cell[axis]
+    return _between((first[0], first[1]), (last[0], last[1]))
+
+
+def _moved(frame: Frame, begin: Cell, cell: Cell) -> Frame:
+    return frame[0] + cell[0] - begin[0], frame[1] + cell[1] - begin[1], *frame[2:]
+
+
+@lru_cache(maxsize=4)
+def _things_of_run(level: Level, inputs: bytes, *, tagged: bool) -> Things:
+    return things_at_start(level, Simulation(level).world, ["{exit}"] * tagged, inputs)
+
+
+_Question = tuple[tuple[LevelMessage, ...], Level, bytes, bool]
+"""Messages, their level, the inputs of its known run, and whether texts name the switch or exit."""
+_Answer = tuple[_Question, list[Heard | None], Things]
+"""When each message comes in that run, and what texts should not cover."""
+
+
+def _answer(question: _Question) -> _Answer:
+    messages, level, inputs, tagged = question
+    return question, heard(messages, level, inputs), _things_of_run(level, inputs, tagged=tagged)
 
 
 class _Stage:
@@ -208,7 +258,9 @@ class MessagesScreen(MenuScreen):
         self._draft = draft
         self._selected = 0
         self._stages: dict[tuple[object, ...], _Stage] = {}
-        self._things: dict[tuple[bool, bytes], Things] = {}
+        self._known: NewestJob[_Question, _Answer] = NewestJob(_answer)
+        self._asked: _Question | None = None
+        self._answer_drawn = True
         self._ground = Ground(draft.level)
         self._look, self._certifying_inputs = mood, certifying_inputs
         self._before = self.source
@@ -216,7 +268,8 @@ class MessagesScreen(MenuScreen):
         self._here, self._put, self._test = here, put, test
         self._row_widgets: list[list[Widget]] = []
         self._refused = False
-        self._sizes = False, False  #: whether the drag sizes the frame, across and down
+        self._drag_begin: Cell = ANY
+        self._dragged_frame: Callable[[Cell], Frame] | None = None  #: gives the frame for the cell under the pointer
 
     @property
     def source(self) -> str:
@@ -269,74 +322,101 @@ class MessagesScreen(MenuScreen):
 
         def put(typed: str) -> None:
             message.text = typed
-            about_keys = "{jump} becomes the key or button of whoever plays" if "{" in typed else new_line
-            text.hint = message.problem[1] if message.unknown else about_keys
+            known = f"Words: {_listed(WORDS)}" if "{" in typed else new_line
+            text.hint = message.problem[1] if message.unknown else known
 
         put(message.text)
         text.put = put
-        moment = Button((36, y, 118, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
+        change = partial(self._change_moment, message)
+        moment = Button(
+            (36, y, 118, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(change, message.when)
+        )
         details: list[Widget] = []
         if message.when in _DETAILS:
             (prompt, hint), detail = _DETAILS[message.when], partial(setattr, message, "detail")
             details.append(TextEntry((157, y, 86, 28), prompt, message.detail, detail, longest=11, hint=hint))
         usual = shown_ticks(message.when, len(self._together(message)), message.text) // TICKS_PER_SECOND
         put_time = partial(setattr, message, "time")
-        time = TextEntry((246, y, 84, 28), f"auto ({usual} s)", message.time, put_time, longest=2, hint=_TIME_HINT)
+        auto = "while there" if message.when == "at" else f"auto ({usual} s)"
+        time = TextEntry((246, y, 84, 28), auto, message.time, put_time, longest=6, hint=_TIME_HINT)
         return [moment, *details, time, text]
 
-    def _ask_moment(self, message: MessageRow) -> None:
-        def choose(when: str) -> None:
-            if when == message.when:
-                return
+    def _ask_moment(self, choose: Callable[[str], object], at: str) -> None:
+        rows: list[MenuRow] = [(name, partial(choose, when), about) for when, (name, about) in _WHEN.items()]
+        self.app.push(Menu(self.app, "When is it said?", [*rows, CANCEL], at=list(_WHEN).index(at)))
+
+    def _change_moment(self, message: MessageRow, when: str) -> None:
+        if when != message.when:
             message.when = when
             message.detail = {"death": "3", "after": "20", "at": "{},{}".format(*self._here)}.get(when, "")
             self.enter()
-
-        rows: list[MenuRow] = [(name, partial(choose, when), about) for when, (name, about) in _WHEN.items()]
-        self.app.push(Menu(self.app, "When is it said?", [*rows, CANCEL], at=list(_WHEN).index(message.when)))
 
     @property
     def selected(self) -> MessageRow | None:
         return self.messages[self._selected] if self._selected < len(self.messages) else None
 
     def _handle_mouse(self, event: pygame.Event) -> None:
-        """A click in the picture selects the message there, or moves the selected one; a drag moves or sizes it."""
+        """A click in the picture selects what lies there, or puts the selected message there; a drag frames it."""
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
         drags = event.type == pygame.MOUSEMOTION and event.buttons[0] and self._dragged is None
-        x, y = self.theme.canvas.logical(event.pos) if pressed or drags else (0.0, 0.0)
-        if not inside(_PICTURE, x, y):
+        at = self._level_point(event.pos) if pressed or drags else None
+        if at is None:
             super()._handle_mouse(event)
             return
-        x, y = ((at - start) * WIDTH / _PICTURE[2] for at, start in zip((x, y), _PICTURE, strict=False))
-        column, row = cell_of(x, y)
-        eyes = ((k, self._eye(message)) for k, message in enumerate(self.messages))
-        there = {k: dist(eye, (x, y)) for k, eye in eyes if eye}
-        parsed, selected = self._parsed(self.selected), self.selected
-        things = {cell_of(*at): dist(at, (x, y)) for at in self._things_of(selected)} if pressed else {}
-        named = "{},{}".format(*min(things, key=things.__getitem__, default=ANY))
+        cell = min(max(1, int(at[0] // CELL)), COLUMNS), min(max(1, int(at[1] // CELL)), ROWS)
         if pressed:
-            self._sizes = _edges_at(parsed, x, y) if parsed and min(there.values()) > GRIP else (False, False)
-        if selected and min(things.values(), default=WIDTH) < 1.5 * CELL and selected.detail != named:
-            selected.detail = named
-            self.enter()
-        elif pressed and not any(self._sizes) and min(there.values(), default=WIDTH) < 1.5 * CELL:
-            self._select(min(there, key=there.__getitem__))
-        elif parsed and selected and any(self._sizes):
-            wide = min(COLUMNS, 2 * abs(column - parsed.cell[0]) + 1) if self._sizes[0] else parsed.size[0]
-            high = min(ROWS, 2 * abs(row - parsed.cell[1]) + 1) if self._sizes[1] else parsed.size[1]
-            selected.detail = _detail(parsed._replace(size=(wide, high)))
-            self.enter()
-        elif selected and selected.when == "at" and is_inside((column, row)):
-            size = parsed.size if parsed else SIZE
-            selected.detail = _detail(LevelMessage("at", "", cell=(column, row), size=size))
-            self.enter()
-        elif pressed and self.selected:
-            self.app.notify(f"To put it there, choose {_WHEN['at'][0]} for it")
+            self._drag_begin, self._dragged_frame = cell, None
+            self._press(at, cell)
+        elif self._dragged_frame and cell != self._drag_begin:
+            self._drag_begin = ANY
+            self._put_frame(self._dragged_frame(cell))
         self.redraw = True
 
+    def _level_point(self, pos: tuple[int, int]) -> Point | None:
+        """The point of the level, px, under one of the screen; None outside the picture."""
+        x, y = self.theme.canvas.logical(pos)
+        scale = WIDTH / _PICTURE[2]
+        return ((x - _PICTURE[0]) * scale, (y - _PICTURE[1]) * scale) if inside(_PICTURE, x, y) else None
+
+    def _press(self, at: Point, cell: Cell) -> None:
+        """A thing under the pointer comes first, then an edge of the selected frame, a number, the place itself."""
+        selected, parsed, near = self.selected, self._parsed(self.selected), 1.5 * CELL
+        thing = min(self._things_of(selected), key=partial(dist, at), default=None)
+        named = "{},{}".format(*cell_of(*thing)) if thing and dist(thing, at) < near else ""
+        eyes = [(dist(eye, at), number) for number, row in enumerate(self.messages) if (eye := self._eye(row))]
+        away, number = min(eyes, default=(near, 0))
+        edges = _edges_at(parsed, *at) if parsed and away > GRIP else (0, 0)
+        if selected and named and selected.detail != named:
+            selected.detail = named
+            self.enter()
+        elif parsed and any(edges):
+            self._dragged_frame = partial(_with_edge_at, parsed.frame, edges)
+        elif away < near and number != self._selected:
+            self._select(number)
+        elif parsed and all(abs(a - b) < half for a, b, half in zip(at, parsed.middle, parsed.reach, strict=True)):
+            self._dragged_frame = partial(_moved, parsed.frame, cell)
+        elif selected and selected.when == "at":
+            if is_inside(cell_of(*at)):
+                self._put_frame(LevelMessage("at", "", cell=cell, size=parsed.size if parsed else SIZE).frame)
+                self._dragged_frame = partial(_between, cell)
+        elif selected and not named and away >= near:
+            self.app.notify(f"To put it there, choose {_WHEN['at'][0]} for it")
+
+    def _put_frame(self, frame: Frame) -> None:
+        """Give the selected message a frame, if its middle is inside the level."""
+        left, top, columns, rows = frame
+        cell, size = (left + columns // 2, top + rows // 2), (min(columns, COLUMNS), min(rows, ROWS))
+        if self.selected and is_inside(cell):
+            self.selected.detail = _detail(LevelMessage("at", "", cell=cell, size=size))
+            self.enter()
+
     def _add(self) -> None:
-        self.messages.append(MessageRow())
-        self._select(len(self.messages) - 1)
+        def choose(when: str) -> None:
+            self.messages.append(MessageRow())
+            self._change_moment(self.messages[-1], when)
+            self._select(len(self.messages) - 1)
+
+        self._ask_moment(choose, "start")
 
     def _put_at(self, number: int, message: MessageRow, others: list[MessageRow]) -> None:
         """Show the messages with one at that place among others, selected; a button keeps the focus."""
@@ -370,6 +450,8 @@ class MessagesScreen(MenuScreen):
             if problem:
                 self._refused = True
                 self._select(number, field)
+                if field != _TEXT and isinstance(self.focus, TextEntry):
+                    self.focus.edited.select_all()
                 return False
         return True
 
@@ -410,44 +492,60 @@ class MessagesScreen(MenuScreen):
         else:
             super().act(action, held=held)
 
+    def update(self, real_ms: int) -> None:
+        super().update(real_ms)
+        if not self._answer_drawn and self._known.idle:
+            self._answer_drawn = self.redraw = True
+
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme = self.theme
         self._selected = next((k for k, row in enumerate(self._row_widgets) if self.focus in row), self._selected)
-        for number, message in list(enumerate(self.messages))[self._first : self._first + SHOWN]:
-            row, length = _TOP + _ROW * (number % SHOWN), len(message.text)
-            theme.text(surface, str(number + 1), 32, row + 36, size=9, bold=True, align="right")
-            colour = theme.palette.faint if length < MAX_LETTERS else theme.palette.bad
-            count = f"{length} of {MAX_LETTERS}"
-            theme.text(surface, count, 36 + _WIDE, row + 95, size=8.5, colour=colour, align="right")
-            wrong = message.problem[1] if self._refused else ""
-            if message.unknown:
-                wrong = f"There is no {message.unknown}: the words are at the right"
-            elif not message.problem[1]:
-                unseen = self._unseen(message)
-                wrong = next((f"Never shown: {finding.text.rpartition(': ')[2]}" for finding in unseen), "")
-                wrong = wrong or self._wait_of(message)
-            colour = theme.palette.bad if wrong else theme.palette.faint
-            theme.text(
-                surface, wrong or self._turn_of(message), 36, row + 95, size=8.5, colour=colour, width=_WIDE - 56
-            )
-            if message is self.selected:
-                theme.canvas.fill_rect(surface, theme.palette.accent, 32.5, row, 2, 91)
+        self._ask_about_run()
+        for number in range(self._first, min(self._first + SHOWN, len(self.messages))):
+            self._draw_notes(surface, number)
         count = f"{len(self.messages)} of {MAX_MESSAGES}"
         theme.text(surface, count, 764, 24, size=11, colour=theme.palette.on_tile, align="right")
-        selected = self.selected
-        self._draw_level(surface, selected)
-        name, when = _WHEN[selected.when] if selected else ("", "")
-        help_texts = [f"{name}: {when[0].lower()}{when[1:]}."] if selected else []
-        if selected and selected.when == "at":
-            help_texts.append("A click in the picture moves it, a drag of its frame sizes it.")
-        if len(self._things_of(selected)) > 1:
-            help_texts.append("A click in the picture on one of them: only when it is that one.")
-        advice = [finding.advice for finding in self._unseen(selected)]
+        self._draw_level(surface, self.selected)
         x, y, w, h = _PICTURE
         below = x, y + h + 10, w, END - y - h - 10
-        lines = (*help_texts, *advice, *_HELP[bool(advice) :])
-        theme.paragraph(surface, lines, below, 11, 15, colour=theme.palette.faint)
+        theme.paragraph(surface, self._help_texts(), below, 10, 13.5, colour=theme.palette.faint)
+
+    def _draw_notes(self, surface: pygame.Surface, number: int) -> None:
+        """Beside and below the fields of a message: its number, what is wrong with it, and its letters."""
+        theme, palette, message = self.theme, self.theme.palette, self.messages[number]
+        row, length = _TOP + _ROW * (number % SHOWN), len(message.text)
+        theme.text(surface, str(number + 1), 32, row + 36, size=9, bold=True, align="right")
+        colour = palette.faint if length < MAX_LETTERS else palette.bad
+        theme.text(surface, f"{length} of {MAX_LETTERS}", 36 + _WIDE, row + 95, size=8.5, colour=colour, align="right")
+        wrong = self._wrong(message)
+        text, colour = (wrong, palette.bad) if wrong else (self._turn_of(message), palette.faint)
+        theme.text(surface, text, 36, row + 95, size=8.5, colour=colour, width=_WIDE - 56)
+        if number == self._selected:
+            theme.canvas.fill_rect(surface, palette.accent, 32.5, row, 2, 91)
+
+    def _wrong(self, message: MessageRow) -> str:
+        """What is wrong with a message, "" if nothing is. An empty field is wrong only once OK was refused."""
+        field, problem = message.problem
+        if message.unknown:
+            return f"There is no {message.unknown}: the words are at the right"
+        if problem:
+            return problem if self._refused or field == TIME else ""
+        for finding in self._unseen(message):
+            return f"Never shown: {finding.text.rpartition(': ')[2]}"
+        return self._wait_of(message)
+
+    def _help_texts(self) -> list[str]:
+        texts, selected = [], self.selected
+        if selected:
+            name, when = _WHEN[selected.when]
+            texts.append(f"{name}: {when[0].lower()}{when[1:]}.")
+        if selected and selected.when == "at":
+            texts.append("In the picture: a click puts it, a drag draws its frame, moves it or an edge.")
+        if len(self._things_of(selected)) > 1:
+            texts.append("A click in the picture on one of them: only when it is that one.")
+        texts += [finding.advice for finding in self._unseen(selected)]
+        return [*texts, *_HELP]
 
     def _unseen(self, message: MessageRow | None) -> list[Finding]:
         return [*unseen_messages(message.source, self._ground)] if message and not message.problem[1] else []
@@ -458,13 +556,25 @@ class MessagesScreen(MenuScreen):
         place = next(k for k, other in enumerate(together, 1) if other is message)
         return f"No. {place} of {len(together)}" if len(together) > 1 else ""
 
+    def _sound(self) -> list[MessageRow]:
+        return [row for row in self.messages if not row.problem[1]]
+
+    def _ask_about_run(self) -> None:
+        """Have the level's known run played with the messages as they are, unless that is done or under way."""
+        inputs = self._certifying_inputs()
+        messages = tuple(message for row in self._sound() for message in parse_messages(row.source))
+        tagged = bool(arrow_targets(row.text for row in self.messages))
+        question = messages, self._draft.level, inputs, tagged
+        if inputs and question != self._asked:
+            self._asked, self._answer_drawn = question, False
+            self._known.ask(question)
+
     def _heard(self, message: MessageRow) -> Heard | None:
-        """When a message comes in the known run; None: never, or without such a run."""
-        sound, inputs = [other for other in self.messages if not other.problem[1]], self._certifying_inputs()
-        if not inputs or message not in sound or message.when in {"start", "death"}:
+        """When a message comes in the known run; None: never, without such a run, or not known yet."""
+        answer, sound = self._known.result, self._sound()
+        if not answer or answer[0] != self._asked or message not in sound or message.when in {"start", "death"}:
             return None
-        parsed = [message for other in sound for message in parse_messages(other.source)]
-        return heard(parsed, self._draft.level, inputs)[sound.index(message)]
+        return answer[1][sound.index(message)]
 
     def _wait_of(self, message: MessageRow) -> str:
         """How late a message comes in the known run because others are read first; '' if it is in time."""
@@ -474,44 +584,75 @@ class MessagesScreen(MenuScreen):
     def _together(self, message: MessageRow) -> list[MessageRow]:
         return [other for other in self.messages if other.moment == message.moment]
 
+    def _stage(self, message: MessageRow | None) -> _Stage:
+        """The level's picture for a message, painted once for each look."""
+        width, opened = self.theme.canvas.rect(*_PICTURE).width, bool(message and message.when == "switch")
+        palette, text_size = self.app.palette_in(self._look), self.app.settings.text_size
+        look = palette.name, width, self.theme, text_size
+        if (*look, opened) not in self._stages:
+            self._stages = {key: stage for key, stage in self._stages.items() if key[:-1] == look}
+            stage = _Stage(self._draft.level, palette, width, self.theme, text_size, opened=opened)
+            self._stages[*look, opened] = stage
+        return self._stages[*look, opened]
+
+    def _things(self, stage: _Stage) -> Things:
+        """What a text should not cover, with the way of the known run once that is known."""
+        if answer := self._known.result:
+            return answer[2]
+        tagged = bool(arrow_targets(row.text for row in self.messages))
+        return _things_of_run(self._draft.level, b"", tagged=tagged) if stage.world else ()
+
+    def _placed(self, message: MessageRow, stage: _Stage) -> PlacedMessage | None:
+        """A message as it lies in the level in play; None without a text."""
+        controls, all_gold, number = self.app.controls, self._draft.level.gold, message.detail
+        taken = {ALL_GOLD: all_gold, "gold": int(number) if number.isdecimal() else 1}.get(message.when, 0)
+        deaths = int(number) if message.when == "death" and number.isdecimal() else 0
+
+        def key(word: str) -> str:
+            return controls.name(word) if word in KEYS else f"{{{word}}}"
+
+        text = level_text(message.text.strip(), key, taken, all_gold, deaths)
+        parsed, moment = self._parsed(message), self._heard(message)
+        spot = moment.spot if moment else None if parsed else self._eye(message)
+        place = parsed and parsed.place
+        layout = self._draft.level.tiles, self._things(stage), place, spot
+        return placed_message(text, *layout, of_start=message.when == "start") if text else None
+
     def _draw_level(self, surface: pygame.Surface, message: MessageRow | None) -> None:
-        """The level with a message as in play. The level is drawn once, the message in each picture."""
-        theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*_PICTURE)
-        size, opened = (place.width, theme, self.app.settings.text_size), bool(message and message.when == "switch")
-        palette = self.app.palette_in(self._look)
-        key = palette.name, size, opened
-        if key not in self._stages:
-            stages = {old: stage for old, stage in self._stages.items() if old[:2] == key[:2]}
-            self._stages = stages | {key: _Stage(draft.level, palette, *size, opened=opened)}
-        stage, placed, texts = self._stages[key], None, [other.text for other in self.messages]
-        picture, cast = stage.picture.copy(), (bool(arrow_targets(texts)), self._certifying_inputs())
-        if stage.world and cast not in self._things:
-            self._things[cast] = things_at_start(draft.level, stage.world, texts, cast[1])
-        if message:
-            controls, when = self.app.controls, message.when
-            text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
-            parsed, moment, things = self._parsed(message), self._heard(message), self._things.get(cast, ())
-            spot = moment.spot if moment else None if parsed else self._eye(message)
-            layout = draft.level.tiles, things, parsed and parsed.place, spot
-            placed = placed_message(text, *layout, of_start=when == "start") if text else None
-        for other in self.messages:
-            if (parsed := self._parsed(other)) and (eye := parsed.place):
-                (w, h), chosen = parsed.reach, other is message
-                frame = eye[0] - w, eye[1] - h, 2 * w, 2 * h
-                colour = palette.accent if chosen else mixed(palette.background, palette.accent, 0.4)
-                stage.hud.theme.canvas.frame_rect(picture, colour, *frame, 1 + chosen)
+        """The level with a message as in play, and the places of all."""
+        draft, stage = self._draft, self._stage(message)
+        picture, hud = stage.picture.copy(), stage.hud
+        for row in self.messages:
+            if parsed := self._parsed(row):
+                self._draw_place(picture, hud.theme, parsed, chosen=row is message)
+        eye = self._eye(message) if message else None
         for at in self._things_of(message):
-            named = at == (message and self._eye(message))
-            stage.hud.theme.canvas.circle(picture, palette.accent, at, 13, 3 if named else 1)
-        foot = draft.name, f"gold 0 / {draft.level.gold}"
+            hud.theme.canvas.circle(picture, hud.theme.palette.accent, at, 13, 3 if at == eye else 1)
         labels = named_in(stage.world, arrow_targets([message.text])) if stage.world and message else ()
-        stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, message=placed, named=labels))
-        surface.blit(picture, place)
-        for number, other in enumerate(self.messages, 1):
-            if other is not message and (eye := self._eye(other)):
-                x, y = (start + at * _PICTURE[2] / WIDTH for start, at in zip(_PICTURE, eye, strict=False))
-                theme.canvas.circle(surface, theme.palette.accent, (x, y), 6)
-                theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
+        foot, placed = (draft.name, f"gold 0 / {draft.level.gold}"), self._placed(message, stage) if message else None
+        hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, message=placed, named=labels))
+        surface.blit(picture, self.theme.canvas.rect(*_PICTURE))
+        for number, row in enumerate(self.messages):
+            if row is not message and (eye := self._eye(row)):
+                self._draw_number(surface, number, eye)
+
+    def _draw_place(self, picture: pygame.Surface, theme: Theme, parsed: LevelMessage, *, chosen: bool) -> None:
+        """The frame of a message near a place; with handles if it is the selected one."""
+        (x, y), (half_w, half_h), palette = parsed.middle, parsed.reach, theme.palette
+        colour = palette.accent if chosen else mixed(palette.background, palette.accent, 0.4)
+        frame = x - half_w, y - half_h, 2 * half_w, 2 * half_h
+        theme.canvas.frame_rect(picture, colour, *frame, 2 if chosen else 1)
+        for across, down in product((-1, 0, 1), repeat=2) if chosen else ():
+            if across or down:
+                left, top = x + across * half_w - _HANDLE / 2, y + down * half_h - _HANDLE / 2
+                theme.canvas.fill_rect(picture, colour, left, top, _HANDLE, _HANDLE)
+
+    def _draw_number(self, surface: pygame.Surface, number: int, at: Point) -> None:
+        """The number of a message that is not selected, where it is said."""
+        scale, palette = _PICTURE[2] / WIDTH, self.theme.palette
+        x, y = _PICTURE[0] + at[0] * scale, _PICTURE[1] + at[1] * scale
+        self.theme.canvas.circle(surface, palette.accent, (x, y), 6)
+        self.theme.text(surface, str(number + 1), x, y - 4.5, size=9, align="centre", colour=palette.background)
 
     def _things_of(self, message: MessageRow | None) -> list[Point]:
         """What a message can be about, px: the gold, or the switches of its moment."""

@@ -162,9 +162,7 @@ class Overlay:
             target = tools.near(PICK_REACH)
             for message in messages_at(tools.draft.says, tools.cell):
                 # It appears when the ninja comes in.
-                (column, row), (columns, rows) = message.cell, message.size
-                area = column - (columns - 1) / 2, row - (rows - 1) / 2, columns, rows
-                self._frame(area, self.sheet.palette.accent)
+                self._frame(message.frame, self.sheet.palette.accent)
             if target:
                 self.target.sprite(_ring("faint"), *points(tools.draft.objects[target[0]])[target[1]])
                 return

@@ -45,7 +45,8 @@ def hud_view(play: LevelPlay) -> HudView:
     layout = playthrough.level.tiles, play.things, play.messages.place, play.message_spot
     is_advice = "\n" in text and play.messages.message is None
     of_start = play.messages.is_start or is_advice
-    message = placed_message(named_keys(text, key), *layout, of_start=of_start) if text else None
+    said = level_text(text, key, attempt.gold, play.all_gold, play.messages.deaths)
+    message = placed_message(said, *layout, of_start=of_start) if text else None
     if play.phase is Phase.DEAD:
         cause, help_text = cause_of_death(play)
         end = EndPanel(cause, [*filter(None, [help_text]), _after_death(play, key)], *_covering(play))
@@ -84,6 +85,12 @@ def hud_view(play: LevelPlay) -> HudView:
         softly=not settings.reduced_motion,
         message_opacity=1.0 if settings.reduced_motion else play.messages.opacity,
     )
+
+
+def level_text(text: str, key: KeyName, gold: int, all_gold: int, deaths: int) -> str:
+    """A level's text with the names of keys, and with its numbers as they are now."""
+    counts = {"gold left": all_gold - gold, "gold taken": gold, "deaths": deaths}
+    return named_keys(text, lambda word: str(counts[word]) if word in counts else key(word))
 
 
 def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 from unittest.mock import patch
 
 import pygame
@@ -27,6 +28,7 @@ from ninja_game.play.level.level_play import Phase
 from ninja_game.play.menu_screen import Menu
 from ninja_game.player.playthrough import Playthrough
 from ninja_game.runs.messages import MessageQueue, read_ticks
+from ninja_game.runtime import NewestJob
 from ninja_game.search.certificate import verified_run
 from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.inputs import with_press_bits
@@ -68,6 +70,7 @@ def said(maker: Maker, says: str) -> None:
 def add(maker: Maker, *texts: str) -> None:
     for text in texts:
         maker.choose("Add")
+        maker.choose("At the start")
         maker.type(text)
 
 
@@ -96,6 +99,18 @@ def with_time_in_hand(maker: Maker) -> MessagesScreen:
     return screen
 
 
+class AtOnce(NewestJob[Any, Any]):
+    """Answers before the page goes on."""
+
+    def ask(self, job: object) -> None:
+        self.result = self._work(job)
+
+
+@pytest.fixture(autouse=True)
+def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(messages_module, "NewestJob", AtOnce)
+
+
 @pytest.fixture
 def painted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Palettes of the pictures that previews have had painted."""
@@ -122,7 +137,7 @@ def boxes(monkeypatch: pytest.MonkeyPatch) -> list[Box]:
     return made
 
 
-def in_picture(column: int, row: int) -> tuple[float, float]:
+def in_picture(column: float, row: float) -> tuple[float, float]:
     """Where the preview shows the middle of a cell."""
     left, top, wide, _ = _PICTURE
     return left + (24 * column + 12) * wide / 792, top + (24 * row + 12) * wide / 792
@@ -132,7 +147,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     room.choose_in_menu("Messages...")
     screen = room.shown(MessagesScreen)
     add(room, "run")
-    room.choose("Add")
+    add(room, "")
     choice = screen._row_widgets[1][0]
     room.mouse(*choice.centre)
     room.choose("Exit opens")
@@ -151,7 +166,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
 
 def test_what_is_typed_goes_to_the_text_of_the_row_and_changes_no_moment(room: Maker) -> None:
     screen = opened(room)
-    room.choose("Add")
+    add(room, "")
     screen.focus = screen._row_widgets[0][0]
     room.type("a b")
     assert (screen.messages[0].when, screen.messages[0].text) == ("start", "a b")
@@ -226,7 +241,7 @@ def test_all_places_are_seen_and_a_click_on_one_selects_its_message(room: Maker)
 
 def test_a_word_that_is_not_known_is_named_at_its_field_while_it_is_typed(room: Maker) -> None:
     screen = opened(room)
-    room.choose("Add")
+    add(room, "")
     for text in ("{fl", "y}"):
         assert "There is no" not in drawn(room.app)
         pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=text))
@@ -328,18 +343,31 @@ def test_a_click_in_the_picture_on_another_message_selects_it(room: Maker) -> No
     assert "choose Near a place" in room.app.notice
 
 
-def test_a_drag_of_the_frame_sizes_it_and_a_drag_beside_it_moves_it(room: Maker) -> None:
+def drag_in_picture(maker: Maker, begin: tuple[float, float], *ends: tuple[float, float]) -> None:
+    """Drag from the middle of a cell over others."""
+    kinds = [pygame.MOUSEBUTTONDOWN, *[pygame.MOUSEMOTION] * len(ends), pygame.MOUSEBUTTONUP]
+    for kind, cell in zip(kinds, (begin, *ends, ends[-1]), strict=True):
+        more = {"rel": (0, 0), "buttons": (1, 0, 0)} if kind == pygame.MOUSEMOTION else {"button": 1}
+        pygame.event.post(pygame.Event(kind, pos=maker.app.canvas.point(*in_picture(*cell)), touch=False, **more))
+    maker.frames()
+
+
+def test_a_frame_is_drawn_moved_and_sized_by_the_mouse_its_other_edges_stay(room: Maker) -> None:
     screen = opened(room, "at 12,12: One | at 3,3: Two")
-    for begin, end, detail in (
-        ((14.5, 12), (16, 20), "12,12 9x5"), ((12, 14.5), (30, 12), "12,12 9x1"), ((16.5, 12.5), (13, 13), "12,12 3x3"),
-        ((20, 20), (22, 20), "22,20 3x3"), ((23.5, 21.5), (24, 22), "22,20"),
+    for begin, end, frame in (
+        ((14.5, 12), (16, 20), (10, 10, 7, 5)), ((12, 9.5), (12, 12), (10, 12, 7, 3)),
+        ((16.5, 14.5), (13, 13), (10, 12, 4, 2)), ((9.5, 11.5), (9, 9), (9, 9, 5, 5)),
+        ((10, 10), (12, 11), (11, 10, 5, 5)), ((20, 20), (25, 16), (20, 16, 6, 5)),
+        ((21, 17), (1, 20), (0, 19, 6, 5)), ((5.5, 21), (14, 15), (0, 19, 15, 5)),
     ):  # fmt: skip
-        for kind, cell in ((pygame.MOUSEBUTTONDOWN, begin), (pygame.MOUSEMOTION, end), (pygame.MOUSEBUTTONUP, end)):
-            more = {"rel": (0, 0), "buttons": (1, 0, 0)} if kind == pygame.MOUSEMOTION else {"button": 1}
-            pygame.event.post(pygame.Event(kind, pos=room.app.canvas.point(*in_picture(*cell)), touch=False, **more))
-        room.frames()
-        assert screen.messages[0].detail == detail
-    assert screen.source == "at 22,20: One | at 3,3: Two"
+        drag_in_picture(room, begin, end)
+        (placed,) = parse_messages(screen.messages[0].source)
+        assert placed.frame == frame
+        assert f"'{screen.messages[0].detail}'" in drawn(room.app)
+    drag_in_picture(room, (20, 10), (22, 11), (20, 10))
+    assert screen.messages[0].detail == "20,10 1x1", "a drag back ends where it began"
+    room.mouse(*in_picture(25, 5))
+    assert screen.source == "at 25,5 1x1: One | at 3,3: Two", "a click puts it there"
     room.mouse(*in_picture(3, 3))
     assert screen.selected is screen.messages[1]
 
@@ -350,8 +378,7 @@ def test_a_message_under_the_mouse_shows_the_frame_that_it_has(room: Maker) -> N
     room.mouse(*room.at(12 * 24 + 12, 12 * 24 + 12), click=False)
     room.frames(2)
     accent = room.app.theme.palette.accent
-    middle = 12 * 24 + 12
-    edges = [(middle - 4 * 24, middle), (middle + 4 * 24 - 1, middle), (middle, middle - 36), (middle, middle + 35)]
+    edges = [(8 * 24, 300), (16 * 24 - 1, 300), (300, 11 * 24), (300, 14 * 24 - 1)]
     for edge in edges:
         x, y = room.app.canvas.point(*room.at(*edge))
         near = [room.app.surface.get_at((x + i, y + j)) for i in (-1, 0, 1) for j in (-1, 0, 1)]
@@ -392,7 +419,7 @@ def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room:
     assert place_before(draft, (8 * 24 + 12.0, 540.0)) == (5 * 24 + 12.0, 540.0)
     wide, high = (18 * 24 + 12.0, 18 * 24 + 12.0), (19 * 24 + 12.0, 17 * 24 + 12.0)
     assert place_before(draft, wide, (7, 1)) == (14 * 24 + 12.0, 18 * 24 + 12.0), "outside its frame"
-    assert place_before(draft, high, (1, 7)) == (18 * 24 + 12.0, 17 * 24 + 12.0), "beside its frame"
+    assert place_before(draft, high, (1, 7)) == (17 * 24 + 12.0, 18 * 24 + 12.0), "on the floor beside its frame"
     shaft = with_stamp(
         Draft(DOORS), Stamp(dict.fromkeys([(column, row) for column in (6, 8) for row in range(12, 24)], 1))
     )
@@ -425,7 +452,8 @@ def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Mak
     session.certifier.certification = search_of(room.draft.level, run)
     screen = opened(room)
     drawn(room.app)
-    (shown,) = screen._things.values()
+    assert screen._known.result
+    shown = screen._known.result[2]
     assert len(shown) > 3, "the run's way too"
     room.choose("Test")
     trying = room.shown(TryScreen)
@@ -750,9 +778,9 @@ def test_a_message_that_waits_for_another_is_a_problem_with_its_place(doors: Mak
     said(doors, "gold: One | gold: Two | lock 11,22: Three | at 20,20: Four | death 1: Five | trap for 9 s: Six")
     late = [finding for finding in session.examine() if finding.code == "late-message"]
     assert [(finding.text, finding.cells) for finding in late] == [
-        ("the message 'Three' is not shown in the known run: others are read then", ((10, 22),)),
+        ("the message 'One' is replaced after 0.8 s in the known run, too soon", ((4, 22),)),
+        ("the message 'Three' is replaced after 0.2 s in the known run, too soon", ((10, 22),)),
         ("the message 'Four' is not shown in the known run: others are read then", ((20, 20),)),
-        ("the message 'Six' is not shown in the known run: others are read then", ((13, 22),)),
     ]
 
 
@@ -825,7 +853,7 @@ def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(maker: Make
 
 def test_shift_and_enter_begin_a_new_line_in_the_field_the_file_and_the_level(room: Maker) -> None:
     screen = opened(room)
-    room.choose("Add")
+    add(room, "")
     for line in ("Run", "jump", "and see"):
         room.type(line)
         room.chord("return", pygame.KMOD_LSHIFT)
@@ -847,7 +875,7 @@ def test_shift_and_enter_begin_a_new_line_in_the_field_the_file_and_the_level(ro
 
 def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
     screen = opened(room)
-    room.choose("Add")
+    add(room, "")
     room.type("Run")
     room.chord("return", pygame.KMOD_LSHIFT)
     drawn(room.app)
@@ -864,7 +892,7 @@ def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
 def test_gold_is_counted_and_all_of_it_has_a_moment_of_its_own(room: Maker) -> None:
     room.editor.session.tools.history.change(with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
     screen = opened(room)
-    room.choose("Add")
+    add(room, "")
     room.type("Well done")
     room.choose("At the start...")
     room.choose("All gold taken")
@@ -928,3 +956,71 @@ def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Ma
     assert screen.focus is field
     room.press("down")
     assert screen.focus is not field
+
+
+def test_add_lists_all_moments_and_cancel_adds_nothing(room: Maker) -> None:
+    screen = opened(room)
+    room.choose("Add")
+    assert [getattr(row, "text", "") for row in room.shown(Menu).widgets][:-1] == [name for name, _ in _WHEN.values()]
+    room.choose("Cancel")
+    assert not screen.messages
+    room.choose("Add")
+    room.choose("After deaths")
+    room.type("Wait")
+    assert screen.source == "death 3: Wait"
+
+
+def test_seconds_may_have_a_part_and_a_wrong_number_is_named_at_once_and_typed_over(room: Maker) -> None:
+    screen = with_time_in_hand(room)
+    room.type("abc")
+    assert "text 'Seconds: from 0.1 to 99.9, or empty'" in drawn(room.app)
+    room.choose("OK")
+    assert screen.focus is screen._row_widgets[0][TIME]
+    for letter in "1,5":
+        pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=letter))
+    room.frames()
+    room.choose("OK")
+    assert room.draft.says == "start for 1.5 s: on"
+    assert opened(room).messages[0].time == "1.5"
+
+
+def test_numbers_in_a_text_are_those_of_the_moment_in_preview_and_play(doors: Maker) -> None:
+    opened(doors, "gold: {gold taken} taken and {gold left} left, {deaths} deaths")
+    assert "text '1 taken and 1 left, 0 deaths'" in drawn(doors.app)
+    doors.choose("OK")
+    doors.press("f5")
+    play = doors.shown(TryScreen).play
+    play.begin()
+    with patch.object(doors.app.controls, "poll", lambda: 2):
+        while not play.messages.text:
+            play.run_ticks(1)
+    message = hud_view(play).message
+    assert message
+    assert message.text == "1 taken and 1 left, 0 deaths"
+
+
+def test_a_test_of_gold_in_the_air_begins_on_a_floor_from_which_it_is_taken(
+    doors: Maker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(type(doors.editor.session), "certifying_inputs", property(lambda _: b""))
+    high = with_stamp(doors.draft, Stamp({}, (ObjectSpec(GOLD, (20 * 24 + 12.0, 19 * 24 + 12.0)),)))
+    doors.editor.session.tools.history.change(high)
+    opened(doors, "start: Welcome | gold 20,19: Now")
+    select(doors, 1)
+    doors.choose("Test")
+    play = doors.shown(TryScreen).play
+    ninja = play.attempt.simulation.ninja
+    assert (ninja.y, play.messages.text) == (22 * 24 + 12.0, ""), "on the floor, without what is said at the start"
+    assert abs(ninja.x - 20 * 24 - 12) <= 3 * 24
+
+
+def test_the_known_run_is_played_in_the_background(doors: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[Any] = []
+    monkeypatch.setattr(AtOnce, "ask", lambda _, question: asked.append(question))
+    screen = opened(doors, "trap: One | lock: Two")
+    drawn(doors.app)
+    assert len(asked) == 1
+    assert screen._known.result is None
+    screen._known.result = screen._known._work(asked[0])
+    doors.frames(2)
+    assert "Replaced after" in drawn(doors.app)

@@ -221,33 +221,29 @@ def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
         simulation.world.event_count = int(kind is not None)
         simulation.world.events[0].kind = kind or 0
         texts += [quick.text for _ in range(1 if kind else 2 * START_TICKS) if quick.on_tick(simulation.world)]
-    assert texts == ["one", "two", "three", ""], "what happens waits for its turn, and takes nothing away"
+    assert texts == ["one", "three", "two", ""], "what has just happened comes at once, and takes nothing away"
 
 
-def test_a_text_stays_as_long_as_its_letters_need_and_what_happens_meanwhile_waits() -> None:
+def test_what_just_happened_replaces_what_is_shown_and_a_place_waits_until_that_was_read() -> None:
     long = "Gold adds two seconds to the clock; " * 3
-    told = MessageQueue(parse_messages(f"gold: {long} | lock: open | at 3,22: Here | trap: shut"))
+    told = MessageQueue(parse_messages(f"start: go | gold: {long} | lock: open | at 3,22: Here | trap: shut"))
     world = Simulation(room_level(["#@..#"], ())).world
     heard = []
     for tick in range(2 * START_TICKS):
         world.event_count = int(tick in (0, 40, 50))
         world.events[0].kind = {0: GOLD_TAKEN, 40: TRAP_CLOSED}.get(tick, LOCK_OPENED)
-        world.ninja.x = 84.0 if 60 < tick < 80 or tick > 600 else 400.0
+        world.ninja.x = 84.0 if 60 < tick < 300 else 400.0
         world.ninja.y = 540.0
         heard += [(tick, told.text)] if told.on_tick(world) else []
-    need = read_ticks(long.strip())
-    assert need == 8 * TICKS_PER_SECOND
-    assert [text for _, text in heard] == [long.strip(), "shut", "open", "Here", ""]
-    assert [tick for tick, _ in heard[:3]] == [0, need, need + read_ticks("shut")], (
-        "in order, and no longer than needed"
-    )
+    assert read_ticks(long.strip()) == 8 * TICKS_PER_SECOND
+    assert heard[:3] == [(0, long.strip()), (40, "shut"), (50, "open")], "the newest, at once"
+    assert heard[3:] == [(50 + read_ticks("open"), "Here"), (300 + _FADE_TICKS, "")], "as long as the ninja is there"
 
 
 def test_what_a_death_kept_from_being_said_is_said_when_it_happens_again() -> None:
-    told, world = MessageQueue(parse_messages("gold: one | trap: two")), Simulation(short_level()).world
-    world.event_count = 1
-    for world.events[0].kind in (GOLD_TAKEN, TRAP_CLOSED):
-        told.on_tick(world)
+    told, world = MessageQueue(parse_messages("gold: one | gold: two")), Simulation(short_level()).world
+    world.event_count, world.events[0].kind = 1, GOLD_TAKEN
+    told.on_tick(world)
     assert told.text == "one"
     told.on_death()
     told.at_start()
@@ -256,17 +252,16 @@ def test_what_a_death_kept_from_being_said_is_said_when_it_happens_again() -> No
     assert told.text == "two"
 
 
-def test_what_happens_comes_before_what_waits_for_a_place() -> None:
+def test_a_place_that_was_replaced_before_it_was_read_comes_again() -> None:
     told = MessageQueue(parse_messages("at 3,22: One | at 3,22: Two | gold: Gold | trap: Shut"))
     world = Simulation(room_level(["#@..#"], ())).world
     world.ninja.x, world.ninja.y = 84.0, 540.0
-    seen = []
+    seen, need = [], read_ticks("Gold")
     for tick in range(5 * SHOWN_TICKS):
         world.event_count, world.events[0].kind = int(tick in (0, 150)), TRAP_CLOSED if tick else GOLD_TAKEN
         seen += [(tick, told.text)] if told.on_tick(world) else []
-    need = read_ticks("Gold")
-    assert [text for _, text in seen] == ["Gold", "One", "Shut", "Two", ""], "at once, and then once it was read"
-    assert [tick for tick, _ in seen[:3]] == [0, need, 2 * need]
+    again = 150 + need
+    assert seen == [(0, "Gold"), (need, "One"), (150, "Shut"), (again, "One"), (again + SHOWN_TICKS, "Two")]
 
 
 def test_all_gold_and_a_number_of_gold_have_their_moments() -> None:
@@ -319,15 +314,21 @@ def test_text_at_a_place_is_said_there_once() -> None:
     assert (near.text, far.text) == ("here", "")
 
 
-@pytest.mark.parametrize("away, ticks", [(0, SHOWN_TICKS), (110, SHOWN_TICKS), (130, read_ticks("Here") + _FADE_TICKS)])
-def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, ticks: int) -> None:
-    told = MessageQueue(parse_messages("at 3,22: Here"))
+@pytest.mark.parametrize(
+    "source, stays, ticks",
+    [
+        ("", 0, read_ticks("Here") + _FADE_TICKS), ("", 500, 500 + _FADE_TICKS),
+        (" for 1.5 s", 0, 60), (" for 1.5 s", 500, 60),
+    ],
+)  # fmt: skip
+def test_text_at_a_place_fades_when_the_ninja_has_left_and_it_was_read(source: str, stays: int, ticks: int) -> None:
+    told = MessageQueue(parse_messages(f"at 3,22{source}: Here"))
     ninja = (world := Simulation(room_level(["#@..#"], ())).world).ninja
     ninja.x, ninja.y = 84.0, 540.0
     assert told.on_tick(world)
-    ninja.x += away
-    solid = []
+    solid: list[float] = []
     while told.text:
+        ninja.x = 84.0 + 61 * (len(solid) >= stays)
         solid.append(told.opacity)
         told.on_tick(world)
     assert len(solid) == pytest.approx(ticks, abs=2)
