@@ -9,14 +9,15 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
+from hashlib import sha256
 from importlib import import_module
 from inspect import signature
-from itertools import product
+from itertools import chain, product
 from pathlib import Path
 from pkgutil import walk_packages
 from random import Random
 from typing import Any
-from unittest.mock import patch
+from unittest.mock import DEFAULT, MagicMock, NonCallableMock, patch
 
 import pygame
 
@@ -25,12 +26,14 @@ from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.states import BULLET, EXPLOSIVE
 from ninja_game.simulation import Simulation
+from ninja_game.ui import scenery
 from ninja_game.ui.canvas import Canvas
-from ninja_game.ui.theme import PALETTES, Palette
+from ninja_game.ui.theme import MOODS, PALETTES, Palette
 from ninja_game.view.ninja import figure
 from ninja_game.view.ninja.figure import DANCES, Pose, air_pose, paint_figure, run_pose
 from ninja_game.view.ninja.ninja_animation import draw_ragdoll
 from ninja_game.view.ninja.ragdoll import Ragdoll
+from ninja_game.view.sprites import relief
 from ninja_game.view.sprites.drawing import Drawing, DrawTarget, SpriteBook
 from ninja_game.view.sprites.sketch import Sketch
 from tests.support.draw_log import px, role_of
@@ -129,5 +132,29 @@ def lines_of_the_corpse() -> Iterator[str]:
         yield from shapes(lambda _, palette, doll: draw_ragdoll(target, doll, 0.5, palette.ninja), CLASSIC, doll)
 
 
+def lines_of_the_grounds() -> Iterator[str]:
+    """The calls that paint scenery, grain and relief: how many of each sort, and a digest, as they are hundreds."""
+
+    def numbers(value: Any) -> str:
+        if isinstance(value, NonCallableMock):
+            return ""
+        return px(value) if isinstance(value, int | float) else " ".join(map(numbers, value))
+
+    for palette in (CLASSIC, *MOODS):
+        noted: dict[str, list[str]] = {}
+        sheet = MagicMock(**{"canvas.scale": 1.5, "surface.size": (1188, 900)})
+        with patch.multiple(scenery, pygame=DEFAULT) as painted, patch.multiple(relief, pygame=DEFAULT) as lit:
+            ground: Any = scenery.scenery_sheet.__wrapped__(palette)
+            ground.copy.return_value.width = 396
+            with patch.multiple(relief, scenery_sheet=MagicMock(return_value=ground), grain=scenery.grain.__wrapped__):
+                relief.add_relief(sheet, palette)
+            calls = chain(painted["pygame"].mock_calls, lit["pygame"].mock_calls, sheet.mock_calls)
+        for name, given, _ in calls:
+            noted.setdefault(name.rpartition(".")[2], []).append(numbers(given))
+        for name, lines in noted.items():
+            yield f"{palette.name}: {len(lines)} {name} {sha256(repr(lines).encode()).hexdigest()[:8]}"
+
+
 def test_every_drawing_is_as_recorded() -> None:
-    hold_against(GOLDEN, [*lines_of_drawings(), *lines_of_the_ninja(), *lines_of_the_corpse()])
+    lines = lines_of_drawings(), lines_of_the_ninja(), lines_of_the_corpse(), lines_of_the_grounds()
+    hold_against(GOLDEN, [*chain(*lines)])

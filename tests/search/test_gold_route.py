@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
+from zlib import crc32
 
 import numpy as np
 import pytest
@@ -24,11 +27,15 @@ from ninja_game.search.certificate import verified_run
 from ninja_game.search.gold_beam import GoldBeam
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.legs import UNBOUNDED, Checkpoint, Frontier, Leg
+from ninja_game.search.local_search import LocalSearch
 from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.route import Route
 from ninja_game.search.searching import Search
 from ninja_game.search.solve import solve
-from ninja_game.search.task import Progress, Task, obstacle
+from ninja_game.search.task import COOLING, FIND, OTHER_ROUTES, Progress, Task, obstacle
+from tests.support.recorded import hold_against
+
+SEARCHES = Path(__file__).parent.parent / "golden" / "searches.txt"
 
 COLUMN = 23
 FLOOR = 566
@@ -303,3 +310,38 @@ def test_a_search_forgets_those_before_it() -> None:
     assert [searched(new, seed, backed_up=seed == 3) for seed in (2, 3)] == [
         searched(used, seed, backed_up=seed == 3) for seed in (2, 3)
     ]
+
+
+def lines_of_searches(first: Replay) -> Iterator[str]:
+    """What searches with a seed did: each number depends on nearly every choice before it."""
+
+    def state(search: Search) -> str:
+        counters, best = search.counters, search.best() or b""
+        return f"{search.ticks} ticks, {counters.entries} entries, run of {len(best)}: {crc32(best):08x}"
+
+    start = open_start(LINES, box=False)
+    search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
+    for number, resolution in enumerate((*(one for one, _ in FIND), *OTHER_ROUTES)):
+        search.begin(resolution, seed=1, bound=0, backed_up=number > 0)
+        search.run(60_000)
+        yield f"search {number}: {state(search)}"
+    for name, level in (("lines", LINES), ("pit", PIT), ("one-way", ONE_WAY), ("two keys", TWO_KEYS)):
+        start = open_start(level, box=False)
+        for gold in {0, level.gold}:
+            search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
+            route = Route(search, gold=gold, seed=1)
+            for number in range(5):
+                route.step(lambda _: False)
+                yield f"{name}, gold {gold}, leg {number}: {state(search)}"
+    beam = beam_of(first)
+    for number in range(3):
+        run = beam.search_depths(lambda _: False) or b""
+        yield f"beam {number}: {state(beam.search)}, {beam.legs} legs, shorter run of {len(run)}: {crc32(run):08x}"
+    local = LocalSearch(open_start(LINES, box=False), first.inputs, gold=LINES.gold, seed=1)
+    for temperature in COOLING:
+        local.run(60_000, temperature=temperature)
+        yield f"local {temperature}: {local.played} ticks, run of {local.ticks}: {crc32(local.best()):08x}"
+
+
+def test_searches_go_as_they_went(first: Replay) -> None:
+    hold_against(SEARCHES, [*lines_of_searches(first)])

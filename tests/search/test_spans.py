@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from pathlib import Path
+from zlib import crc32
+
+import numpy as np
 import pytest
 
 from ninja_game.backend.memories import compiled_available
@@ -20,7 +25,8 @@ from ninja_game.search.formula.task import SpanTask
 from ninja_game.search.heuristics import UNREACHED, Heuristics
 from ninja_game.search.known_run import nearest_row
 from ninja_game.search.nodes import Resolution, open_start
-from ninja_game.search.spans import RunShortener, SpanSearches, SpanSettings
+from ninja_game.search.spans import RunShortener, SpanSearches, SpanSettings, draw_settings
+from tests.support.recorded import hold_against
 
 LEVEL = parse_level_string("0" * 713 + "|5^100,566!11^700,564,300,564!0^200,566")
 """Right over a piece of gold and the switch to the exit."""
@@ -90,9 +96,18 @@ def test_nothing_is_found_in_a_span_that_cannot_be_better() -> None:
     assert searches(bytes([2] * 300)).search(100, 140, FINENESS, seed=1, ticks=300_000, spend=never) is None
 
 
-def test_the_same_seed_finds_the_same_and_work_ends_when_it_is_over() -> None:
-    runs = {searches().search(10, 60, FINENESS, seed=5, ticks=400_000, spend=never) for _ in range(2)}
-    assert len(runs) == 1
+def lines_of_searches() -> Iterator[str]:
+    """What searches along a run did: it depends on nearly every choice."""
+    random = np.random.default_rng(1)
+    for number in range(8):
+        made = searches(gold=number % 2)
+        run = made.search(10 + number, 60, draw_settings(random), seed=5, ticks=100_000, spend=never) or b""
+        counters = made._search.counters
+        yield f"span {number}: {counters.ticks} ticks, {counters.entries} entries, run of {len(run)}: {crc32(run):08x}"
+
+
+def test_searches_go_as_they_went_and_work_ends_when_it_is_over() -> None:
+    hold_against(Path(__file__).parent.parent / "golden" / "span-searches.txt", [*lines_of_searches()])
     assert searches().shorter(STANDING, seed=1, spend=lambda _: True) is None
 
 

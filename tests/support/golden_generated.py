@@ -1,12 +1,17 @@
-"""Digests of generated levels: a changed one means that seeds make other levels than before."""
+"""Digests of generated levels and of ground plans: a changed one means that seeds make other levels than before."""
 
 from __future__ import annotations
 
+from functools import cache
 from hashlib import sha256
 from pathlib import Path
+from random import Random
 
 from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
+from ninja_game.generator.compose import compose
 from ninja_game.generator.generate import Effort, generate
+from ninja_game.generator.layouts import LAYOUTS
+from ninja_game.generator.scene import RockBoard, Scene
 
 TABLE = Path(__file__).parent.parent / "golden" / "generated.tsv"
 SEEDS = ((1, 2), (2, 5), (3, 9))
@@ -24,13 +29,30 @@ def generated_digest(seed: int, wanted: int) -> str:
     return sha256(write_ascii_level(made.named.level, **headers_of(made.named)).encode()).hexdigest()
 
 
-def read_generated() -> dict[tuple[int, int], str]:
-    """The table: digests by seed and difficulty."""
-    rows = (line.split("\t") for line in TABLE.read_text("utf-8").splitlines())
-    return {(int(seed), int(wanted)): digest for seed, wanted, digest in rows}
+@cache
+def composed(plan: str, difficulty: int) -> Scene:
+    """The first scene of a ground plan that is not thrown away."""
+    scenes = (compose(plan, Random(f"{plan}/{difficulty}/{attempt}"), difficulty) for attempt in range(200))
+    return next(filter(None, scenes))
+
+
+def plan_digest(plan: str) -> str:
+    """The digest of what eight seeds paint for a ground plan, and of a whole level before any solver sees it."""
+    digest = sha256(write_ascii_level(composed(plan, 10).level).encode())
+    for seed in range(8):
+        board = RockBoard()
+        LAYOUTS[plan](board, Random(seed))
+        digest.update(f"{board.ink.tobytes()!r} {board.heart} {board.gate} {board.spots}".encode())
+    return digest.hexdigest()
+
+
+def read_generated() -> dict[str, str]:
+    """The table: digests by seed and difficulty, or by ground plan."""
+    return dict(line.split("\t") for line in TABLE.read_text("utf-8").splitlines())
 
 
 def write_generated() -> None:
     """Write the table again."""
-    rows = (f"{seed}\t{wanted}\t{generated_digest(seed, wanted)}\n" for seed, wanted in SEEDS)
-    TABLE.write_text("".join(rows), "utf-8")
+    digests = {f"{seed} {wanted}": generated_digest(seed, wanted) for seed, wanted in SEEDS}
+    digests |= {plan: plan_digest(plan) for plan in LAYOUTS}
+    TABLE.write_text("".join(f"{name}\t{digest}\n" for name, digest in digests.items()), "utf-8")

@@ -36,6 +36,7 @@ from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import PALETTES, Theme
 from ninja_game.web.pages.documents import slug
 from tests.support.menu_driver import MenuDriver
+from tests.support.recorded import hold_against
 from tools import ROOT
 
 
@@ -77,6 +78,20 @@ def test_a_figure_writes_itself(name: str, tmp_path: Path) -> None:
         assert len(picture.convert("RGB").getcolors(1 << 24) or []) > 5
     first, *_, last = (pygame.image.tobytes(each, "RGB") for each in figure_pictures(name, ticks=60))
     assert first != last, "its demonstration stands still"
+
+
+def lines_of_demonstrations() -> Iterator[str]:
+    for name, kind in FIGURES.items():
+        figure = kind()
+        yield f"{name} begins at {figure.x:.1f}, {figure.y:.1f} px"
+        for tick in demonstrated(figure, 541):
+            if tick % 90 == 0:
+                yield f"{name} at {figure.x:.1f}, {figure.y:.1f} px after {tick} ticks"
+                yield from (f"  {text}: {value}" for text, value in figure.numbers())
+
+
+def test_demonstrations_show_what_they_showed() -> None:
+    hold_against(Path(__file__).parent.parent / "golden" / "lab.txt", [*lines_of_demonstrations()])
 
 
 def test_a_film_of_a_figure(tmp_path: Path) -> None:
