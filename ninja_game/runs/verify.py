@@ -15,13 +15,13 @@ from ninja_game.budget import RUN_BUDGET, affordable_ticks, tick_cost
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.text import RULES_VERSION, Replay
+from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import RunProblem, run_problem
 from ninja_game.runs.deaths import ending_text
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, run_in_slices, run_to_completion
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.rules import LIFETIME, RULES_VERSION
 from ninja_game.simulation import Simulation
 
 STRICT = {

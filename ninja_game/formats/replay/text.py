@@ -23,12 +23,11 @@ from ninja_game.formats.replay.notations import Marker, is_marker_name, write_in
 from ninja_game.formats.replay.provenance import UNKNOWN, Provenance, can_be_written
 from ninja_game.sim.inputs import MAX_TICKS, Demo, fit_inputs
 from ninja_game.sim.level import BODIES, Body, Level
-from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICKS_PER_SECOND
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, RULES_VERSION, TICKS_PER_SECOND
 
 REPLAY_MAGIC = "ninja-game replay"
 REPLAY_VERSION = 3
 LAST_LINE = "end"  # the end of a replay with claims, so that a truncated text is noticed
-RULES_VERSION = 1  # version of the rules of replays; every change of the world that changes any replay raises it
 
 OUTCOMES = ("exit", "dead", "running")
 INPUTS_AFTER = "inputs after the final tick"
