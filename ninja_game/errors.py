@@ -42,13 +42,13 @@ class FormatError(NinjaGameError):
     ``line`` and ``column`` count from 1; 0 means "not known" and is left out of the message.
     """
 
-    what: str
+    what: str  #: the mistake
     file: str = ""
     line: int = 0
     column: int = 0
-    found: str = ""
-    expected: str = ""
-    hint: str = ""
+    found: str = ""  #: what stands there
+    expected: str = ""  #: what could stand there
+    hint: str = ""  #: how to fix it
 
     def __str__(self) -> str:
         file = self.file if self.file.isprintable() else ascii(self.file)

@@ -46,7 +46,7 @@ class NinjaView:
     y: float
     prev_x: float
     prev_y: float
-    state: str
+    state: str  #: its name, of STATE_NAMES
     in_air: bool
     near_wall: bool
 
@@ -83,7 +83,7 @@ class EventView:
     name: str
     x: float
     y: float
-    dx: float
+    dx: float  #: of the vector, as dy
     dy: float
     object_id: int | None
     cause: str = ""
@@ -100,7 +100,7 @@ class SaveState:
     body: Body
     memory: MemoryName
     inputs: bytes = field(repr=False)
-    data: Any = field(repr=False, compare=False)
+    data: Any = field(repr=False, compare=False)  #: the world, in the form of its memory
     kills: tuple[tuple[int, int, float, float], ...] = field(default=(), repr=False)
 
     @property

@@ -101,3 +101,49 @@ def test_no_two_public_functions_have_one_name() -> None:
 def is_command(node: ast.FunctionDef) -> bool:
     """Whether it is a command of click, named as users type it."""
     return any("command(" in ast.unparse(decorator) for decorator in node.decorator_list)
+
+
+PLAIN = {
+    *("name", "author", "comment", "player", "file", "record", "line", "level", "body", "gold", "kind", "id", "slot"),
+    *(
+        "recording",
+        "replay",
+        "run",
+        "text",
+        "seed",
+        "tick",
+        "ticks",
+        "length",
+        "x",
+        "y",
+        "prev_x",
+        "prev_y",
+        "dx",
+        "dy",
+    ),
+    *("vx", "vy", "switch_x", "switch_y", "in_air", "near_wall", "char", "outcome", "levels", "results", "task"),
+    *("ours", "theirs", "lock", "progress", "counters", "checkpoints", "mask", "unreadable", "dead", "owner"),
+}
+"""Fields that need no words, in px and px/tick."""
+
+EXPLAINED = ("simulation.py", "errors.py", "sim/", "formats/", "runs/", "batch/", "search/", "learn/", "levels/")
+"""The modules behind the public functions and commands."""
+
+
+def test_fields_of_larger_records_are_explained() -> None:
+    silent = []
+    for file, tree in modules().items():
+        lines = (PACKAGE / file).read_text("utf-8").splitlines()
+        for node in (node for node in tree.body if isinstance(node, ast.ClassDef) and file.startswith(EXPLAINED)):
+            fields = [field for field in node.body if isinstance(field, ast.AnnAssign) and is_record(node)]
+            words = set(re.findall(r"\w+", ast.get_docstring(node) or ""))
+            for field in fields if len(fields) > 4 and not node.name.startswith("_") else ():
+                name = ast.unparse(field.target)
+                if not ({name, name.partition("_")[0]} & (words | PLAIN) or "#:" in lines[field.lineno - 1]):
+                    silent.append(f"{file}: {node.name}.{name}")
+    assert not silent, "say beside it, after #:, or in the docstring what it is, with its unit"
+
+
+def is_record(node: ast.ClassDef) -> bool:
+    written = [ast.unparse(part) for part in (*node.bases, *node.decorator_list)]
+    return any(part == "NamedTuple" or part.startswith("dataclass") for part in written)

@@ -23,8 +23,8 @@ class Draft:
     name: str = ""
     author: str = ""
     comment: str = ""
-    teaches: str = ""
-    says: str = ""
+    teaches: str = ""  #: what the level teaches
+    says: str = ""  #: its messages, as the header writes them
 
     @property
     def objects(self) -> tuple[ObjectSpec, ...]:

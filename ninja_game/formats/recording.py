@@ -41,7 +41,7 @@ class Recording:
     file: str = ""
     record: int = 0
     line: int = 1
-    form: TextFormat = "replay"
+    form: TextFormat = "replay"  #: the kind of text that it is from
     episode: str = ""
     lifetime: int = LIFETIME
 

@@ -58,10 +58,10 @@ class LevelResult:
     """
 
     level: str
-    episodes: int
+    episodes: int  #: how many were played
     passed: int
     dead: int
-    late: int
+    late: int  #: how many ended at the time limit
     ticks: float
     gold: float
     reward: float
@@ -76,12 +76,12 @@ class LevelResult:
 class Evaluation:
     """The result of an agent. ``levels_sha256``: of the levels; evaluations are only comparable if it is equal."""
 
-    agent: str
+    agent: str  #: its name
     levels_sha256: str
     seed: int
-    repeat: float
-    longest_wait: int
-    time_limit: int
+    repeat: float  #: chance that a step repeats the keys of the previous one
+    longest_wait: int  #: most steps without keys at the start of an episode
+    time_limit: int  #: ticks
     results: list[LevelResult]
 
     def count_passed(self, rate: float = 0.9) -> int:

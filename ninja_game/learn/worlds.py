@@ -122,8 +122,8 @@ class EnvState:
     """Saved worlds of an ``EnvWorlds``, for one with equal levels, body, memory and time limit."""
 
     levels: Indices
-    states: Any = field(repr=False)
-    starts: NDArray[np.float64] = field(repr=False)
+    states: Any = field(repr=False)  #: the save-states
+    starts: NDArray[np.float64] = field(repr=False)  #: ticks to the exit at the start of each episode
     facts: NDArray[np.int64] = field(repr=False)  #: its rows are those of ``EnvWorlds``, a column per world
     owner: tuple[Any, ...] = field(repr=False)
 

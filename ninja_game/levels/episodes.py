@@ -110,8 +110,8 @@ class EpisodeSet(NamedTuple):
 
     key: str
     name: str
-    columns: tuple[str, ...]
-    episodes: dict[int, Episode]
+    columns: tuple[str, ...]  #: their names, from the left
+    episodes: dict[int, Episode]  #: by number, 0 to 99
     singles: tuple[Entry, ...]
     pack: Pack | None = None
 

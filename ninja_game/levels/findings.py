@@ -44,7 +44,7 @@ class Finding(NamedTuple):
     ``names``: the names of the odd objects in texts, '' if ``text`` has them.
     """
 
-    code: str
+    code: str  #: its name in docs/findings.md
     text: str
     records: tuple[int, ...] = ()
     cells: tuple[Cell, ...] = ()
@@ -78,7 +78,7 @@ class PackFinding(NamedTuple):
     reports, or what kept the solver from the run that is ``sought``. ``reason``: why its maker accepts it, or "".
     """
 
-    code: str
+    code: str  #: its name in docs/findings.md
     file: str = ""
     line: int = 0
     values: Mapping[str, object] = {}

@@ -19,11 +19,13 @@ RUN_TITLES = {"exit": "To the exit", "gold": "With all gold"}
 
 @dataclass(frozen=True)
 class PublishedLevels:
+    """Levels of the game or of a pack, as pages and boards show them."""
+
     name: str
     author: str
     comment: str
     levels: EpisodeSet
-    pack: Pack | None = field(default=None, repr=False, compare=False)
+    pack: Pack | None = field(default=None, repr=False, compare=False)  #: the pack that was read; None: the game's own
 
     @cached_property
     def entries(self) -> dict[str, Entry]:

@@ -26,13 +26,13 @@ class SavedReplay(NamedTuple):
     ``kept``: 1 if the player saved it, else 0.
     """
 
-    id: int
+    id: int  #: its row in the file
     level: str
     name: str
     player: str
     body: str
     outcome: str
-    final_tick: int
+    final_tick: int  #: as of a Replay
     gold: int
     score: int
     made_at: str

@@ -45,10 +45,10 @@ class SettingSpec(NamedTuple):
     ``span``: of a number, the lowest, the highest and a slider's step. ``convert``: converts a value from a file.
     """
 
-    table: str
-    fits: Callable[[Any], bool]
-    expected: str
-    meaning: str
+    table: str  #: its table in the file
+    fits: Callable[[Any], bool]  #: whether it may have a value
+    expected: str  #: its values, in words
+    meaning: str  #: for docs/settings.md
     span: tuple[float, float, float] = (0, 0, 0)
     convert: Callable[[Any], Any] = lambda value: value
 

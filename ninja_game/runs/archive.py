@@ -222,12 +222,12 @@ def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
 class Totals:
     """Counts of results; failed ones are not kept."""
 
-    recordings: int = 0
+    recordings: int = 0  #: those that were simulated
     ticks: int = 0
     gold: int = 0
-    failed: int = 0
+    failed: int = 0  #: runs that do not do what their file claims
     unreadable: int = 0
-    outcomes: Counter[str] = field(default_factory=Counter)
+    outcomes: Counter[str] = field(default_factory=Counter)  #: how many ended so, by outcome
 
     def add(self, result: Result) -> None:
         if isinstance(result, Unreadable):

@@ -28,12 +28,13 @@ from ninja_game.files.locking import lock
 from ninja_game.files.reading import IncludedFile, file_type, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.text import RULES_VERSION, is_episode
+from ninja_game.formats.replay.text import is_episode
 from ninja_game.levels.findings import RUN_WORDINGS, RunProblem
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
 from ninja_game.runs.verify import NOT_RUN, OutOfRangeError, Verdict, verify_recording
 from ninja_game.runs.workers import ClusterError
 from ninja_game.sim.level import Level
+from ninja_game.sim.rules import RULES_VERSION
 from ninja_game.sim.states import OUTCOME_NAMES
 
 _RECORDS = 64  # records a chunk at most: enough that sending it is cheap beside running it

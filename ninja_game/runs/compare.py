@@ -222,7 +222,7 @@ class Lead(NamedTuple):
     x: float
     y: float
     tick: int
-    other: int
+    other: int  #: the other run's tick there
 
     @property
     def ahead(self) -> int:

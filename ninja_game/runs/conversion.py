@@ -16,11 +16,12 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.named_level import NamedLevel, format_of, parse_levels
 from ninja_game.formats.recording import Recording, holds_recordings, parse_replays, record_of
 from ninja_game.formats.replay.notations import write_celeste, write_libtas
-from ninja_game.formats.replay.text import RULES_VERSION, Replay, write_episode, write_replay
+from ninja_game.formats.replay.text import Replay, write_episode, write_replay
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import record_replay
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.level import Level
+from ninja_game.sim.rules import RULES_VERSION
 
 _COMMENT = re.compile(r"(?![^;]*:)[^|;]*;.*")
 """A line of an ASCII level, neither of its header nor of its picture, with a comment."""

@@ -218,11 +218,11 @@ class Difference:
     """The first difference of two traces: the tick, and in it the first object and field."""
 
     tick: int
-    subject: str
-    field: str
+    subject: str  #: the ninja, an object with its id, or the run
+    field: str  #: its name in the trace
     ours: object
     theirs: object
-    section: str = ""
+    section: str = ""  #: of the specification, for the report
 
     def __str__(self) -> str:
         about = f" (specification: {self.section})" if self.section else ""

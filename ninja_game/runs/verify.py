@@ -15,13 +15,13 @@ from ninja_game.budget import RUN_BUDGET, affordable_ticks, tick_cost
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.text import RULES_VERSION, Replay
+from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import RunProblem, run_problem
 from ninja_game.runs.deaths import ending_text
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, run_in_slices, run_to_completion
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.rules import LIFETIME, RULES_VERSION
 from ninja_game.simulation import Simulation
 
 STRICT = {
@@ -46,47 +46,34 @@ class OutOfRangeError(NinjaGameError):
 class Verdict:
     """The result of a recording, and what it was (docs/verification.md).
 
-    ``name``, ``author``, ``co_authors``, ``made`` ("": unknown), ``assisted`` (None: unknown), ``practice``: as the
-    recording says. ``level_digest``: of the level that was played; ``level_name``: of the level with that digest among
-    those that count, else ''. ``body``, ``rules``: of the run.
-
-    ``outcome``: "exit", "dead" or "running"; ``end_tick``: the tick of the first exit contact or death, -1 if neither;
-    ``score_ticks``: of a passed level, else None; ``ticks``: how many were run up to and including ``end_tick``, or all
-    of the recording's; ``xy_sha256``: of the ninja's positions.
-
-    ``episode``: of a run in one, that one's key; ``lifetime``: ticks at the start.
-
-    ``possible_by_keyboard``: the jump triggers exactly in the first tick of being held; ``in_time``: the lifetime never
-    ran out; ``complete``: the demo's text holds all frames that it claims.
-    ``problems``: every claim that does not hold.
-
-    A run whose level does not count is not simulated: its ``outcome`` is "not run", the first two of these are None.
+    A run whose level does not count is not simulated: its ``outcome`` is "not run", ``possible_by_keyboard`` and
+    ``in_time`` are None.
     """
 
     file: str
     record: int
-    name: str
-    author: str
-    level_digest: str
-    level_name: str
-    body: str
-    rules: int
-    outcome: str
-    end_tick: int
+    name: str  #: as the recording says
+    author: str  #: as the recording says
+    level_digest: str  #: of the level that was played
+    level_name: str  #: of the level with that digest among those that count, else ''
+    body: str  #: of the run: circle or box
+    rules: int  #: version of the rules that the recording names
+    outcome: str  #: "exit", "dead" or "running"
+    end_tick: int  #: the tick of the first exit contact or death; -1: neither
     gold: int
-    score_ticks: int | None
-    ticks: int
-    xy_sha256: str
-    possible_by_keyboard: bool | None
-    in_time: bool | None
-    practice: bool
-    complete: bool
-    problems: tuple[RunProblem, ...] = ()
-    made: str = ""
-    assisted: bool | None = None
-    co_authors: str = ""
-    episode: str = ""
-    lifetime: int = LIFETIME
+    score_ticks: int | None  #: of a passed level, else None
+    ticks: int  #: how many were run: up to and including ``end_tick``, or all of the recording's
+    xy_sha256: str  #: of the ninja's positions
+    possible_by_keyboard: bool | None  #: jumps are triggered exactly in the first tick of being held
+    in_time: bool | None  #: the lifetime never ran out
+    practice: bool  #: as the recording says
+    complete: bool  #: the demo's text holds all frames that it claims
+    problems: tuple[RunProblem, ...] = ()  #: every claim that does not hold
+    made: str = ""  #: how the recording says that it was made; "": unknown
+    assisted: bool | None = None  #: what follows from that; None: unknown
+    co_authors: str = ""  #: as the recording says
+    episode: str = ""  #: key of the episode of a run in one
+    lifetime: int = LIFETIME  #: ticks at the start
 
     @property
     def good(self) -> bool:

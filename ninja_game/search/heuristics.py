@@ -165,12 +165,12 @@ class Switchable(NamedTuple):
 
     slot: int
     door: bool
-    trap: bool
-    x: float
+    trap: bool  #: whether it is a trap door
+    x: float  #: px, as all places
     y: float
     switch_x: float
     switch_y: float
-    bars: tuple[int, ...]
+    bars: tuple[int, ...]  #: indices of the blocked points
 
 
 class Heuristics:

@@ -31,7 +31,7 @@ FieldOf = Callable[[int, float, float], DistanceField]
 class Checkpoint:
     """A save-state of a run."""
 
-    words: StateWords
+    words: StateWords  #: the save-state
     tick: int
     taken: int  #: collected gold, one bit per piece
     mask: int  #: open switches, one bit per switch
@@ -52,15 +52,15 @@ class Checkpoint:
 
 @dataclass
 class Frontier:
-    """Checkpoints with the same gold and switches, earliest first; the tour to come; number and ticks of the tries."""
+    """Checkpoints with the same gold and switches, earliest first, and the searches from them."""
 
-    taken: int
-    mask: int
+    taken: int  #: collected gold, one bit per piece
+    mask: int  #: open switches, one bit per switch
     checkpoints: list[Checkpoint] = field(default_factory=list)
-    tour: list[int] = field(default_factory=list)
-    tries: int = 0
-    spent: int = 0
-    failed: Counter[int] = field(default_factory=Counter)
+    tour: list[int] = field(default_factory=list)  #: numbers of the pieces to come
+    tries: int = 0  #: searches from here
+    spent: int = 0  #: their ticks
+    failed: Counter[int] = field(default_factory=Counter)  #: how often a piece was not reached
 
     def add(self, checkpoint: Checkpoint, width: int) -> None:
         """Keep a checkpoint if it is among the earliest; if possible, keep one of each variety."""
@@ -84,9 +84,9 @@ def piece_numbers(taken: int) -> Iterator[int]:
 
 
 class Leg(NamedTuple):
-    """From some checkpoints to the next piece of gold or switch, or to the exit."""
+    """A search from some checkpoints to the next piece of gold or switch, or to the exit."""
 
-    roots: Sequence[Checkpoint]
+    roots: Sequence[Checkpoint]  #: where it starts
     until: int  #: pieces at which it ends, as it does when the open switches differ from ``mask``; 0: only at the exit
     mask: int
     gold: int  #: pieces that a run must have at the exit

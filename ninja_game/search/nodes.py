@@ -110,57 +110,49 @@ class Counters(RandomState):
 
 
 class Resolution(NamedTuple):
-    """How finely a search looks: size of a place (px), size of a velocity (px/tick), length of a macro (ticks).
+    """How finely a search looks."""
 
-    ``jitter``: most ticks by which a macro is longer, at random. ``weight``: factor of the estimated ticks to go.
-    ``patience``: ticks after which the same place counts as new, at most ``visits`` times. ``enemy_cell``: size of a
-    place (px) of enemies nearer than ``enemy_reach`` (px, |dx| + |dy|), 0: enemies are ignored. For guided searches
-    only: ``slack``: ticks by which an estimate may exceed the best run, in a plan a share of it; ``off_table``: factor
-    of a tick where the guide knows nothing. The shifts move the cells of places and velocities; each search draws its
-    own.
-    """
-
-    cell: float = 12.0
-    speed: float = 1.0
-    macro: int = 5
-    jitter: int = 0
-    weight: float = 2.0
-    patience: int = 40
-    visits: int = 1
-    enemy_cell: float = 0.0
-    enemy_reach: float = 100.0
-    slack: float = 0.0
-    off_table: float = 1.0
-    shift_x: float = 0.0
-    shift_y: float = 0.0
-    shift_vx: float = 0.0
-    shift_vy: float = 0.0
+    cell: float = 12.0  #: size of a place, px
+    speed: float = 1.0  #: size of a velocity, px/tick
+    macro: int = 5  #: length of a macro, ticks
+    jitter: int = 0  #: most ticks by which a macro is longer, at random
+    weight: float = 2.0  #: factor of the estimated ticks to go
+    patience: int = 40  #: ticks after which the same place counts as new
+    visits: int = 1  #: how often a place counts, at most
+    enemy_cell: float = 0.0  #: size of a place of the enemies near the ninja, px; 0: enemies are ignored
+    enemy_reach: float = 100.0  #: how near they are: |dx| + |dy|, px
+    slack: float = 0.0  #: of a guided search: ticks by which an estimate may exceed the best run, in a plan a share
+    off_table: float = 1.0  #: of a guided search: factor of a tick where the guide knows nothing
+    shift_x: float = 0.0  #: offset of the cells of places, px; each search draws its own
+    shift_y: float = 0.0  #: px
+    shift_vx: float = 0.0  #: offset of the cells of velocities, px/tick
+    shift_vy: float = 0.0  #: px/tick
 
 
 class Start(NamedTuple):
     """A level at tick 0 and two more worlds: that of the expanded node, and the scratch world.
 
-    The words are views of the states of all three worlds; those of the level at tick 0 never change.
+    The words are views of the states of all three worlds.
     """
 
     levels: Any
-    worlds: Any
-    initial: StateWords
-    node: StateWords
+    worlds: Any  #: the two worlds: the expanded node, scratch
+    initial: StateWords  #: of the level at tick 0; they never change
+    node: StateWords  #: of the expanded node
     scratch: StateWords
 
 
 class SearchArrays(NamedTuple):
     """The arrays of one search: nodes and their links, the pool of save-states, the open list, the ends of a leg."""
 
-    nodes: Sequence[Node]
-    table: Sequence[TableEntry]
-    links: Sequence[Link]
-    chunk_next: Int32s
-    chunk_index: Int32s
-    chunk_value: StateWords
-    buckets: Int32s
-    ends: Int32s
+    nodes: Sequence[Node]  #: states in the order in which they were reached
+    table: Sequence[TableEntry]  #: states that were reached
+    links: Sequence[Link]  #: the played macros
+    chunk_next: Int32s  #: the next chunk of a save-state, or of the free ones
+    chunk_index: Int32s  #: places of the words that differ
+    chunk_value: StateWords  #: those words
+    buckets: Int32s  #: the open list: the first node of each priority
+    ends: Int32s  #: nodes at the end of a leg
     counters: Sequence[Counters]
 
 

@@ -39,10 +39,10 @@ class SpanSettings(NamedTuple):
     """Settings of the search of a span: its resolution, and those of the known run."""
 
     resolution: Resolution
-    max_delay: float
-    max_distance: float
-    place_price: float
-    speed_price: float
+    max_delay: float  #: as in KnownRun
+    max_distance: float  #: as in KnownRun
+    place_price: float  #: as in KnownRun
+    speed_price: float  #: as in KnownRun
 
 
 def draw_settings(random: np.random.Generator) -> SpanSettings:

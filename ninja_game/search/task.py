@@ -36,8 +36,8 @@ class Progress:
 
     best: int = -1
     ticks: int = 0
-    seconds: float = 0.0
-    doing: str = ""
+    seconds: float = 0.0  #: since the start
+    doing: str = ""  #: the present search, in words
     gold: int = 0
     untaken: tuple[int, ...] | None = None
     last: tuple[int, ...] = ()
@@ -57,7 +57,7 @@ class Task:
     gold: int = 0
     seconds: float = 60.0
     seed: int = 1
-    jobs: int = 1
+    jobs: int = 1  #: threads
     work: int = 0
     first: bytes = b""
     first_only: bool = False
@@ -102,15 +102,15 @@ class SharedProgress:
     """The data that jobs share: the best runs, the work done, and the end."""
 
     task: Task
-    report: Report | None
-    began: float = field(default_factory=time.monotonic)
+    report: Report | None  #: gets a copy of the progress after each part of the work
+    began: float = field(default_factory=time.monotonic)  #: time.monotonic() at the start
     lock: Lock = field(default_factory=Lock)
-    stop: Event = field(default_factory=Event)
+    stop: Event = field(default_factory=Event)  #: set when the work ends for all jobs
     cancelled: Event = field(default_factory=Event)  #: set by the caller
     runs: list[bytes] = field(default_factory=list)
     best: Replay | None = None
     progress: Progress = field(default_factory=Progress)
-    on_better: Callable[[Replay], None] | None = None
+    on_better: Callable[[Replay], None] | None = None  #: gets every new best run
 
     def submit(self, inputs: bytes) -> None:
         """Keep a run if it is among the best; a new best one is verified first."""
@@ -211,7 +211,7 @@ class WorkPlan:
 
     routes_until: float = 0.25  #: share of the work that only searches other routes
     spans: int = 20_000_000  #: ticks of span searches per turn
-    spans_with_gold: int = 6_000_000
+    spans_with_gold: int = 6_000_000  #: the same where gold is wanted
     first_local: int = 20_000_000  #: ticks of the first local search of ``improve``
     local: int = 8_000_000  #: ticks of each later local search
 

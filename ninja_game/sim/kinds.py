@@ -21,28 +21,21 @@ NO_KIND, SWITCH, INERT = -1, -2, -3
 class Kind(NamedTuple):
     """What the rest of the game needs to know of a kind of objects.
 
-    ``number``: type number in level strings, below 0 for kinds that only the game makes. ``name``: shown to people.
-    ``value_count``: how many values a record needs; with any other number the object is inert (objects.md §2.1).
-    ``fields``: its class in the schema. ``disc`` or ``box``: radius or half side, px, of the area that the ninja
-    touches; a kind without both cannot be touched. A door's ``disc`` is that of an automatic door; other doors have a
-    switch of ``rules.DOOR_SWITCH_RADIUS``. ``killer``: its name as a cause of death ("": it never kills). ``by_touch``:
-    touching it kills. ``moves``: it is drawn in every frame, not once with the walls. ``traced``: traces show it.
-    ``used``: the field that is 1 once it was taken, set off, opened or switched, if any. ``cost``: its greatest work in
-    a tick; above 1 for kinds that cast rays or never sleep.
+    Doors with a switch are touched there, within ``rules.DOOR_SWITCH_RADIUS``.
     """
 
-    number: int
-    name: str
-    value_count: int
-    fields: type
-    disc: float | None = None
-    box: float | None = None
-    killer: str = ""
-    by_touch: bool = False
-    moves: bool = False
-    traced: bool = True
-    used: str = ""
-    cost: int = 1
+    number: int  #: type number in level strings, below 0 for kinds that only the game makes
+    name: str  #: shown to people
+    value_count: int  #: values of a record; with another number the object is inert (objects.md §2.1)
+    fields: type  #: its class in the schema
+    disc: float | None = None  #: radius of the disc that the ninja touches, px; a door's: of an automatic one
+    box: float | None = None  #: half side of the square that the ninja touches, px; without both it cannot be touched
+    killer: str = ""  #: its name as a cause of death; "": it never kills
+    by_touch: bool = False  #: whether touching it kills
+    moves: bool = False  #: whether it is drawn in every frame, not once with the walls
+    traced: bool = True  #: whether traces show it
+    used: str = ""  #: the field that is 1 once it was taken, set off, opened or switched, if any
+    cost: int = 1  #: its greatest work in a tick; above 1 for kinds that cast rays or never sleep
 
 
 KINDS = (

@@ -9,6 +9,8 @@ Rules copy these names when they are imported: assigning ``rules.GRAVITY`` later
 edit it here.
 """
 
+RULES_VERSION = 1  # replays store it; every change of the world that changes any replay raises it
+
 TICKS_PER_SECOND = 40
 TICK_MS = 25  # real milliseconds per tick at normal speed: 1000 / TICKS_PER_SECOND, without a remainder
 LIFETIME = 3600  # ticks at the start of a level, G 1.1

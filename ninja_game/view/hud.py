@@ -77,9 +77,9 @@ class Box(NamedTuple):
     lines: list[str]
     x: float
     y: float
-    w: float
+    w: float  #: width
     high: float
-    margin: float
+    margin: float  #: between edge and text
     size: float
 
     @property

@@ -45,9 +45,9 @@ class HitShape:
     y: float
     half: float
     round: bool
-    lethal: bool = False
-    ninja: bool = False
-    vx: float = 0.0
+    lethal: bool = False  #: whether touching it kills
+    ninja: bool = False  #: whether it is the ninja
+    vx: float = 0.0  #: px/tick
     vy: float = 0.0
 
 

@@ -18,7 +18,7 @@ from ninja_game import parse_level, run_level
 from ninja_game.backend.memories import compiled_available
 from ninja_game.cli.main import cli
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.replay.text import RULES_VERSION
+from ninja_game.sim.rules import RULES_VERSION
 from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
 from tests.support.slow import the_rest_is_slow
 

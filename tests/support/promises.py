@@ -19,6 +19,7 @@ from ninja_game.formats import links
 from ninja_game.formats.ascii import writer
 from ninja_game.formats.replay import text
 from ninja_game.player import schema, settings
+from ninja_game.sim import rules
 from tests.support.samples import WALK
 
 SHORT = ninja_game.parse_level(WALK)
@@ -31,7 +32,7 @@ MADE: dict[str, Callable[[], object]] = {
 """Classes whose instances have more than the class shows."""
 
 VERSIONS = {
-    "rules": text.RULES_VERSION,
+    "rules": rules.RULES_VERSION,
     "replay text": text.REPLAY_VERSION,
     "level text": writer.ASCII_VERSION,
     "link": links.LINK_VERSION,

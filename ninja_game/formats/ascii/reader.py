@@ -23,8 +23,8 @@ class AsciiLevel:
     author: str
     comment: str
     level: Level
-    teaches: str = ""
-    says: str = ""
+    teaches: str = ""  #: what the level teaches
+    says: str = ""  #: its messages, as the header writes them
 
 
 def is_ascii_level(text: str) -> bool:

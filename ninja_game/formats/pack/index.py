@@ -61,10 +61,10 @@ class PackIndex:
     name: str
     author: str
     comment: str
-    columns: tuple[str, ...]
+    columns: tuple[str, ...]  #: their names, from the left
     episodes: tuple[EpisodeIndex, ...]
-    version: str = ""
-    accepted: tuple[Accepted, ...] = ()
+    version: str = ""  #: as its maker writes it
+    accepted: tuple[Accepted, ...] = ()  #: findings that its maker accepts
 
     @property
     def is_signed(self) -> bool:

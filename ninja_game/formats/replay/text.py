@@ -23,12 +23,11 @@ from ninja_game.formats.replay.notations import Marker, is_marker_name, write_in
 from ninja_game.formats.replay.provenance import UNKNOWN, Provenance, can_be_written
 from ninja_game.sim.inputs import MAX_TICKS, Demo, fit_inputs
 from ninja_game.sim.level import BODIES, Body, Level
-from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICKS_PER_SECOND
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, RULES_VERSION, TICKS_PER_SECOND
 
 REPLAY_MAGIC = "ninja-game replay"
 REPLAY_VERSION = 3
 LAST_LINE = "end"  # the end of a replay with claims, so that a truncated text is noticed
-RULES_VERSION = 1  # version of the rules of replays; every change of the world that changes any replay raises it
 
 OUTCOMES = ("exit", "dead", "running")
 INPUTS_AFTER = "inputs after the final tick"
@@ -39,36 +38,28 @@ WAYPOINT_TICKS = TICKS_PER_SECOND  # ticks between the waypoints of a recorder: 
 
 @dataclass(frozen=True)
 class Replay:
-    """A run of one level: inputs and their result.
+    """A run of one level: inputs and their result. Its level is known by digest or path, or is in the replay."""
 
-    ``inputs``: one byte per tick, the sum of its ``Input`` flags; after their end no key is down. ``final_tick``: the
-    last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (64 hex digits of what the world shows,
-    or '') are those after it. One or more of these identify the level: its digest; a path from the replay's folder,
-    with the number of the record in that file; the level itself, with its name and author. ``waypoints``: places of the
-    ninja, by tick; they show in which tick a run takes another way. ``made``: how it was made, ``co_authors``: who took
-    part besides ``author``, both as written by the tools that made it.
-    """
-
-    inputs: bytes
-    final_tick: int
-    outcome: str
-    gold: int = 0
-    digest: str = ""
+    inputs: bytes  #: one byte per tick, the sum of its ``Input`` flags; after their end no key is down
+    final_tick: int  #: the last tick that is run, from 0
+    outcome: str  #: of OUTCOMES, after the final tick; "": not claimed
+    gold: int = 0  #: pieces after the final tick
+    digest: str = ""  #: of what the world shows after the final tick, 64 hex digits, or ''
     name: str = ""
     author: str = ""
     body: Body = "circle"
-    rules: int = RULES_VERSION
+    rules: int = RULES_VERSION  #: version of the rules
     level_digest: str = ""
-    level_path: str = ""
-    level_record: int = 0
+    level_path: str = ""  #: path of the level from the replay's folder
+    level_record: int = 0  #: number of the record in that file, from 0
     level: Level | None = None
     level_name: str = ""
     level_author: str = ""
-    waypoints: tuple[Waypoint, ...] = ()
-    made: Provenance = UNKNOWN
-    markers: tuple[Marker, ...] = ()
-    demo_length: float | None = None
-    co_authors: tuple[str, ...] = ()
+    waypoints: tuple[Waypoint, ...] = ()  #: places of the ninja, by tick; they show where a run takes another way
+    made: Provenance = UNKNOWN  #: how it was made, as written by the tools that made it
+    markers: tuple[Marker, ...] = ()  #: names of ticks, in order
+    demo_length: float | None = None  #: the length that N's demo claims, in frames; None: not a demo
+    co_authors: tuple[str, ...] = ()  #: who took part besides ``author``
 
     @classmethod
     def of_inputs(cls, inputs: bytes, level: Level, **fields: Any) -> Self:

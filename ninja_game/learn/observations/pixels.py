@@ -59,7 +59,7 @@ class PixelView(NamedTuple):
     across: int
     down: int
     follows: int  #: whether the picture moves with the ninja
-    ninja_shade: float
+    ninja_shade: float  #: the ninja's grey
 
 
 class DrawnObject(NamedTuple):
@@ -67,8 +67,8 @@ class DrawnObject(NamedTuple):
 
     slot: int
     size: float
-    box: int
-    shade: float
+    box: int  #: 1: a square, 0: a disc
+    shade: float  #: its grey, 0 to 255; normalised: 0 to 1
     moves: int
     x: float
     y: float

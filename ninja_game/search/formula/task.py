@@ -26,27 +26,23 @@ MAX_SPAN = 4000
 class SpanTask:
     """A search for keys in the ticks ``first`` … ``last`` - 1 of a run that reach a goal with the best measure.
 
-    ``inputs``: the run, one byte per tick. ``goal``: a formula that must be true after one of these ticks; "": every
-    run reaches the goal, after the last tick. ``measure``: a formula whose value at that tick should be as great, or
-    with ``least`` as small, as possible; "": the goal should be reached as early as possible. ``rest``: after the goal,
-    play the inputs that follow in the run after its own first tick at the goal (if it has none: from tick ``behind``
-    on; 0: the end of the span); the exit must still be reached, as early as possible. ``others``: other runs of the
-    level, along which ways to the exit are searched too.
+    ``rest``: after the goal, play the inputs that follow in the run after its own first tick at the goal; the exit must
+    still be reached, as early as possible.
 
     Raises FormulaError for a broken formula, ArgumentError for a span outside the run.
     """
 
     level: Level
-    inputs: bytes
+    inputs: bytes  #: the run, one byte per tick
     first: int
     last: int
-    goal: str = ""
-    measure: str = ""
-    least: bool = False
+    goal: str = ""  #: a formula that must be true after one of these ticks; "": every run reaches it, after the last
+    measure: str = ""  #: a formula to be as great as possible at that tick; "": the goal as early as possible
+    least: bool = False  #: the measure should be as small as possible
     rest: bool = False
     body: Body = "circle"
-    behind: int = 0
-    others: tuple[bytes, ...] = ()
+    behind: int = 0  #: the tick of the run from which the rest is played, if it has no goal; 0: the end of the span
+    others: tuple[bytes, ...] = ()  #: other runs of the level, along which ways to the exit are searched too
 
     def __post_init__(self) -> None:
         if not 0 <= self.first < self.last <= self.first + MAX_SPAN:
@@ -99,7 +95,7 @@ class SpanResult:
 
     score: float
     ticks: int
-    keys: Keys = field(compare=False, repr=False)
+    keys: Keys = field(compare=False, repr=False)  #: of the span up to the goal
     inputs: bytes = field(compare=False, repr=False, default=b"")
     gold: int = field(compare=False, default=0)
     end: tuple[float, ...] = field(compare=False, default=(0.0,) * 4)
