@@ -21,8 +21,8 @@ KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 """Actions whose key a message may name: {jump} becomes the player's key or button."""
 
 TARGETS = ("switch", "exit")  # objects that a message may name in the same way: arrows lead to them while it is shown
-COUNTS = ("gold left", "gold taken", "deaths")  # numbers that it may name: they change while it is shown
-WORDS = KEYS + TARGETS + COUNTS
+NUMBER_WORDS = ("gold left", "gold taken", "deaths")  # numbers that it may name: they change while it is shown
+WORDS = KEYS + TARGETS + NUMBER_WORDS
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _COUNTED = re.compile(r"(?:death|gold) ([1-9][0-9]?)|after ([1-9][0-9]?) s")

@@ -16,28 +16,15 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import DIGITS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
-from ninja_game.levels.findings import Finding, PackFinding, pack_finding
-from ninja_game.levels.lint import level_findings
+from ninja_game.levels.findings import PackFinding, pack_finding
 from ninja_game.runs.level_design import design, design_findings
-from ninja_game.runs.messages import late_messages
+from ninja_game.runs.problems import level_problems
 from ninja_game.runs.verify import Verdict, verify_recording, with_demands
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
 
 _verdict = lru_cache(maxsize=1024)(verify_recording)
 """Each of the checks here needs a pack's certificates, and again after each change of the pack."""
-
-
-@lru_cache(maxsize=1024)
-def level_problems(level: Level, says: str = "", inputs: bytes = b"") -> list[Finding]:
-    """What is odd about a level: the same in the editor and in its pack.
-
-    ``inputs``: of a known run, in which messages may come late. Raises LevelError for messages that cannot be read.
-    """
-    odd = [*level_findings(level, says), *late_messages(level, says, inputs)]
-    # One finding is enough for an enclosed exit: its switch gets one once the exit can be reached.
-    shut = {number for finding in odd if finding.code == "unreachable" for number in finding.records}
-    return [finding for finding in odd if finding.code != "unreachable-switch" or not shut.issuperset(finding.records)]
 
 
 @dataclass(frozen=True)

@@ -146,7 +146,8 @@ class SpanSearches:
 class RunShortener:
     """Shortens runs of one level that must collect ``gold`` pieces.
 
-    ``submit`` gets every shorter run; ``spend`` gets the ticks and the cost of each part, and may end the work.
+    ``start`` and ``heuristics`` are the level's, ``seed`` that of all its random numbers. ``submit`` gets every shorter
+    run; ``spend`` gets the ticks and the cost of each part, and may end the work.
     """
 
     start: Start

@@ -20,7 +20,8 @@ from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, PackFiles
 from ninja_game.levels.findings import level_finding
-from ninja_game.runs.packs import certificate, level_problems, lint
+from ninja_game.runs.packs import certificate, lint
+from ninja_game.runs.problems import level_problems
 from ninja_game.search.certificate import read_certificate
 from ninja_game.search.task import Progress
 from tests.support.own_pack import PACK

@@ -17,11 +17,11 @@ from ninja_game.formats.messages import (
     ALL_GOLD,
     ANY,
     BAR,
-    COUNTS,
     KEYS,
     MAX_LETTERS,
     MAX_MESSAGE_LINES,
     MAX_MESSAGES,
+    NUMBER_WORDS,
     SIZE,
     TARGETS,
     WORDS,
@@ -94,7 +94,7 @@ def _listed(words: Sequence[str]) -> str:
 
 _HELP = (
     "What just happened replaces what is shown; a place or a time waits until that was read.",
-    f"{_listed(KEYS)} become the key or button of whoever plays; {_listed(COUNTS)} the number.",
+    f"{_listed(KEYS)} become the key or button of whoever plays; {_listed(NUMBER_WORDS)} the number.",
     f"{_listed(TARGETS)} have an arrow while their message is shown.",
 )
 
@@ -110,7 +110,7 @@ GRIP = 9.0
 _BAD_TIME = "Seconds: from 0.1 to 99.9, or empty"
 _TIME_HINT = "Seconds that it stays: from 0.1 to 99.9; empty: as its letters and those of its moment need"
 
-Frame = tuple[int, int, int, int]
+CellFrame = tuple[int, int, int, int]
 """Left column, upper row, number of columns and of rows."""
 
 
@@ -179,12 +179,12 @@ def _edges_at(message: LevelMessage, x: float, y: float) -> tuple[int, int]:
     return on_upright * (1 if across > 0 else -1), on_level * (1 if down > 0 else -1)
 
 
-def _between(one: Cell, other: Cell) -> Frame:
+def _between(one: Cell, other: Cell) -> CellFrame:
     (left, right), (top, bottom) = sorted((one[0], other[0])), sorted((one[1], other[1]))
     return left, top, right - left + 1, bottom - top + 1
 
 
-def _with_edge_at(frame: Frame, edges: tuple[int, int], cell: Cell) -> Frame:
+def _with_edge_at(frame: CellFrame, edges: tuple[int, int], cell: Cell) -> CellFrame:
     """A frame with some of its edges at a cell; those opposite stay."""
     left, top, columns, rows = frame
     first, last = [left, top], [left + columns - 1, top + rows - 1]
@@ -196,7 +196,7 @@ def _with_edge_at(frame: Frame, edges: tuple[int, int], cell: Cell) -> Frame:
     return _between((first[0], first[1]), (last[0], last[1]))
 
 
-def _moved(frame: Frame, begin: Cell, cell: Cell) -> Frame:
+def _moved(frame: CellFrame, begin: Cell, cell: Cell) -> CellFrame:
     return frame[0] + cell[0] - begin[0], frame[1] + cell[1] - begin[1], *frame[2:]
 
 
@@ -269,7 +269,7 @@ class MessagesScreen(MenuScreen):
         self._row_widgets: list[list[Widget]] = []
         self._refused = False
         self._drag_begin: Cell = ANY
-        self._dragged_frame: Callable[[Cell], Frame] | None = None  #: gives the frame for the cell under the pointer
+        self._dragged_frame: Callable[[Cell], CellFrame] | None = None  #: the frame for the pointer's cell
 
     @property
     def source(self) -> str:
@@ -402,7 +402,7 @@ class MessagesScreen(MenuScreen):
         elif selected and not named and away >= near:
             self.app.notify(f"To put it there, choose {_WHEN['at'][0]} for it")
 
-    def _put_frame(self, frame: Frame) -> None:
+    def _put_frame(self, frame: CellFrame) -> None:
         """Give the selected message a frame, if its middle is inside the level."""
         left, top, columns, rows = frame
         cell, size = (left + columns // 2, top + rows // 2), (min(columns, COLUMNS), min(rows, ROWS))

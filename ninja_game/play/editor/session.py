@@ -55,7 +55,7 @@ from ninja_game.play.window import save_picture
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import keep_replay
-from ninja_game.runs.packs import level_problems
+from ninja_game.runs.problems import level_problems
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.grid import is_inside
 from ninja_game.sim.kinds import DRONE, EXIT, NINJA
